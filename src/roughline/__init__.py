@@ -1,0 +1,64 @@
+"""roughline: the contact laboratory for rough surfaces.
+
+The names below load on first use, so that ``import roughline`` costs next to nothing.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from roughline._version import __version__
+
+if TYPE_CHECKING:
+    from roughline.curve import Curve as Curve
+    from roughline.curve import Fields as Fields
+    from roughline.curve import Status as Status
+    from roughline.errors import ConvergenceError as ConvergenceError
+    from roughline.errors import InputError as InputError
+    from roughline.errors import RoughlineError as RoughlineError
+    from roughline.errors import StoreError as StoreError
+    from roughline.errors import UnitError as UnitError
+    from roughline.measured import read as read
+    from roughline.measured import write as write
+    from roughline.power_law import PowerLaw as PowerLaw
+    from roughline.power_law import fit_power_law as fit_power_law
+    from roughline.contact import press as press
+    from roughline.scaling import EXACT_PUNCH as EXACT_PUNCH
+    from roughline.scaling import PAPER_PUNCH as PAPER_PUNCH
+    from roughline.spectra import SelfAffine as SelfAffine
+    from roughline.topography import Line as Line
+    from roughline.topography import Surface as Surface
+
+_HOMES = {
+    "Curve": "curve",
+    "Fields": "curve",
+    "Status": "curve",
+    "ConvergenceError": "errors",
+    "InputError": "errors",
+    "RoughlineError": "errors",
+    "StoreError": "errors",
+    "UnitError": "errors",
+    "read": "measured",
+    "write": "measured",
+    "PowerLaw": "power_law",
+    "fit_power_law": "power_law",
+    "press": "contact",
+    "EXACT_PUNCH": "scaling",
+    "PAPER_PUNCH": "scaling",
+    "SelfAffine": "spectra",
+    "Line": "topography",
+    "Surface": "topography",
+}
+
+__all__ = ["__version__", *_HOMES]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'roughline' has no attribute {name!r}")
+    value = getattr(import_module(f"roughline.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -1,0 +1,212 @@
+"""What a pressed body answers: depth, force, stiffness and real contact area over the loads."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline import scaling
+from roughline.errors import InputError, StoreError
+
+if TYPE_CHECKING:
+    import xarray
+
+Real = NDArray[np.float64]
+
+RESOLVED_FROM = 10
+"""Springs or cells in contact from which on a stiffness is physics rather than grid."""
+
+
+class Status(enum.IntEnum):
+    """How the solution under one load ended."""
+
+    CONVERGED = 0
+    STALLED = 1
+    MAX_ITERATIONS = 2
+    NO_TANGENT = 3
+
+    @property
+    def reason(self) -> str:
+        """What it means, for messages."""
+        return {
+            Status.CONVERGED: "converged: all residuals are within the tolerance",
+            Status.STALLED: "stalled: the residuals stopped falling above the tolerance",
+            Status.MAX_ITERATIONS: "max_iterations reached above the tolerance",
+            Status.NO_TANGENT: "the stiffness equations did not converge",
+        }[self]
+
+
+@dataclass(frozen=True, eq=False)
+class Fields:
+    """Fields of one load on the grid.
+
+    Attributes
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Contact pressure, compression positive. [pressure]
+    displacement : ndarray, shape (nx, ny)
+        Normal displacement of the half-space's surface. [length]
+    gap : ndarray, shape (nx, ny)
+        Distance of the two bodies. [length]
+    contact : ndarray of bool, shape (nx, ny)
+        Where they touch.
+    """
+
+    pressure: Real
+    displacement: Real
+    gap: Real
+    contact: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Contact quantities over the loads of one body.
+
+    Attributes
+    ----------
+    depth : ndarray, shape (loads,)
+        Approach since first touch of the highest point. [length]
+    force : ndarray, shape (loads,)
+        Total force, compression positive. [force]
+    stiffness : ndarray, shape (loads,)
+        Exact k = dF/dd. [force / length]
+    area_fraction : ndarray, shape (loads,), or None
+        Real over nominal contact area; None for a line, whose area predicts nothing.
+    status : ndarray of int8, shape (loads,)
+        A :class:`Status` for each load; where it is not converged the other values are NaN.
+    resolved : ndarray of bool, shape (loads,)
+        Whether at least ten springs or cells are in contact; below, a stiffness carries the grid.
+    residual : ndarray, shape (loads,)
+        Largest residual of the returned solution, each relative to its scale. [1]
+    E_star : float
+        Contact modulus. [pressure]
+    rms_height : float
+        Root-mean-square height of the body. [length]
+    length : float
+        sqrt(A_0) of a surface, length of a line. [length]
+    unit : str or None
+        Unit of lengths ("m": forces are in newtons, stiffness in N/m).
+    settings : mapping
+        How it was computed: version, tolerance, boundary, and the settings of the body.
+    fields : sequence of Fields
+        One for each load if asked for, else empty; None for a load that did not converge.
+    """
+
+    depth: Real
+    force: Real
+    stiffness: Real
+    area_fraction: Real | None
+    status: NDArray[np.int8]
+    resolved: NDArray[np.bool_]
+    residual: Real
+    E_star: float
+    rms_height: float
+    length: float
+    unit: str | None
+    settings: Mapping[str, str | int | float]
+    fields: Sequence[Fields | None] = field(default=(), repr=False)
+
+    @property
+    def force_bar(self) -> Real:
+        """Dimensionless force F / (E* h L), the paper's eq. 2. [1]
+
+        Raises
+        ------
+        InputError
+            If the heights are constant, so that h = 0.
+        """
+        if self.rms_height == 0:
+            raise InputError(
+                "the heights are constant, so their rms h is 0 and F / (E* h L) has no meaning: "
+                "use force instead of force_bar"
+            )
+        return scaling.force_bar(self.force, self.E_star, self.rms_height, self.length)
+
+    @property
+    def stiffness_bar(self) -> Real:
+        """Dimensionless stiffness, the paper's eq. 1: k / (1.1419 E* L), of a line k / (E* L). [1]"""
+        punch = 1.0 if self.area_fraction is None else scaling.PAPER_PUNCH
+        return scaling.stiffness_bar(self.stiffness, self.E_star, self.length, punch)
+
+    @property
+    def converged(self) -> NDArray[np.bool_]:
+        """Whether each load was solved to the tolerance."""
+        return self.status == Status.CONVERGED
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the curve as an xarray Dataset over the dimension "load", units in attrs.
+
+        With fields, these are included over ("load", "x", "y").
+        """
+        import xarray  # here because it loads slowly
+
+        lengths = self.unit or "length"
+        forces = "N" if self.unit == "m" else "force"
+        pressures = "Pa" if self.unit == "m" else "pressure"
+        variables: dict[str, tuple[object, ...]] = {
+            "depth": ("load", self.depth, {"units": lengths, "long_name": "depth since touch"}),
+            "force": ("load", self.force, {"units": forces, "long_name": "normal force"}),
+            "stiffness": (
+                "load",
+                self.stiffness,
+                {"units": f"{forces}/{lengths}", "long_name": "normal contact stiffness dF/dd"},
+            ),
+            "status": (
+                "load",
+                self.status,
+                {
+                    "flag_values": [int(status) for status in Status],
+                    "flag_meanings": " ".join(status.name.lower() for status in Status),
+                },
+            ),
+            "resolved": (
+                "load",
+                self.resolved.astype(np.int8),
+                {"long_name": f"at least {RESOLVED_FROM} springs or cells in contact"},
+            ),
+            "residual": ("load", self.residual, {"units": "1", "long_name": "largest residual"}),
+        }
+        if self.area_fraction is not None:
+            variables["area_fraction"] = (
+                "load",
+                self.area_fraction,
+                {"units": "1", "long_name": "real contact area over nominal area"},
+            )
+        units = {"pressure": pressures, "displacement": lengths, "gap": lengths, "contact": "1"}
+        for name, unit in units.items() if self.fields else ():
+            missing = np.full(next(f for f in self.fields if f).gap.shape, np.nan)
+            stack = [getattr(f, name) if f else missing for f in self.fields]
+            variables[name] = (("load", "x", "y"), np.array(stack, float), {"units": unit})
+        attrs = {
+            "E_star": self.E_star,
+            "E_star_units": pressures,
+            "rms_height": self.rms_height,
+            "length": self.length,
+            "length_units": lengths,
+            **self.settings,
+        }
+        return xarray.Dataset(variables, attrs=attrs)
+
+    def write(self, path: str | Path) -> None:
+        """Write the curve, settings included, to a NetCDF file.
+
+        Parameters
+        ----------
+        path : str or Path
+            Where to; an existing file is replaced.
+
+        Raises
+        ------
+        StoreError
+            If the file cannot be written.
+        """
+        try:
+            self.to_dataset().to_netcdf(path, engine="h5netcdf")
+        except OSError as error:
+            raise StoreError(f"cannot write {path} ({error}): choose another place") from error

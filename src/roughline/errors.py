@@ -1,0 +1,38 @@
+"""The exceptions that a caller may want to catch."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from roughline.curve import Curve
+
+
+class RoughlineError(Exception):
+    """Base class of every error that roughline raises on purpose."""
+
+
+class InputError(RoughlineError, ValueError):
+    """The input is not usable; the message says what came, what is allowed and what to do."""
+
+
+class UnitError(InputError):
+    """A quantity or a file states no unit, or one of the wrong dimension."""
+
+
+class StoreError(RoughlineError):
+    """A folder or a store of results cannot be used as asked."""
+
+
+class ConvergenceError(RoughlineError):
+    """A load was not solved to the tolerance.
+
+    Attributes
+    ----------
+    curve : Curve or None
+        What was solved; the loads that were not are NaN and say why in ``curve.status``.
+    """
+
+    def __init__(self, message: str, curve: Curve | None = None) -> None:
+        super().__init__(message)
+        self.curve = curve

@@ -1,0 +1,114 @@
+"""A path of rising loads: each contact starts from the one before, led by its tangent."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.halfspace.active_set import Contact, Load, Outcome, solve
+from roughline.halfspace.operator import Operator
+from roughline.halfspace.preconditioner import Stencil
+from roughline.halfspace.tangent import Tangent, tangent
+
+Field = NDArray[np.float64]
+Start = tuple[NDArray[np.intp], NDArray[np.float64]]
+
+
+def follow(
+    operator: Operator,
+    separation: Field,
+    rms_height: float,
+    loads: Iterable[Load],
+    E_star: float,
+    rtol: float,
+    max_iterations: int,
+) -> Iterator[tuple[Contact, Tangent]]:
+    """Solve the contact under each load in turn.
+
+    Parameters
+    ----------
+    operator : Operator
+        The half-space.
+    separation : ndarray, shape (nx, ny)
+        Distance of the bodies at first touch, zero at the highest point. [length]
+    rms_height : float
+        Gaps are judged against this, or against the depth where that is smaller. [length]
+    loads : iterable of Load
+        Rising loads.
+    E_star : float
+        Contact modulus, for the first guess. [pressure]
+    rtol : float
+        Bound on every residual.
+    max_iterations : int
+        Bound on the convolutions of one load.
+
+    Yields
+    ------
+    tuple of Contact and Tangent
+        For each load, also for one that was not solved.
+    """
+    stencil = Stencil.of(operator)
+    before: tuple[Contact, Tangent] | None = None
+    for load in loads:
+        if before is None:
+            depth, start = _first_guess(operator, separation, load, E_star)
+            tangent_start = None
+        else:
+            depth, start, tangent_start = _predicted(operator, separation, load, *before)
+        length_scale = min(rms_height, depth) if rms_height > 0 else depth
+        contact = solve(
+            operator, stencil, separation, length_scale, load, start, rtol, max_iterations
+        )
+        if tangent_start is not None:
+            tangent_start = tangent_start[contact.patch.nodes]
+        stiffness = tangent(operator, contact, tangent_start)
+        yield contact, stiffness
+        solved = contact.outcome is Outcome.CERTIFIED and stiffness.converged
+        before = (contact, stiffness) if solved else None
+
+
+def _first_guess(
+    operator: Operator, separation: Field, load: Load, E_star: float
+) -> tuple[float, Start]:
+    """Start from every node that the rigid shift would overlap.
+
+    For a force, the shift at which one disc of that many nodes, 2 E* a (d - mean separation),
+    would carry it.
+    """
+    depth = load.depth
+    if depth is None:
+        assert load.force is not None
+        separations = np.sort(separation, axis=None)
+        count = np.arange(1, separations.size + 1)
+        stiffness = 2 * E_star * np.sqrt(count * operator.cell_area / np.pi)
+        depths = load.force / stiffness + np.cumsum(separations) / count
+        reached = depths <= np.append(separations[1:], np.inf)
+        depth = float(depths[reached.argmax()])
+    nodes = np.flatnonzero(separation < depth)
+    return depth, (nodes, np.zeros(nodes.size))
+
+
+def _predicted(
+    operator: Operator, separation: Field, load: Load, contact: Contact, tangent: Tangent
+) -> tuple[float, Start, NDArray[np.float64]]:
+    """Follow the tangent: p + dF w, and the nodes that press or overlap then."""
+    if load.force is not None:
+        rise = load.force - contact.force
+        depth = contact.depth + rise / tangent.stiffness
+    else:
+        assert load.depth is not None
+        depth = load.depth
+        rise = tangent.stiffness * (depth - contact.depth)
+    per_force = contact.patch.displacement_everywhere(tangent.pressure_per_force)
+    gap = contact.gap + rise * (per_force - 1 / tangent.stiffness)
+    pressure = np.zeros(separation.size)
+    pressure[contact.patch.nodes] = contact.pressure + rise * tangent.pressure_per_force
+    field_per_force = np.zeros(separation.size)
+    field_per_force[contact.patch.nodes] = tangent.pressure_per_force
+    candidates = gap.ravel() < 0
+    candidates[contact.patch.nodes] = False
+    candidates |= pressure > 0
+    nodes = np.flatnonzero(candidates)
+    return depth, (nodes, pressure[nodes]), field_per_force

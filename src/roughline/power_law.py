@@ -1,0 +1,170 @@
+"""Power laws k̄ = zeta F̄^alpha (the paper's eq. 5): fits with intervals, and the exponents predicted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from roughline.errors import InputError
+
+Real = NDArray[np.float64]
+Value = TypeVar("Value", float, Real)
+
+_BOOTSTRAP_ROUNDS = 1000
+
+
+@dataclass(frozen=True)
+class PowerLaw:
+    """A fitted power law ``stiffness_bar = prefactor * force_bar**exponent``.
+
+    Attributes
+    ----------
+    exponent, prefactor : float
+        The paper's alpha and zeta, by log least squares.
+    exponent_interval, prefactor_interval : tuple of float
+        Intervals at the stated confidence.
+    window : tuple of float
+        Range of force_bar that was fitted.
+    points : int
+        Loads inside the window.
+    realisations : int
+        Realisations whose mean was fitted; 1 for a single curve.
+    confidence : float
+        Level of the intervals, such as 0.95.
+    interval_from : str
+        "resampled realisations" (percentile bootstrap), or "regression" (Student's t) for a
+        single curve.
+    """
+
+    exponent: float
+    prefactor: float
+    exponent_interval: tuple[float, float]
+    prefactor_interval: tuple[float, float]
+    window: tuple[float, float]
+    points: int
+    realisations: int
+    confidence: float
+    interval_from: str
+
+    def __call__(self, force_bar: Value) -> Value:
+        """Evaluate the law."""
+        return self.prefactor * force_bar**self.exponent
+
+
+def fit_power_law(
+    force_bar: ArrayLike,
+    stiffness_bar: ArrayLike,
+    window: tuple[float, float],
+    confidence: float = 0.95,
+    rng: int = 0,
+) -> PowerLaw:
+    """Fit a power law by least squares of the logarithms inside a window.
+
+    Of several realisations the arithmetic mean at fixed force is fitted, and the intervals come
+    from resampling the realisations. Of a single curve they come from the scatter about the line,
+    which says how straight the curve is rather than how far another surface would differ.
+
+    Parameters
+    ----------
+    force_bar : array_like, shape (loads,)
+        Dimensionless forces.
+    stiffness_bar : array_like, shape (loads,) or (realisations, loads)
+        Dimensionless stiffness at these forces.
+    window : tuple of float
+        Smallest and largest force_bar to use, both included.
+    confidence : float, optional
+        Level of the intervals.
+    rng : int, optional
+        Seed of the resampling.
+
+    Raises
+    ------
+    InputError
+        If the window holds fewer than three loads, or values that are not positive and finite
+        (loads that did not converge are NaN: leave them out knowingly).
+    """
+    force = np.asarray(force_bar, dtype=np.float64)
+    stiffness = np.atleast_2d(np.asarray(stiffness_bar, dtype=np.float64))
+    if force.ndim != 1 or stiffness.ndim != 2 or stiffness.shape[1] != force.size:
+        raise InputError(
+            f"force_bar has shape {force.shape} and stiffness_bar {np.shape(stiffness_bar)}; "
+            "(loads,) and (loads,) or (realisations, loads) are needed"
+        )
+    low, high = window
+    if not 0 < low < high:
+        raise InputError(f"window is {window}; two rising, positive force_bar are needed")
+    if not 0 < confidence < 1:
+        raise InputError(f"confidence is {confidence}; a level between 0 and 1 is needed")
+    # a load placed on the window's edge belongs to it, rounding or not
+    inside = (force >= low * (1 - 1e-9)) & (force <= high * (1 + 1e-9))
+    if np.count_nonzero(inside) < 3:
+        raise InputError(
+            f"the window {low:g} to {high:g} holds {np.count_nonzero(inside)} loads; at least 3 "
+            f"are needed: widen it (the loads span {force.min():g} to {force.max():g})"
+        )
+    log_force, stiffness = np.log(force[inside]), stiffness[:, inside]
+    bad = ~(np.isfinite(stiffness) & (stiffness > 0))
+    if bad.any():
+        raise InputError(
+            f"{np.count_nonzero(bad)} values of stiffness_bar in the window are not positive, "
+            "finite numbers (loads that did not converge are NaN): leave their loads or "
+            "realisations out"
+        )
+    slope, offset = _line(log_force, np.log(stiffness.mean(axis=0)))
+    if stiffness.shape[0] > 1:
+        draws = np.random.default_rng(rng).integers(
+            stiffness.shape[0], size=(_BOOTSTRAP_ROUNDS, stiffness.shape[0])
+        )
+        means = np.array([stiffness[draw].mean(axis=0) for draw in draws])
+        slopes, offsets = _line(log_force, np.log(means))
+        tails = [(1 - confidence) / 2, (1 + confidence) / 2]
+        slope_interval, offset_interval = np.quantile(slopes, tails), np.quantile(offsets, tails)
+    else:
+        slope_interval, offset_interval = _regression_intervals(
+            log_force, np.log(stiffness[0]), float(slope), float(offset), confidence
+        )
+    return PowerLaw(
+        exponent=float(slope),
+        prefactor=float(np.exp(offset)),
+        exponent_interval=(float(slope_interval[0]), float(slope_interval[1])),
+        prefactor_interval=(float(np.exp(offset_interval[0])), float(np.exp(offset_interval[1]))),
+        window=(float(low), float(high)),
+        points=log_force.size,
+        realisations=stiffness.shape[0],
+        confidence=confidence,
+        interval_from="resampled realisations" if stiffness.shape[0] > 1 else "regression",
+    )
+
+
+def scaling_exponent(fractal_dimension: Value) -> Value:
+    """Exponent from the scaling argument, alpha = 1 / (H + 1) = 1 / (4 - D_f), eq. 14."""
+    return 1 / (4 - fractal_dimension)
+
+
+def linear_exponent(fractal_dimension: Value) -> Value:
+    """Exponent that the paper reads off its 3D results, alpha = 0.2567 D_f."""
+    return 0.2567 * fractal_dimension
+
+
+def _line(x: Real, y: Real) -> tuple[Real, Real]:
+    """Slope and offset of the least-squares lines through y(x), along the last axis of y."""
+    centred = x - x.mean()
+    slope = (y * centred).sum(axis=-1) / (centred**2).sum()
+    return slope, y.mean(axis=-1) - slope * x.mean()
+
+
+def _regression_intervals(
+    x: Real, y: Real, slope: float, offset: float, confidence: float
+) -> tuple[Real, Real]:
+    from scipy.special import stdtrit  # here because it loads slowly
+
+    freedom = x.size - 2
+    variance = float(((y - offset - slope * x) ** 2).sum()) / freedom
+    spread = ((x - x.mean()) ** 2).sum()
+    width = stdtrit(freedom, (1 + confidence) / 2) * np.sqrt(variance / spread)
+    offset_width = width * np.sqrt(np.mean(x**2))
+    sides = np.array([-1.0, 1.0])
+    return slope + sides * width, offset + sides * offset_width

@@ -1,0 +1,53 @@
+"""The paper's dimensionless force and stiffness, and the two punches that may normalise them."""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Value = TypeVar("Value", float, NDArray[np.float64])
+
+PAPER_PUNCH = 1.1419
+"""k_s / (E* L) of the rigid square punch as the paper takes it, 1.012 * 2 / sqrt(pi) (King 1987)."""
+
+EXACT_PUNCH = 1.15230
+"""k_s / (E* L) of the rigid square punch: pi times the capacity of the unit square, 0.366788."""
+
+
+def force_bar(force: Value, E_star: float, rms_height: float, length: float) -> Value:
+    """Dimensionless force F / (E* h L), the paper's eq. 2.
+
+    Parameters
+    ----------
+    force : float or ndarray
+        Total force. [force]
+    E_star : float
+        Contact modulus. [pressure]
+    rms_height : float
+        Root-mean-square height h. [length]
+    length : float
+        sqrt(A_0) of a surface, or the length of a line. [length]
+    """
+    return force / (E_star * rms_height * length)
+
+
+def stiffness_bar(
+    stiffness: Value, E_star: float, length: float, punch: float = PAPER_PUNCH
+) -> Value:
+    """Dimensionless stiffness k / (punch E* L), the paper's eq. 1.
+
+    Parameters
+    ----------
+    stiffness : float or ndarray
+        k = dF/dd. [force / length]
+    E_star : float
+        Contact modulus. [pressure]
+    length : float
+        sqrt(A_0) of a surface, or the length of a line. [length]
+    punch : float, optional
+        Saturated stiffness over E* L: :data:`PAPER_PUNCH` or :data:`EXACT_PUNCH` for a surface,
+        1 for a line or for the raw stiffness k / (E* L).
+    """
+    return stiffness / (punch * E_star * length)

@@ -1,0 +1,397 @@
+"""Self-affine roughness spectra: of the surface, of its reduced line and of a straight cut.
+
+Conventions: q = 2 pi / wavelength, and
+
+    <h²> = 2 pi int_0^inf q C_2d(q) dq = int_{-inf}^{inf} C_reduced(q) dq = int_{-inf}^{inf} C_profile(q) dq.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from roughline import synthesis
+from roughline.errors import InputError
+from roughline.topography import Line, Settings, Surface
+
+Real = NDArray[np.float64]
+Amplitudes = Literal["fixed", "gaussian"]
+Normalisation = Literal["rms_height", "C_0"]
+
+_LARGEST_LINE = 2**28
+
+
+@dataclass(frozen=True, init=False)
+class SelfAffine:
+    """Isotropic self-affine spectrum, the paper's eq. 3, with optional roll-off and cutoff.
+
+    ``C_2d(q) = C_0`` from ``q_low = 2 pi / length`` to ``q_roll`` (default: ``q_low``, no
+    plateau), then ``C_0 (q / q_roll)**(-2 (H + 1))`` up to ``q_high``, and zero outside.
+
+    What is given fixes how surfaces and lines are scaled: with ``rms_height`` each of them is
+    scaled to that rms (the paper's choice); with ``C_0`` both are generated from the same
+    spectrum, and their rms heights differ by what the lattice of wavevectors makes of it.
+
+    Parameters
+    ----------
+    hurst : float, optional
+        Hurst exponent H, 0 to 1. Give this or `fractal_dimension`.
+    fractal_dimension : float, optional
+        D_f = 3 - H, 2 to 3.
+    length : float
+        Side of the square surface and length of the line. [length]
+    rms_height : float, optional
+        Root-mean-square height h. Give this or `C_0`. [length]
+    C_0 : float, optional
+        Value of C_2d at ``q_roll`` and on the plateau. [length⁴]
+    q_roll : float, optional
+        Roll-off wavenumber; the spectrum is flat below. [1 / length]
+    q_high : float, optional
+        Largest wavenumber; default: whatever the grid carries. [1 / length]
+
+    Raises
+    ------
+    InputError
+        If both or neither of a pair are given, or a value is outside its range.
+    """
+
+    hurst: float
+    length: float
+    normalisation: Normalisation
+    magnitude: float
+    q_roll: float
+    q_high: float
+
+    def __init__(
+        self,
+        *,
+        hurst: float | None = None,
+        fractal_dimension: float | None = None,
+        length: float = 1.0,
+        rms_height: float | None = None,
+        C_0: float | None = None,
+        q_roll: float | None = None,
+        q_high: float | None = None,
+    ) -> None:
+        if (hurst is None) == (fractal_dimension is None):
+            given = "neither" if hurst is None else "both"
+            raise InputError(f"{given} of hurst and fractal_dimension given; give exactly one")
+        if (rms_height is None) == (C_0 is None):
+            given = "neither" if C_0 is None else "both"
+            raise InputError(f"{given} of rms_height and C_0 given; give exactly one")
+        if hurst is None:
+            assert fractal_dimension is not None
+            if not 2 <= fractal_dimension <= 3:
+                raise InputError(f"fractal_dimension is {fractal_dimension}; allowed is 2 to 3")
+            hurst = round(3 - fractal_dimension, 12)  # 3 - 2.2 means 0.8 to the last bit
+        if not 0 <= hurst <= 1:
+            raise InputError(f"hurst is {hurst}; allowed is 0 to 1")
+        _check_positive("length", length)
+        q_low = 2 * math.pi / length
+        q_roll = q_low if q_roll is None else q_roll
+        q_high = math.inf if q_high is None else q_high
+        if not q_low * (1 - 1e-12) <= q_roll < math.inf:
+            raise InputError(f"q_roll is {q_roll}; at least q_low = 2 pi / length = {q_low:g}")
+        if not q_roll < q_high:
+            raise InputError(f"q_high is {q_high}; more than q_roll = {q_roll:g} is needed")
+        if rms_height is not None:
+            _check_positive("rms_height", rms_height)
+            object.__setattr__(self, "normalisation", "rms_height")
+            object.__setattr__(self, "magnitude", float(rms_height))
+        else:
+            assert C_0 is not None
+            _check_positive("C_0", C_0)
+            object.__setattr__(self, "normalisation", "C_0")
+            object.__setattr__(self, "magnitude", float(C_0))
+        object.__setattr__(self, "hurst", float(hurst))
+        object.__setattr__(self, "length", float(length))
+        object.__setattr__(self, "q_roll", float(q_roll))
+        object.__setattr__(self, "q_high", float(q_high))
+
+    @property
+    def fractal_dimension(self) -> float:
+        """D_f = 3 - H. [1]"""
+        return round(3 - self.hurst, 12)
+
+    @property
+    def q_low(self) -> float:
+        """Smallest wavenumber, 2 pi / length. [1 / length]"""
+        return 2 * math.pi / self.length
+
+    @property
+    def C_0(self) -> float:
+        """Value of C_2d at q_roll, given or such that the continuum has the rms height. [length⁴]
+
+        Raises
+        ------
+        InputError
+            For H = 0 without ``q_high`` when the rms height was given: the integral diverges.
+        """
+        if self.normalisation == "C_0":
+            return self.magnitude
+        return self.magnitude**2 / self._unit_moment(0)
+
+    @property
+    def rms_height(self) -> float:
+        """Root-mean-square height, given or as the continuum integral of C_2d. [length]"""
+        if self.normalisation == "rms_height":
+            return self.magnitude
+        return math.sqrt(self.moment(0))
+
+    def C_2d(self, q: ArrayLike) -> Real:
+        """Spectrum of the surface over its wavevectors, the paper's eq. 3. [length⁴]
+
+        Parameters
+        ----------
+        q : array_like
+            Wavenumbers; the sign does not matter. [1 / length]
+        """
+        return self.C_0 * self._shape(np.abs(np.asarray(q, dtype=np.float64)))
+
+    def C_reduced(self, q: ArrayLike) -> Real:
+        """Spectrum of the line of the reduction method, pi q C_2d(q), the paper's eq. 7. [length³]
+
+        Parameters
+        ----------
+        q : array_like
+            Wavenumbers; the sign does not matter. [1 / length]
+        """
+        return np.pi * np.abs(np.asarray(q, dtype=np.float64)) * self.C_2d(q)
+
+    def C_profile(self, q: ArrayLike) -> Real:
+        """Spectrum of a straight cut, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). [length³]
+
+        This is what a line scan measures; it is not the spectrum of the reduced line.
+
+        Parameters
+        ----------
+        q : array_like
+            Wavenumbers; the sign does not matter. [1 / length]
+        """
+        q = np.abs(np.asarray(q, dtype=np.float64))
+        plateau_from = np.maximum(q, self.q_low)
+        plateau_to = np.maximum(q, self.q_roll)
+        plateau = 2 * (np.sqrt(plateau_to**2 - q**2) - np.sqrt(plateau_from**2 - q**2))
+        return self.C_0 * (plateau + self._abel_of_power(q))
+
+    def moment(self, order: int) -> float:
+        """Moment of the continuum, 2 pi int q^(1 + order) C_2d dq. [length^(2 - order)]
+
+        Order 0 is <h²>, order 2 <|grad h|²>, order 4 <(laplacian h)²>; the reduced line has the
+        same moments of h, h' and h''.
+
+        Raises
+        ------
+        InputError
+            If the integral diverges, because ``q_high`` is not set.
+        """
+        return self.C_0 * self._unit_moment(order)
+
+    def lattice_moment(self, order: int, n: int, body: Literal["surface", "line"]) -> float:
+        """Moment as the sum over the modes that a grid of n points carries. [length^(2 - order)]
+
+        This is what synthesised heights have; the continuum integral can be far from it, since
+        the sum begins at its largest terms.
+
+        Parameters
+        ----------
+        order : int
+            As for :meth:`moment`.
+        n : int
+            Points along a side.
+        body : {"surface", "line"}
+            Over the lattice of wavevectors in the plane, or along the reduced line.
+        """
+        q, power = self._lattice_power(n, body)
+        return float((power * q**order).sum())
+
+    def surface(
+        self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed"
+    ) -> Surface:
+        """Generate a random square surface.
+
+        The same seed with a larger `n` gives the same surface with more detail: one phase belongs
+        to one wavevector. Phases do not depend on the spectrum. Modes with |q| below
+        ``min(q_high, pi n / length)`` are used, a circle; the Nyquist modes are zero.
+
+        Parameters
+        ----------
+        n : int
+            Points along each side, at least 3.
+        rng : int, SeedSequence, Generator, optional
+            Seed. Realisation i of an ensemble has ``SeedSequence(root, spawn_key=(i,))``, so it
+            does not depend on how many are made.
+        amplitudes : {"fixed", "gaussian"}, optional
+            Random phases with moduli from the spectrum (the paper's choice), or complex Gaussian
+            modes. The phases are the same in both.
+
+        Returns
+        -------
+        Surface
+            Heights (n, n). [length]
+        """
+        n = _checked_points(n, largest=2**15)
+        generator = synthesis.generator(rng)
+        settings = self._settings("surface", n, rng, generator, amplitudes)
+        draws = synthesis.surface_draws(n, generator)
+        q, power = self._lattice_power(n, "surface", half=True)
+        moduli = np.sqrt(power)
+        if amplitudes == "gaussian":
+            moduli *= _rayleigh(synthesis.surface_draws(n, generator.spawn(1)[0]))
+        heights = synthesis.surface_heights(moduli, draws, n)
+        return Surface(self._scaled(heights), (self.length, self.length), settings=settings)
+
+    def line(self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed") -> Line:
+        """Generate the random line of the reduction method (spectrum ``C_reduced``).
+
+        Parameters
+        ----------
+        n : int
+            Points, at least 3.
+        rng, amplitudes
+            As for :meth:`surface`.
+
+        Returns
+        -------
+        Line
+            Heights (n,). [length]
+        """
+        n = _checked_points(n, largest=_LARGEST_LINE)
+        generator = synthesis.generator(rng)
+        settings = self._settings("line", n, rng, generator, amplitudes)
+        draws = synthesis.line_draws(n, generator)
+        _, power = self._lattice_power(n, "line", half=True)
+        moduli = np.sqrt(power)
+        if amplitudes == "gaussian":
+            moduli *= _rayleigh(synthesis.line_draws(n, generator.spawn(1)[0]))
+        heights = synthesis.line_heights(moduli, draws, n)
+        return Line(self._scaled(heights), self.length, settings=settings)
+
+    def _shape(self, q: Real) -> Real:
+        """C_2d over C_0."""
+        shape = np.ones_like(q)
+        falling = q > self.q_roll
+        shape[falling] = (q[falling] / self.q_roll) ** (-2 * (self.hurst + 1))
+        # a wavenumber computed as m q_low may miss a cutoff of the same name by rounding
+        shape[(q < self.q_low * (1 - 1e-12)) | (q > self.q_high * (1 + 1e-12))] = 0.0
+        return shape
+
+    def _unit_moment(self, order: int) -> float:
+        decay = 2 * (self.hurst + 1)
+        if self.q_high == math.inf and 2 + order - decay >= 0:
+            raise InputError(
+                f"the moment of order {order} diverges for H = {self.hurst:g} without a cutoff: "
+                "give q_high, or take lattice_moment on a grid"
+            )
+        plateau = _power_integral(1 + order, self.q_low, self.q_roll)
+        tail = _power_integral(1 + order - decay, self.q_roll, self.q_high) * self.q_roll**decay
+        return 2 * math.pi * (plateau + tail)
+
+    def _abel_of_power(self, q: Real) -> Real:
+        """Part of C_profile / C_0 that comes from the falling branch, by the beta function.
+
+        With t = (q / q')² it is (q / q_roll)^(-2H - 2) q times the incomplete beta function
+        B(t; H + 1/2, 1/2) between the cutoffs; for q = 0 it is a plain power.
+        """
+        from scipy.special import betainc, beta  # here because it loads slowly
+
+        decay = 2 * (self.hurst + 1)
+        result = np.full(
+            q.shape, 2 * _power_integral(-decay, self.q_roll, self.q_high) * self.q_roll**decay
+        )
+        inside = q > 1e-6 * self.q_low
+        q = q[inside]
+        upper = np.minimum(1.0, (q / self.q_roll) ** 2)
+        lower = np.minimum(upper, (q / self.q_high) ** 2)
+        a, b = self.hurst + 0.5, 0.5
+        part = beta(a, b) * (betainc(a, b, upper) - betainc(a, b, lower))
+        result[inside] = q * (q / self.q_roll) ** -decay * part
+        return result
+
+    def _lattice_power(
+        self, n: int, body: Literal["surface", "line"], half: bool = False
+    ) -> tuple[Real, Real]:
+        """Wavenumbers of a grid's modes and the share of <h²> that each carries.
+
+        With `half`, only the modes that the real inverse FFT wants (a line's from m = 1 on).
+        """
+        if body == "line":
+            m = np.arange(1, (n - 1) // 2 + 1, dtype=np.float64)
+            weight = np.pi * self.q_low**2 * m
+        else:
+            mx = np.fft.fftfreq(n, 1 / n)[:, np.newaxis]
+            my = np.arange(n // 2 + 1) if half else np.fft.fftfreq(n, 1 / n)
+            m = np.hypot(mx, my)
+            weight = np.where((m > 0) & (m < n / 2), self.q_low**2, 0.0)
+        q = self.q_low * m
+        power = weight * self._shape(q)
+        if self.normalisation == "C_0":
+            power *= self.C_0
+        elif not half:
+            power *= self.magnitude**2 / power.sum() / (2 if body == "line" else 1)
+        return q, power if half or body == "surface" else 2 * power
+
+    def _scaled(self, heights: Real) -> Real:
+        if self.normalisation == "rms_height":
+            heights *= self.magnitude / np.sqrt(np.mean(heights**2))
+        return heights
+
+    def _settings(
+        self,
+        body: str,
+        n: int,
+        rng: synthesis.Seed,
+        generator: np.random.Generator,
+        amplitudes: str,
+    ) -> Settings:
+        if amplitudes not in ("fixed", "gaussian"):
+            raise InputError(f'amplitudes is {amplitudes!r}; allowed are "fixed" and "gaussian"')
+        return {
+            "origin": f"self-affine {body}",
+            "hurst": self.hurst,
+            "length": self.length,
+            "normalisation": self.normalisation,
+            self.normalisation: self.magnitude,
+            "q_roll": self.q_roll,
+            "q_high": self.q_high,
+            "n": n,
+            "amplitudes": amplitudes,
+            "seed": _described(rng, generator),
+        }
+
+
+def _described(rng: synthesis.Seed, generator: np.random.Generator) -> str:
+    if isinstance(rng, np.random.Generator):
+        return "a generator in an unknown state"
+    sequence = generator.bit_generator.seed_seq
+    assert isinstance(sequence, np.random.SeedSequence)
+    return f"entropy {sequence.entropy}, spawn key {sequence.spawn_key}"
+
+
+def _rayleigh(draws: Real) -> Real:
+    """Moduli of complex Gaussian modes of unit mean square."""
+    return np.sqrt(-np.log1p(-draws))
+
+
+def _power_integral(exponent: float, start: float, end: float) -> float:
+    """Integral of q**exponent from start to end, which may be infinite for exponent < -1."""
+    if exponent == -1:
+        return math.log(end / start)
+    rise = exponent + 1
+    at_end = 0.0 if end == math.inf else end**rise
+    return (at_end - start**rise) / rise
+
+
+def _check_positive(name: str, value: float) -> None:
+    if not 0 < value < math.inf:
+        raise InputError(f"{name} is {value}; a positive, finite number is needed")
+
+
+def _checked_points(n: int, largest: int) -> int:
+    if not isinstance(n, int | np.integer) or not 3 <= n <= largest:
+        raise InputError(f"n is {n!r}; a whole number of points from 3 to {largest} is needed")
+    return int(n)

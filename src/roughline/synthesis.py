@@ -1,0 +1,101 @@
+"""Random heights from the amplitudes of Fourier modes; one draw belongs to one wavevector.
+
+Draws are ordered by wavenumber (1D) or by square rings around q = 0 (2D), so a finer grid with the
+same seed repeats the draws of the coarser one and adds to them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline import fft
+from roughline.errors import InputError
+
+Real = NDArray[np.float64]
+Seed = int | np.random.SeedSequence | np.random.Generator | None
+
+
+def generator(rng: Seed) -> np.random.Generator:
+    """Return the generator of a seed; realisation i of an ensemble is ``root.spawn(i + 1)[i]``.
+
+    Parameters
+    ----------
+    rng : int, numpy.random.SeedSequence, numpy.random.Generator or None
+        A seed, or a generator that is used as it is; None draws a fresh seed.
+
+    Raises
+    ------
+    InputError
+        If it is none of these, or a negative integer.
+    """
+    try:
+        return np.random.default_rng(rng)
+    except (TypeError, ValueError) as error:
+        raise InputError(
+            f"rng is {rng!r}; a seed is a non-negative integer, a numpy SeedSequence or Generator"
+        ) from error
+
+
+def line_draws(n: int, rng: np.random.Generator) -> Real:
+    """Draw one number in [0, 1) for each mode 0 < m < n / 2, in this order."""
+    return rng.random((n - 1) // 2)
+
+
+def surface_draws(n: int, rng: np.random.Generator) -> Real:
+    """Draw one number in [0, 1) for each mode of the half plane with max(|mx|, |my|) < n / 2.
+
+    Returns
+    -------
+    ndarray, shape (n, n // 2 + 1)
+        The draws where the real inverse FFT wants its modes; the negative half of the line
+        my = 0 is left to Hermitian symmetry.
+    """
+    rings = (n - 1) // 2
+    stream = rng.random(2 * rings * (rings + 1))
+    draws = np.zeros((n, n // 2 + 1))
+    for ring in range(1, rings + 1):
+        members = stream[2 * ring * (ring - 1) : 2 * ring * (ring + 1)]
+        draws[: ring + 1, ring] = members[: ring + 1]
+        draws[n - ring :, ring] = members[ring + 1 : 2 * ring + 1]
+        draws[ring, :ring] = members[2 * ring + 1 : 3 * ring + 1]
+        draws[n - ring, 1:ring] = members[3 * ring + 1 :]
+    return draws
+
+
+def line_heights(amplitudes: Real, draws: Real, n: int) -> Real:
+    """Sum modes of given amplitudes and random phases to a periodic line.
+
+    Parameters
+    ----------
+    amplitudes, draws : ndarray, shape ((n - 1) // 2,)
+        Moduli of the modes 0 < m < n / 2 [length] and their phases over 2 pi.
+    n : int
+        Points. The mean and, for even n, the Nyquist mode are zero.
+    """
+    modes = np.zeros(n // 2 + 1, dtype=np.complex128)
+    _set_modes(modes[1 : amplitudes.size + 1], amplitudes, draws)
+    return fft.synthesise(modes, n)
+
+
+def surface_heights(amplitudes: Real, draws: Real, n: int) -> Real:
+    """Sum modes of given amplitudes and random phases to a periodic surface.
+
+    Parameters
+    ----------
+    amplitudes, draws : ndarray, shape (n, n // 2 + 1)
+        Moduli of the modes [length] and their phases over 2 pi, from :func:`surface_draws`.
+    n : int
+        Points along each side.
+    """
+    modes = np.empty(amplitudes.shape, dtype=np.complex128)
+    _set_modes(modes, amplitudes, draws)
+    half = (n - 1) // 2
+    modes[n - half :, 0] = modes[half:0:-1, 0].conj()
+    return fft.synthesise(modes, n)
+
+
+def _set_modes(modes: NDArray[np.complex128], amplitudes: Real, draws: Real) -> None:
+    phases = 2 * np.pi * draws
+    np.multiply(amplitudes, np.cos(phases), out=modes.real)
+    np.multiply(amplitudes, np.sin(phases), out=modes.imag)

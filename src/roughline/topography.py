@@ -1,0 +1,266 @@
+"""Heights on a grid and their sizes: Surface and Line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any, Literal, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.errors import InputError
+
+Settings = Mapping[str, str | int | float]
+
+# Beyond this, squares of lengths leave the range of double precision.
+_LARGEST = 1e150
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Heights of a rough surface on a rectangle.
+
+    Parameters
+    ----------
+    heights : array_like, shape (nx, ny)
+        Heights, pointing towards the other body; the array is not copied. [length]
+    sizes : tuple of float
+        Sides of the rectangle, (Lx, Ly); a cell is Lx / nx by Ly / ny. [length]
+    unit : str, optional
+        Unit of all lengths, where it is known; :func:`roughline.read` gives "m".
+    settings : mapping, optional
+        Where the heights come from; travels with every result.
+
+    Raises
+    ------
+    InputError
+        For heights that are not real, finite numbers or fewer than 2 x 2, and for sizes that are
+        not positive.
+    """
+
+    heights: NDArray[np.float64]
+    sizes: tuple[float, float]
+    unit: str | None = None
+    settings: Settings = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        heights = _checked_heights(self.heights, dimensions=2)
+        if min(heights.shape) < 2:
+            raise InputError(
+                f"the surface has {heights.shape[0]} x {heights.shape[1]} points; at least 2 x 2 "
+                "are needed: give more points, or a Line for a profile"
+            )
+        _freeze(self, heights=heights, sizes=_checked_sizes("sizes", self.sizes))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Points of the grid, (nx, ny)."""
+        nx, ny = self.heights.shape
+        return nx, ny
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Sides of a cell, (dx, dy). [length]"""
+        return self.sizes[0] / self.shape[0], self.sizes[1] / self.shape[1]
+
+    @property
+    def area(self) -> float:
+        """Nominal area A_0. [length²]"""
+        return self.sizes[0] * self.sizes[1]
+
+    @property
+    def length(self) -> float:
+        """sqrt(A_0), the length L of the paper's eqs. 1 and 2. [length]"""
+        return float(np.sqrt(self.sizes[0]) * np.sqrt(self.sizes[1]))
+
+    @property
+    def rms_height(self) -> float:
+        """Root-mean-square deviation from the mean height. [length]"""
+        return _rms_deviation(self.heights)
+
+    @property
+    def rms_slope(self) -> float:
+        """Root-mean-square gradient from forward differences inside the rectangle. [1]"""
+        dx, dy = self.spacing
+        along_x = _rms(np.diff(self.heights, axis=0) / dx)
+        along_y = _rms(np.diff(self.heights, axis=1) / dy)
+        return float(np.hypot(along_x, along_y))
+
+    @property
+    def rms_curvature(self) -> float:
+        """Root-mean-square mean curvature, half the Laplacian, from central differences.
+
+        NaN on fewer than 3 x 3 points. [1 / length]
+        """
+        if min(self.shape) < 3:
+            return float("nan")
+        dx, dy = self.spacing
+        along_x = np.diff(self.heights, n=2, axis=0)[:, 1:-1] / dx**2
+        along_y = np.diff(self.heights, n=2, axis=1)[1:-1, :] / dy**2
+        return _rms(along_x + along_y) / 2
+
+    def detrended(self) -> Surface:
+        """Return the surface without its mean and tilt (least-squares plane)."""
+        x = np.linspace(-1.0, 1.0, self.shape[0])[:, np.newaxis]
+        y = np.linspace(-1.0, 1.0, self.shape[1])[np.newaxis, :]
+        # on a full grid the three functions 1, x, y are orthogonal: no equations to solve
+        heights = self.heights - self.heights.mean()
+        heights -= x * ((heights * x).sum() / ((x**2).sum() * self.shape[1]))
+        heights -= y * ((heights * y).sum() / ((y**2).sum() * self.shape[0]))
+        return with_heights(self, heights, detrended="tilt")
+
+    def scaled(self, factor: float) -> Surface:
+        """Return the surface with heights times `factor`."""
+        return with_heights(self, self.heights * factor, height_factor=factor)
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """Heights of a rough line.
+
+    Parameters
+    ----------
+    heights : array_like, shape (n,)
+        Heights, pointing towards the other body; the array is not copied. [length]
+    length : float
+        Length of the line; a spring stands for length / n. [length]
+    unit : str, optional
+        Unit of all lengths, where it is known.
+    settings : mapping, optional
+        Where the heights come from; travels with every result.
+    kind : {"reduced", "profile"}, optional
+        Whether this is the line of the reduction method (the paper's eq. 7), or a straight cut
+        through a surface such as a stylus measures. A cut is not the reduced line of its surface
+        and is not pressed as one.
+
+    Raises
+    ------
+    InputError
+        For heights that are not real, finite numbers or fewer than 2, and for a length that is
+        not positive.
+    """
+
+    heights: NDArray[np.float64]
+    length: float
+    unit: str | None = None
+    settings: Settings = field(default_factory=dict, repr=False)
+    kind: Literal["reduced", "profile"] = "reduced"
+
+    def __post_init__(self) -> None:
+        heights = _checked_heights(self.heights, dimensions=1)
+        if heights.size < 2:
+            raise InputError(f"the line has {heights.size} points; at least 2 are needed")
+        if self.kind not in ("reduced", "profile"):
+            raise InputError(f'kind is {self.kind!r}; a line is "reduced" or a "profile"')
+        _freeze(self, heights=heights, length=_checked_sizes("length", [self.length])[0])
+
+    @property
+    def spacing(self) -> float:
+        """Length that one spring stands for. [length]"""
+        return self.length / self.heights.size
+
+    @property
+    def rms_height(self) -> float:
+        """Root-mean-square deviation from the mean height. [length]"""
+        return _rms_deviation(self.heights)
+
+    @property
+    def rms_slope(self) -> float:
+        """Root-mean-square slope from forward differences. [1]"""
+        return _rms(np.diff(self.heights) / self.spacing)
+
+    @property
+    def rms_curvature(self) -> float:
+        """Root-mean-square second derivative; NaN on fewer than 3 points. [1 / length]"""
+        if self.heights.size < 3:
+            return float("nan")
+        return _rms(np.diff(self.heights, n=2) / self.spacing**2)
+
+    def detrended(self) -> Line:
+        """Return the line without its mean and tilt (least squares)."""
+        x = np.linspace(-1.0, 1.0, self.heights.size)
+        heights = self.heights - self.heights.mean()
+        heights -= x * ((heights @ x) / (x @ x))
+        return with_heights(self, heights, detrended="tilt")
+
+    def scaled(self, factor: float) -> Line:
+        """Return the line with heights times `factor`."""
+        return with_heights(self, self.heights * factor, height_factor=factor)
+
+
+Body = Surface | Line
+BodyType = TypeVar("BodyType", Surface, Line)
+
+
+def with_heights(body: BodyType, heights: NDArray[np.float64], **settings: Any) -> BodyType:
+    """Return the body with other heights and further settings."""
+    return replace(body, heights=heights, settings={**body.settings, **settings})
+
+
+def _freeze(body: Body, **fields: Any) -> None:
+    """Set checked fields at birth; the settings become read-only."""
+    for name, value in fields.items():
+        object.__setattr__(body, name, value)
+    object.__setattr__(body, "settings", MappingProxyType(dict(body.settings)))
+
+
+def _checked_heights(heights: Any, dimensions: int) -> NDArray[np.float64]:
+    name = {1: "a Line", 2: "a Surface"}[dimensions]
+    if isinstance(heights, np.ma.MaskedArray):
+        missing = int(np.ma.count_masked(heights))
+        if missing:
+            raise InputError(
+                f"{missing} of {heights.size} heights are masked; all must be known: fill them "
+                "or crop to where they are"
+            )
+        heights = heights.data
+    try:
+        array = np.asarray(heights)
+        if np.iscomplexobj(array):
+            raise TypeError("complex")
+        array = np.ascontiguousarray(array, dtype=np.float64).view()
+    except (TypeError, ValueError) as error:
+        raise InputError(f"the heights are not an array of real numbers ({error})") from error
+    if array.ndim != dimensions:
+        raise InputError(
+            f"the heights have {array.ndim} dimensions; {name} takes {dimensions}: reshape them"
+        )
+    bad = array.size - int(np.count_nonzero(np.isfinite(array)))
+    if bad:
+        raise InputError(
+            f"{bad} of {array.size} heights are NaN or infinite; all must be finite: fill or crop "
+            "them first"
+        )
+    if array.size and np.abs(array).max() > _LARGEST:
+        raise InputError(f"heights reach {np.abs(array).max():.3g}; at most {_LARGEST:g}: rescale")
+    array.flags.writeable = False
+    return array
+
+
+def _checked_sizes(name: str, sizes: Any) -> tuple[float, ...]:
+    expected = {"sizes": 2, "length": 1}[name]
+    try:
+        values = tuple(float(size) for size in sizes)
+    except (TypeError, ValueError):
+        values = ()
+    if len(values) != expected or not all(1 / _LARGEST < value < _LARGEST for value in values):
+        allowed = {"sizes": "two positive, finite numbers (Lx, Ly)", "length": "a positive number"}
+        shown = sizes if expected == 2 else sizes[0]
+        raise InputError(f"{name} is {shown!r}; give {allowed[name]}")
+    return values
+
+
+def _rms_deviation(heights: NDArray[np.float64]) -> float:
+    if np.ptp(heights) == 0:
+        return 0.0  # rounding of the mean is no roughness
+    return _rms(heights - heights.mean())
+
+
+def _rms(values: NDArray[np.float64]) -> float:
+    """Root of the mean square, neither overflowing nor underflowing on the way."""
+    largest = float(np.abs(values).max(initial=0.0))
+    if largest == 0.0:
+        return 0.0
+    return float(np.sqrt(np.mean((values / largest) ** 2))) * largest
