@@ -7,8 +7,6 @@ number of threads, so whatever must be the same bytes everywhere asks for one th
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 import ducc0.fft
 import numpy as np
@@ -30,9 +28,8 @@ def available_cores() -> int:
 _threads = available_cores()
 
 
-@contextmanager
-def threads(count: int) -> Iterator[None]:
-    """Use `count` threads for the transforms inside the ``with`` block.
+def set_threads(count: int) -> None:
+    """Use `count` threads for the transforms of this process from now on.
 
     Raises
     ------
@@ -44,11 +41,7 @@ def threads(count: int) -> Iterator[None]:
         raise InputError(
             f"threads is {count}; this machine allows 1 to {available_cores()}: choose one of these"
         )
-    before, _threads = _threads, count
-    try:
-        yield
-    finally:
-        _threads = before
+    _threads = count
 
 
 def good_size(n: int) -> int:

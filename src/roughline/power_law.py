@@ -8,12 +8,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from roughline import bootstrap
 from roughline.errors import InputError
 
 Real = NDArray[np.float64]
 Value = TypeVar("Value", float, Real)
-
-_BOOTSTRAP_ROUNDS = 1000
 
 
 @dataclass(frozen=True)
@@ -115,13 +114,12 @@ def fit_power_law(
         )
     slope, offset = _line(log_force, np.log(stiffness.mean(axis=0)))
     if stiffness.shape[0] > 1:
-        draws = np.random.default_rng(rng).integers(
-            stiffness.shape[0], size=(_BOOTSTRAP_ROUNDS, stiffness.shape[0])
-        )
-        means = np.array([stiffness[draw].mean(axis=0) for draw in draws])
-        slopes, offsets = _line(log_force, np.log(means))
-        tails = [(1 - confidence) / 2, (1 + confidence) / 2]
-        slope_interval, offset_interval = np.quantile(slopes, tails), np.quantile(offsets, tails)
+        slope_interval, offset_interval = bootstrap.interval(
+            stiffness,
+            lambda mean: np.array(_line(log_force, np.log(mean))),
+            confidence,
+            rng,
+        ).T
     else:
         slope_interval, offset_interval = _regression_intervals(
             log_force, np.log(stiffness[0]), float(slope), float(offset), confidence
