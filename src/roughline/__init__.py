@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from roughline._version import __version__
 
 if TYPE_CHECKING:
+    from roughline.contact import press as press
     from roughline.curve import Curve as Curve
     from roughline.curve import Fields as Fields
     from roughline.curve import Status as Status
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from roughline.measured import write as write
     from roughline.power_law import PowerLaw as PowerLaw
     from roughline.power_law import fit_power_law as fit_power_law
-    from roughline.contact import press as press
     from roughline.scaling import EXACT_PUNCH as EXACT_PUNCH
     from roughline.scaling import PAPER_PUNCH as PAPER_PUNCH
     from roughline.spectra import SelfAffine as SelfAffine

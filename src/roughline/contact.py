@@ -140,9 +140,17 @@ def _press_line(
         lowest = max(springs.touch_forces[few], positive[0])
         loads = _spaced_loads(depths, forces, n_loads, lowest, springs.touch_forces[-1])
     if loads.control == "forces":
-        force, depth, count = loads.values, springs.depth(loads.values), springs.count_under(loads.values)
+        force, depth, count = (
+            loads.values,
+            springs.depth(loads.values),
+            springs.count_under(loads.values),
+        )
     else:
-        force, depth, count = springs.force(loads.values), loads.values, springs.count_at(loads.values)
+        force, depth, count = (
+            springs.force(loads.values),
+            loads.values,
+            springs.count_at(loads.values),
+        )
     return Curve(
         depth=depth,
         force=force,

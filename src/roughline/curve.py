@@ -130,7 +130,7 @@ class Curve:
 
     @property
     def stiffness_bar(self) -> Real:
-        """Dimensionless stiffness, the paper's eq. 1: k / (1.1419 E* L), of a line k / (E* L). [1]"""
+        """Dimensionless stiffness of eq. 1, k / (1.1419 E* L); of a line k / (E* L). [1]"""
         punch = 1.0 if self.area_fraction is None else scaling.PAPER_PUNCH
         return scaling.stiffness_bar(self.stiffness, self.E_star, self.length, punch)
 

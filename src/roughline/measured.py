@@ -13,6 +13,7 @@ from roughline.quantities import metres_per
 from roughline.topography import Body, Line, Surface
 
 _FORMAT = "roughline body 1"
+_INSTRUMENT = "instrument file"
 
 
 def read(path: str | Path, unit: str | None = None) -> Body:
@@ -72,19 +73,25 @@ def write(body: Body, path: str | Path) -> None:
     if path.suffix != ".nc":
         raise InputError(f'{path} does not end in ".nc"; bodies are written as NetCDF: rename it')
     sizes = body.sizes if isinstance(body, Surface) else (body.length,)
-    attrs = {
+    attrs: dict[str, Any] = {
         "format": _FORMAT,
         "kind": "surface" if isinstance(body, Surface) else body.kind,
         "sizes": np.array(sizes),
         "unit": body.unit or "",
     }
-    attrs |= {f"body_{name}": value for name, value in body.settings.items()}
+    for name, value in body.settings.items():
+        attrs[f"body_{name}"] = value
     dimensions = ("x", "y")[: body.heights.ndim]
     heights = (dimensions, body.heights, {"units": body.unit or "length", "long_name": "height"})
     try:
         xarray.Dataset({"heights": heights}, attrs=attrs).to_netcdf(path, engine="h5netcdf")
     except OSError as error:
         raise StoreError(f"cannot write {path} ({error}): choose another place") from error
+
+
+def levelled(body: Body) -> Body:
+    """Return an instrument's topography without its tilt, anything else as it is."""
+    return body.detrended() if body.settings.get("origin") == _INSTRUMENT else body
 
 
 def _read_own(path: Path, unit: str | None) -> Body | None:
@@ -158,9 +165,9 @@ def _metres_per_file_unit(path: Path, stated: str | None, given: str | None) -> 
 
 
 def _body_of(topography: Any, factor: float, path: Path, unit: str) -> Body:
-    settings = {"file": path.name, "file_unit": unit}
+    settings = {"origin": _INSTRUMENT, "file": path.name, "file_unit": unit}
     if topography.is_uniform and topography.has_undefined_data:
-        missing = int(np.ma.count_masked(topography.heights()))
+        missing = int(np.count_nonzero(np.ma.getmaskarray(topography.heights())))
         raise InputError(
             f"{path.name} has {missing} missing points of {np.prod(topography.nb_grid_pts)}; "
             "all heights must be known: fill or crop them with the instrument's software"

@@ -1,4 +1,4 @@
-"""Power laws k̄ = zeta F̄^alpha (the paper's eq. 5): fits with intervals, and the exponents predicted."""
+"""Power laws k̄ = zeta F̄^alpha (the paper's eq. 5): fits with intervals, and predictions."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ _NUMBER_AND_UNIT = re.compile(
 
 
 @functools.cache
-def _registry() -> pint.UnitRegistry:
+def _registry() -> pint.UnitRegistry[float]:
     import pint  # here because it loads slowly
 
     return pint.UnitRegistry()

@@ -69,7 +69,7 @@ class Springs:
         return np.searchsorted(self.touch_forces, forces, side="left")
 
     def stiffness(self, count: NDArray[np.intp]) -> Real:
-        """k = dF/dd of so many springs. [force / length]"""
+        """K = dF/dd of so many springs. [force / length]"""
         return self.spring_stiffness * count.astype(np.float64)
 
     def force(self, depths: Real) -> Real:

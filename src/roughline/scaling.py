@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Value = TypeVar("Value", float, NDArray[np.float64])
 
 PAPER_PUNCH = 1.1419
-"""k_s / (E* L) of the rigid square punch as the paper takes it, 1.012 * 2 / sqrt(pi) (King 1987)."""
+"""k_s / (E* L) of the square punch as the paper takes it, 1.012 * 2 / sqrt(pi) (King 1987)."""
 
 EXACT_PUNCH = 1.15230
 """k_s / (E* L) of the rigid square punch: pi times the capacity of the unit square, 0.366788."""

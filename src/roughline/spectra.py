@@ -2,7 +2,8 @@
 
 Conventions: q = 2 pi / wavelength, and
 
-    <h²> = 2 pi int_0^inf q C_2d(q) dq = int_{-inf}^{inf} C_reduced(q) dq = int_{-inf}^{inf} C_profile(q) dq.
+    <h²> = 2 pi int_0^inf q C_2d(q) dq
+         = int_{-inf}^{inf} C_reduced(q) dq = int_{-inf}^{inf} C_profile(q) dq.
 """
 
 from __future__ import annotations
@@ -238,7 +239,7 @@ class SelfAffine:
         generator = synthesis.generator(rng)
         settings = self._settings("surface", n, rng, generator, amplitudes)
         draws = synthesis.surface_draws(n, generator)
-        q, power = self._lattice_power(n, "surface", half=True)
+        _, power = self._lattice_power(n, "surface", half=True)
         moduli = np.sqrt(power)
         if amplitudes == "gaussian":
             moduli *= _rayleigh(synthesis.surface_draws(n, generator.spawn(1)[0]))
@@ -297,7 +298,7 @@ class SelfAffine:
         With t = (q / q')² it is (q / q_roll)^(-2H - 2) q times the incomplete beta function
         B(t; H + 1/2, 1/2) between the cutoffs; for q = 0 it is a plain power.
         """
-        from scipy.special import betainc, beta  # here because it loads slowly
+        from scipy.special import beta, betainc  # here because it loads slowly
 
         decay = 2 * (self.hurst + 1)
         result = np.full(

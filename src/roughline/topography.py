@@ -209,7 +209,7 @@ def _freeze(body: Body, **fields: Any) -> None:
 def _checked_heights(heights: Any, dimensions: int) -> NDArray[np.float64]:
     name = {1: "a Line", 2: "a Surface"}[dimensions]
     if isinstance(heights, np.ma.MaskedArray):
-        missing = int(np.ma.count_masked(heights))
+        missing = int(np.count_nonzero(np.ma.getmaskarray(heights)))
         if missing:
             raise InputError(
                 f"{missing} of {heights.size} heights are masked; all must be known: fill them "

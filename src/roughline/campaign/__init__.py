@@ -1,0 +1,1 @@
+"""Ensembles: what to compute, computing it, keeping it."""

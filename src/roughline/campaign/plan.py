@@ -10,6 +10,7 @@ import numpy as np
 from roughline._version import __version__
 
 Model = Literal["full", "reduced"]
+Scale = Literal["quick", "full"]
 
 PAPER_DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 """The six fractal dimensions of the paper's Figures 3 and 4."""
@@ -117,7 +118,7 @@ class Plan:
         return {"roughline_version": __version__, **asdict(self)}
 
 
-def paper_plan(scale: Literal["quick", "full"], seed: int = 2012) -> Plan:
+def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
     """Return the paper's study at one of two scales.
 
     Parameters

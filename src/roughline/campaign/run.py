@@ -21,7 +21,9 @@ Progress = Callable[[str, int, int], None]
 Results = dict[str, NDArray[np.generic]]
 
 
-def run(plan: Plan, store: Store, workers: int | None = None, progress: Progress | None = None) -> None:
+def run(
+    plan: Plan, store: Store, workers: int | None = None, progress: Progress | None = None
+) -> None:
     """Compute what the store lacks of a plan.
 
     Interrupting keeps every batch that was finished; a further call goes on from there. Results
@@ -86,9 +88,7 @@ def evaluate(case: Case) -> Results:
     return results
 
 
-def _run_cases(
-    cases: list[Case], total: int, store: Store, workers: int, report: Progress
-) -> None:
+def _run_cases(cases: list[Case], total: int, store: Store, workers: int, report: Progress) -> None:
     context = multiprocessing.get_context("spawn")
     done = total - len(cases)
     with ProcessPoolExecutor(workers, context, initializer=_start_worker) as pool:

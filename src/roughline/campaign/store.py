@@ -61,7 +61,7 @@ class Store:
         try:
             path.mkdir(parents=True, exist_ok=True)
             existed = any(path.iterdir())
-            self._root = zarr.open_group(path, mode="a")
+            self._root: Any = zarr.open_group(path, mode="a")
         except (OSError, ValueError) as error:
             raise StoreError(
                 f"cannot keep results in {path} ({error}): choose another folder"
@@ -98,9 +98,7 @@ class Store:
         """List the batches that are not on disk."""
         done = self._root[f"{ensemble.model}/done"][:]
         return [
-            case
-            for case in ensemble.cases()
-            if not done[case.dimension_index, _slice(case)].all()
+            case for case in ensemble.cases() if not done[case.dimension_index, _slice(case)].all()
         ]
 
     def put(self, case: Case, results: dict[str, NDArray[np.generic]]) -> None:
@@ -158,7 +156,9 @@ class Store:
     def _open(self, group: str) -> xarray.Dataset:
         import xarray
 
-        return xarray.open_zarr(self._root.store, group=group, consolidated=False, chunks=None).load()
+        return xarray.open_zarr(
+            self._root.store, group=group, consolidated=False, chunks=None
+        ).load()
 
 
 def _slice(case: Case) -> slice:

@@ -1,0 +1,1 @@
+"""The full model: the elastic half-space under a rough indenter, with every interaction."""

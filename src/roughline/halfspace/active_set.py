@@ -174,17 +174,17 @@ def solve(
         pulling = pressure < 0
         overlapping = gap.ravel() < -residuals.gap * length_scale
         overlapping[nodes] = False
-        changes = np.count_nonzero(pulling) + np.count_nonzero(overlapping)
+        changes = int(np.count_nonzero(pulling) + np.count_nonzero(overlapping))
         waited = 0 if changes < fewest_changes else waited + 1
         fewest_changes = min(changes, fewest_changes)
 
         outcome = None
         if residuals.worst <= rtol and (not changes or waited > _PATIENCE):
             outcome = Outcome.CERTIFIED
-        elif not np.isfinite(residuals.worst) or (not changes and sharpness <= sharpest):
-            outcome = Outcome.STALLED
         elif convolutions >= max_iterations:
             outcome = Outcome.MAX_ITERATIONS
+        elif not np.isfinite(residuals.worst) or (not changes and sharpness <= sharpest):
+            outcome = Outcome.STALLED
         if outcome is not None:
             return Contact(
                 depth, force, pressure, displacement, gap, residuals, outcome, patch, convolutions
@@ -249,7 +249,7 @@ def _exchanged(
     overlapping: NDArray[np.bool_],
     separation: Field,
 ) -> tuple[Nodes, NDArray[np.float64]]:
-    """Drop the pulling nodes, add the overlapping ones; the highest point alone is left if none is."""
+    """Drop the pulling nodes and add the overlapping ones; the highest point stays if none does."""
     field = np.zeros(separation.size)
     field[nodes] = pressure
     in_contact = overlapping

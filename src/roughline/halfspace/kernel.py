@@ -35,7 +35,6 @@ def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> NDArray[np.float64
     """
     x, y = np.broadcast_arrays(np.abs(x).astype(np.float64), np.abs(y).astype(np.float64))
     distance = np.hypot(x, y) / max(dx, dy)
-    # a cell longer than wide is as far as its longer side: the closed form there holds longer
     result = np.empty(x.shape)
     near = distance < _GAUSS_FROM_DISTANCE[0][0]
     result[near] = _closed_form(x[near], y[near], dx, dy)

@@ -1,4 +1,4 @@
-"""The nodes in contact, the elastic equations on them and the conjugate gradients that solve them."""
+"""The nodes in contact, and the elastic equations on them by conjugate gradients."""
 
 from __future__ import annotations
 

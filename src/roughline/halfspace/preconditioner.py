@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline import fft
 from roughline.halfspace.loops import apply_stencil
 from roughline.halfspace.operator import Operator
 
@@ -56,9 +55,7 @@ class Stencil:
         return cls(offsets, np.where(centre, taps, around))
 
 
-def _even_sum(
-    quarter: NDArray[np.float64], periods: tuple[int, int]
-) -> NDArray[np.float64]:
+def _even_sum(quarter: NDArray[np.float64], periods: tuple[int, int]) -> NDArray[np.float64]:
     """Transform an even array given by its quarter; a short corner of the result is enough."""
     result = quarter
     for axis, period in enumerate(periods):

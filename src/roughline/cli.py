@@ -1,0 +1,175 @@
+"""The command line: parse, call one function, print."""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import replace
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from roughline._version import __version__
+from roughline.errors import ConvergenceError, RoughlineError
+
+app = typer.Typer(
+    name="roughline",
+    help="The contact laboratory for rough surfaces.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+
+class Scale(StrEnum):
+    """How large the paper's study is to be."""
+
+    quick = "quick"
+    full = "full"
+
+
+@app.callback()
+def _options(
+    version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
+) -> None:
+    if version:
+        typer.echo(f"roughline {__version__}")
+        raise typer.Exit
+
+
+@app.command()
+def paper(
+    scale: Annotated[
+        Scale, typer.Option(help="quick: minutes on two cores; full: the paper's sizes, days.")
+    ] = Scale.quick,
+    out: Annotated[Path, typer.Option(help="Folder for results and report.")] = Path(
+        "roughline-paper"
+    ),
+    seed: Annotated[int, typer.Option(min=0, help="Root of all random seeds.")] = 2012,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Processes [default: one for each core].")
+    ] = None,
+) -> None:
+    """Recompute the paper: both models, its figures, and a report with a verdict on each claim.
+
+    Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
+    """
+    from roughline.report.paper import recompute
+    from roughline.report.terminal import study_progress
+
+    try:
+        with study_progress() as progress:
+            page = recompute(scale.value, out, seed, workers, progress)
+    except KeyboardInterrupt:
+        typer.echo(f"interrupted; what is done is kept in {out}: run again to go on", err=True)
+        raise typer.Exit(130) from None
+    typer.echo(f"report: {page}")
+
+
+@app.command()
+def press(
+    file: Annotated[Path, typer.Argument(help="A topography: an instrument's file, or ours.")],
+    modulus: Annotated[str, typer.Option(help='Contact modulus E*, such as "110 GPa".')],
+    loads: Annotated[
+        int | None,
+        typer.Option(help="Number of loads from first touch to saturation [default: 20]."),
+    ] = None,
+    force: Annotated[
+        list[str] | None, typer.Option(help='A total force, such as "10 N"; may be repeated.')
+    ] = None,
+    depth: Annotated[
+        list[str] | None, typer.Option(help='A depth, such as "200 nm"; may be repeated.')
+    ] = None,
+    unit: Annotated[
+        str | None, typer.Option(help="Unit of the lengths in a file that states none.")
+    ] = None,
+    keep_tilt: Annotated[bool, typer.Option(help="Keep a measured surface's tilt.")] = False,
+    periodic: Annotated[bool, typer.Option(help="Repeat the surface periodically.")] = False,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the curve (NetCDF) and figures.")
+    ] = None,
+) -> None:
+    """Press a surface (full model) or a reduced line into an elastic half-space.
+
+    Prints depth, force, stiffness and real contact area in SI units. Depth counts from first
+    touch; force is the total force. The tilt of measured surfaces is removed.
+    """
+    from roughline.quantities import in_si
+    from roughline.report.pressed import press_file
+    from roughline.report.terminal import load_progress, print_pressed
+
+    with load_progress() as progress:
+        result = press_file(
+            file,
+            E_star=in_si(modulus, "Pa", "modulus"),
+            n_loads=20 if loads is None and not force and not depth else loads,
+            forces=[in_si(text, "N", "force") for text in force] if force else None,
+            depths=[in_si(text, "m", "depth") for text in depth] if depth else None,
+            unit=unit,
+            keep_tilt=keep_tilt,
+            periodic=periodic,
+            out=out,
+            progress=progress,
+        )
+    print_pressed(result)
+    if not result.curve.converged.all():
+        raise typer.Exit(1)
+
+
+@app.command()
+def generate(
+    out: Annotated[Path, typer.Option(help='File to write, ending in ".nc".')],
+    length: Annotated[str, typer.Option(help='Side of the surface, such as "1 mm".')],
+    rms_height: Annotated[str, typer.Option(help='Rms height, such as "1 um".')],
+    hurst: Annotated[float | None, typer.Option(help="Hurst exponent, 0 to 1.")] = None,
+    fractal_dimension: Annotated[
+        float | None, typer.Option(help="Fractal dimension, 2 to 3, instead.")
+    ] = None,
+    n: Annotated[int, typer.Option("-n", "--points", help="Points along a side.")] = 512,
+    seed: Annotated[int, typer.Option(min=0, help="Random seed.")] = 0,
+    line: Annotated[bool, typer.Option(help="The reduced line instead of the surface.")] = False,
+    roll_off: Annotated[
+        str | None, typer.Option(help='Wavelength above which the spectrum is flat: "0.2 mm".')
+    ] = None,
+    cutoff: Annotated[
+        str | None, typer.Option(help='Shortest wavelength, such as "5 um" [default: the grid].')
+    ] = None,
+    gaussian: Annotated[
+        bool, typer.Option(help="Gaussian amplitudes instead of random phases alone.")
+    ] = False,
+) -> None:
+    """Generate a random self-affine surface, or its reduced line, and write it to a file."""
+    from roughline.measured import write
+    from roughline.quantities import in_si
+    from roughline.report.terminal import print_generated
+    from roughline.spectra import SelfAffine
+
+    spectrum = SelfAffine(
+        hurst=hurst,
+        fractal_dimension=fractal_dimension,
+        length=in_si(length, "m", "length"),
+        rms_height=in_si(rms_height, "m", "rms-height"),
+        q_roll=2 * math.pi / in_si(roll_off, "m", "roll-off") if roll_off else None,
+        q_high=2 * math.pi / in_si(cutoff, "m", "cutoff") if cutoff else None,
+    )
+    make = spectrum.line if line else spectrum.surface
+    body = replace(make(n, seed, "gaussian" if gaussian else "fixed"), unit="m")
+    write(body, out)
+    print_generated(body, out)
+
+
+def main() -> None:
+    """Run the command line; errors are one line, exit code 2 for input and 1 for numerics."""
+    try:
+        app()
+    except ConvergenceError as error:
+        sys.exit(_say(error, 1))
+    except RoughlineError as error:
+        sys.exit(_say(error, 2))
+
+
+def _say(error: RoughlineError, code: int) -> int:
+    typer.echo(f"roughline: {error}", err=True)
+    return code

@@ -1,0 +1,320 @@
+"""The paper's figures, drawn from the results of a study."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from roughline import scaling
+from roughline.power_law import PowerLaw, linear_exponent, scaling_exponent
+from roughline.report.claims import (
+    WINDOW_AGREEMENT,
+    WINDOW_AREA,
+    WINDOW_FULL,
+    WINDOW_REDUCED,
+    DimensionSummary,
+    Window,
+)
+from roughline.report.style import COLUMN, MARKERS, PAGE, colours, new_figure
+
+if TYPE_CHECKING:
+    import xarray
+
+Real = NDArray[np.float64]
+
+_FORCE_LABEL = r"force $\bar F = F\,/\,(E^* h L)$"
+_SHADE: dict[str, Any] = {"color": "0.92", "zorder": -10, "linewidth": 0}
+
+
+def figure_1(gallery: xarray.Dataset) -> Figure:
+    """Rough line, surface, real contact area and deflection for four fractal dimensions."""
+    figure = new_figure(PAGE, 7.0)
+    rows = gallery.sizes["fractal_dimension"]
+    grid = figure.add_gridspec(rows, 4, width_ratios=[1.15, 1.25, 1, 1.2])
+    image: Any = {"extent": (0, 1, 0, 1), "origin": "lower", "interpolation": "nearest"}
+    deepest = float(gallery.displacement.max())
+    for row in range(rows):
+        body = gallery.isel(fractal_dimension=row)
+        line = figure.add_subplot(grid[row, 0])
+        position = np.arange(body.sizes["s"]) / body.sizes["s"]
+        line.plot(position, body.line_heights, color="k", linewidth=0.4)
+        line.set(xlim=(0, 1), ylim=(-3.6, 3.6), ylabel="height $z/h$")
+        letter = "abcdefgh"[row]
+        name = _as_fraction(float(body.fractal_dimension))
+        line.set_title(f"{letter})  $D_f$ = {name}", loc="left")
+        _draw_topography(figure.add_subplot(grid[row, 1], projection="3d"), body.heights.values)
+        contact = figure.add_subplot(grid[row, 2])
+        contact.imshow(body.contact.values.T, cmap="binary", **image)
+        fraction = float(body.contact.mean())
+        contact.set_title(f"contact {fraction:.1%}", fontsize=8)
+        deflection = figure.add_subplot(grid[row, 3])
+        shown = deflection.imshow(
+            body.displacement.values.T, cmap="cividis", vmin=0, vmax=deepest, **image
+        )
+        figure.colorbar(shown, ax=deflection, label="deflection $u/h$", shrink=0.85)
+        for axes in (contact, deflection):
+            axes.set(xticks=[0, 1], yticks=[0, 1])
+        contact.set_ylabel("$y/L$", labelpad=-6)
+        if row == rows - 1:
+            line.set_xlabel("$x/L$")
+            contact.set_xlabel("$x/L$")
+            deflection.set_xlabel("$x/L$")
+    return figure
+
+
+def figure_2(gallery: xarray.Dataset, fractal_dimension_index: int = 1) -> Figure:
+    """The indented line: springs in contact, and the force as the area above the level."""
+    figure = new_figure(COLUMN, 2.4)
+    axes = figure.add_subplot()
+    body = gallery.isel(fractal_dimension=fractal_dimension_index)
+    heights = body.line_heights.values
+    position = np.arange(heights.size) / heights.size
+    level = heights.max() - float(body.line_depth)
+    axes.plot(position, heights, color="0.35", linewidth=0.5, label="rough line")
+    axes.axhline(level, color="k", linewidth=0.8, linestyle="--", label="level $z = z_{max} - d$")
+    axes.fill_between(
+        position,
+        level,
+        heights,
+        where=heights > level,
+        color=colours(2)[1],
+        linewidth=0,
+        label=r"$F/E^*$ = shaded area",
+    )
+    ends = _runs(heights > level)
+    bottom = heights.min() - 1.2
+    for start, end in ends:
+        axes.plot(position[[start, end]], [bottom, bottom], color="k", linewidth=3)
+    axes.annotate(
+        "springs in contact: $k = E^*\\,\\sum L_i$",
+        (0.03, bottom + 0.3),
+        fontsize=7.5,
+        xycoords="data",
+    )
+    axes.set(xlabel="$x/L$", ylabel="height $z/h$", xlim=(0, 1))
+    axes.set_ylim(bottom - 0.25, heights.max() + 1.6)
+    axes.legend(loc="upper left", ncols=2)
+    return figure
+
+
+def figure_3(reduced: xarray.Dataset, dimensions: Real) -> Figure:
+    """Stiffness over force of the reduced model, k / (E* L)."""
+    chosen = reduced.sel(fractal_dimension=dimensions)
+    figure = _stiffness_figure(
+        chosen, 1.0, r"stiffness $\bar k_{1D} = k\,/\,(E^* L)$", WINDOW_REDUCED
+    )
+    figure.axes[0].axhline(1, color="0.4", linewidth=0.8, linestyle=":")
+    return figure
+
+
+def figure_4(full: xarray.Dataset) -> Figure:
+    """Stiffness over force of the full model, k / (1.1419 E* L)."""
+    label = r"stiffness $\bar k_{3D} = k\,/\,(1.1419\,E^* \sqrt{A_0})$"
+    figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, WINDOW_FULL)
+    exact = scaling.EXACT_PUNCH / scaling.PAPER_PUNCH
+    figure.axes[0].set_ylim(top=1.6)
+    figure.axes[0].axhline(exact, color="0.4", linewidth=0.8, linestyle=":")
+    figure.axes[0].annotate(
+        "exact square punch, $1.1523\\,E^* L$",
+        (full.force_bar.values[0], exact),
+        fontsize=7,
+        va="bottom",
+        ha="left",
+    )
+    return figure
+
+
+def figure_5(
+    laws_1d: list[PowerLaw], dimensions_1d: Real, summaries: list[DimensionSummary]
+) -> Figure:
+    """Exponent over fractal dimension: both models and the two predictions."""
+    figure = new_figure(COLUMN, 3.2)
+    axes = figure.add_subplot()
+    fine = np.linspace(2, 3, 101)
+    dark, light = colours(2)
+    axes.plot(fine, scaling_exponent(fine), "k--", linewidth=1, label=r"$1/(4 - D_f)$")
+    axes.plot(fine, linear_exponent(fine), "k:", linewidth=1.2, label=r"$0.2567\,D_f$")
+    intervals = np.array([law.exponent_interval for law in laws_1d]).T
+    axes.fill_between(dimensions_1d, *intervals, color=light, alpha=0.45, linewidth=0)
+    axes.plot(
+        dimensions_1d,
+        [law.exponent for law in laws_1d],
+        color=light,
+        label=f"1D, {_window(WINDOW_REDUCED)}",
+    )
+    alpha = np.array([s.full.exponent for s in summaries])
+    low, high = np.array([s.full.exponent_interval for s in summaries]).T
+    axes.errorbar(
+        [s.fractal_dimension for s in summaries],
+        alpha,
+        yerr=[alpha - low, high - alpha],
+        fmt="o",
+        color=dark,
+        capsize=2,
+        linewidth=1,
+        label=f"3D, {_window(WINDOW_FULL)}",
+    )
+    axes.set(xlabel="fractal dimension $D_f$", ylabel=r"exponent $\alpha$")
+    axes.set(xlim=(1.97, 3.03), ylim=(0.4, 1.02))
+    axes.legend(loc="upper left")
+    return figure
+
+
+def area_law(full: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
+    """Real contact area over force, scaled as in eq. 4, and kappa over fractal dimension."""
+    figure = new_figure(PAGE, 3.0)
+    left, right = figure.subplots(1, 2)
+    low, high = WINDOW_AREA
+    left.axvspan(low, high, **_SHADE)
+    dimensions = full.fractal_dimension.values
+    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+        one = full.sel(fractal_dimension=dimension)
+        area = np.nanmean(one.area_fraction.values, axis=0)
+        certain = one.resolved.values.all(axis=0)
+        force = one.force_bar.values
+        left.loglog(
+            force[certain], area[certain], color=colour, marker=marker, label=f"{dimension:.1f}"
+        )
+        left.loglog(force, area, color=colour, linewidth=0.7, linestyle="--")
+    left.set(xlabel=_FORCE_LABEL, ylabel="real contact area $A/A_0$")
+    _legend_dimensions(left, dimensions)
+    kappa = np.array([(s.kappa.value, s.kappa.low, s.kappa.high) for s in summaries])
+    right.errorbar(
+        [s.fractal_dimension for s in summaries],
+        kappa[:, 0],
+        yerr=[kappa[:, 0] - kappa[:, 1], kappa[:, 2] - kappa[:, 0]],
+        fmt="o",
+        color="k",
+        capsize=2,
+        label="this study, slope and area of the grid",
+    )
+    for value, name, style in (
+        (np.sqrt(2 * np.pi), "Bush, Gibson, Thomas", "--"),
+        (np.sqrt(8 / np.pi), "Persson", ":"),
+    ):
+        right.axhline(value, color="0.3", linewidth=1, linestyle=style, label=f"{name} {value:.2f}")
+    right.set(xlabel="fractal dimension $D_f$", ylabel=r"$\kappa = A\,E^* \nabla h\,/\,F$")
+    right.set_ylim(0, max(5.0, 1.1 * kappa.max()))
+    right.legend(loc="upper left")
+    return figure
+
+
+def models_compared(reduced: xarray.Dataset, full: xarray.Dataset) -> Figure:
+    """Raw stiffness of both models, and their ratio."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    dimensions = full.fractal_dimension.values
+    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+        one_1d, one_3d = (data.sel(fractal_dimension=dimension) for data in (reduced, full))
+        force = one_3d.force_bar.values
+        mean_1d = np.nanmean(one_1d.stiffness.values, axis=0)
+        mean_3d = np.nanmean(one_3d.stiffness.values, axis=0)
+        visible = one_1d.force_bar.values >= force[0]
+        certain = one_3d.resolved.values.all(axis=0)
+        left.loglog(one_1d.force_bar[visible], mean_1d[visible], color=colour, linewidth=1)
+        left.loglog(
+            force[certain],
+            mean_3d[certain],
+            color=colour,
+            marker=marker,
+            linestyle="",
+            label=f"{dimension:.1f}",
+        )
+        left.loglog(
+            force[~certain],
+            mean_3d[~certain],
+            color=colour,
+            marker=marker,
+            linestyle="",
+            fillstyle="none",
+        )
+        at_force = np.exp(np.interp(np.log(force), np.log(one_1d.force_bar), np.log(mean_1d)))
+        error = np.nanstd(one_3d.stiffness.values, axis=0, ddof=1) / np.sqrt(
+            one_3d.sizes["realisation"]
+        )
+        right.errorbar(
+            force[certain],
+            (mean_3d / at_force)[certain],
+            yerr=(error / at_force)[certain],
+            color=colour,
+            marker=marker,
+            linewidth=1,
+            elinewidth=0.6,
+        )
+    left.set(xlabel=_FORCE_LABEL, ylabel=r"raw stiffness $k\,/\,(E^* L)$")
+    left.annotate("lines 1D, marks 3D", (0.04, 0.92), xycoords="axes fraction", fontsize=7.5)
+    _legend_dimensions(left, dimensions)
+    right.axvspan(*WINDOW_AGREEMENT, **_SHADE)
+    right.axhline(1, color="k", linewidth=0.7)
+    right.axhline(scaling.EXACT_PUNCH, color="0.4", linewidth=0.8, linestyle=":")
+    right.set(xscale="log", xlabel=_FORCE_LABEL, ylabel="raw stiffness, 3D over 1D")
+    return figure
+
+
+def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Window) -> Figure:
+    """Mean stiffness with its standard error; open where the grid shows."""
+    figure = new_figure(COLUMN, 3.2)
+    axes = figure.add_subplot()
+    axes.axvspan(*window, **_SHADE)
+    dimensions = data.fractal_dimension.values
+    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+        one = data.sel(fractal_dimension=dimension)
+        stiffness = one.stiffness.values / punch
+        mean = np.nanmean(stiffness, axis=0)
+        error = np.nanstd(stiffness, axis=0, ddof=1) / np.sqrt(stiffness.shape[0])
+        force = one.force_bar.values
+        certain = one.resolved.values.all(axis=0)
+        every = max(1, force.size // 24)
+        axes.fill_between(force, mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
+        axes.loglog(
+            force[certain],
+            mean[certain],
+            color=colour,
+            marker=marker,
+            markevery=every,
+            label=f"{dimension:.1f}",
+        )
+        axes.loglog(force[~certain], mean[~certain], color=colour, linewidth=0.8, linestyle="--")
+    axes.set(xlabel=_FORCE_LABEL, ylabel=label)
+    _legend_dimensions(axes, dimensions)
+    return figure
+
+
+def _draw_topography(axes: Any, heights: Real) -> None:
+    step = max(1, heights.shape[0] // 128)
+    shown = heights[::step, ::step]
+    x, y = np.meshgrid(*(np.arange(n) / n for n in shown.shape), indexing="ij")
+    axes.plot_surface(
+        x, y, shown, cmap="cividis", rcount=128, ccount=128, linewidth=0, rasterized=True
+    )
+    axes.set_box_aspect((1, 1, 0.45), zoom=1.35)
+    axes.view_init(elev=38, azim=-60)
+    axes.set_zlim(-3.6, 3.6)
+    axes.set_axis_off()
+
+
+def _legend_dimensions(axes: Axes, dimensions: Real) -> None:
+    handles, labels = axes.get_legend_handles_labels()
+    wanted = {f"{dimension:.1f}" for dimension in dimensions}
+    kept = [(h, label) for h, label in zip(handles, labels, strict=True) if label in wanted]
+    axes.legend(*zip(*kept, strict=True), title="$D_f$", loc="lower right", ncols=2)
+
+
+def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First and last index of each run of true values."""
+    edges = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))
+    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
+    return list(zip(starts.tolist(), ends.tolist(), strict=True))
+
+
+def _as_fraction(value: float) -> str:
+    return {2 + 1 / 3: "7/3", 2 + 2 / 3: "8/3"}.get(value, f"{value:g}")
+
+
+def _window(window: Window) -> str:
+    low, high = (f"10^{{{np.log10(edge):.0f}}}" for edge in window)
+    return rf"$\bar F = {low}$ to ${high}$"

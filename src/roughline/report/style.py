@@ -1,0 +1,58 @@
+"""One look for all figures: journal sizes, colours and marks that survive grey print."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+COLUMN, PAGE = 3.5, 7.2
+"""Widths of one and two journal columns. [inch]"""
+
+MARKERS = "osD^vP"
+
+_RC: Any = {
+    "font.size": 9,
+    "font.family": "DejaVu Sans",
+    "mathtext.fontset": "dejavusans",
+    "axes.linewidth": 0.7,
+    "axes.grid": False,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.3,
+    "lines.markersize": 3.5,
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "pdf.fonttype": 42,
+    "savefig.dpi": 200,
+    "figure.constrained_layout.use": True,
+}
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Make an empty figure; every figure is drawn inside :func:`styled`."""
+    return Figure(figsize=(width, height))
+
+
+def styled() -> Any:
+    """Context in which figures are drawn and saved."""
+    return mpl.rc_context(_RC)
+
+
+def colours(count: int) -> list[tuple[float, float, float, float]]:
+    """Return colours that differ in lightness too (viridis, without its palest end)."""
+    ramp = mpl.colormaps["viridis"]
+    return [ramp(0.88 * i / max(count - 1, 1)) for i in range(count)]
+
+
+def save(figure: Figure, folder: Path, name: str) -> list[Path]:
+    """Write a figure as PNG and PDF; both are free of dates, so equal data give equal files."""
+    paths = [folder / f"{name}.png", folder / f"{name}.pdf"]
+    figure.savefig(paths[0], metadata={"Software": None})
+    figure.savefig(paths[1], metadata={"CreationDate": None, "Creator": None, "Producer": None})
+    return paths

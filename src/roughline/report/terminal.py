@@ -1,0 +1,111 @@
+"""What the terminal shows: progress with time left, and tables."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TaskID,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+from rich.table import Table
+
+from roughline.quantities import engineering
+from roughline.report.pressed import Pressed, curve_table
+from roughline.topography import Body, Surface
+
+_STAGES = {
+    "gallery": "surfaces to look at",
+    "reduced": "reduced model, lines",
+    "full": "full model, surfaces",
+}
+
+
+def _progress() -> Progress:
+    return Progress(
+        TextColumn("{task.description:<22}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+    )
+
+
+@contextmanager
+def study_progress() -> Iterator[Callable[[str, int, int], None]]:
+    """Show a bar for each stage of a study; gives the callback."""
+    with _progress() as bars:
+        tasks: dict[str, TaskID] = {}
+
+        def show(stage: str, done: int, total: int) -> None:
+            if stage not in tasks:
+                tasks[stage] = bars.add_task(_STAGES[stage], total=total)
+            bars.update(tasks[stage], completed=done)
+
+        yield show
+
+
+@contextmanager
+def load_progress() -> Iterator[Callable[[int, int], None]]:
+    """Show a bar over the loads of one body; gives the callback."""
+    with _progress() as bars:
+        task: TaskID | None = None
+
+        def show(done: int, total: int) -> None:
+            nonlocal task
+            if task is None:
+                task = bars.add_task("loads", total=total)
+            bars.update(task, completed=done)
+
+        yield show
+
+
+def print_pressed(pressed: Pressed) -> None:
+    """Print what was pressed, its curve and the files written."""
+    console = Console()
+    console.print(_described(pressed.body), highlight=False)
+    curve = pressed.curve
+    model = "reduced model, exact" if curve.area_fraction is None else "full model"
+    boundary = curve.settings.get("boundary")
+    where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
+    console.print(f"E* = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
+    header, rows = curve_table(curve)
+    table = Table(box=None, header_style="bold")
+    for name in header:
+        table.add_column(name, justify="right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    console.print(table)
+    if not curve.resolved[curve.converged].all():
+        console.print("* fewer than ten points in contact: the grid decides, not the surface")
+    for file in pressed.files:
+        console.print(f"wrote {file}", highlight=False, soft_wrap=True)
+
+
+def print_generated(body: Body, file: Path) -> None:
+    """Print what was generated and where it is."""
+    console = Console()
+    console.print(_described(body), highlight=False)
+    console.print(f"wrote {file}", highlight=False, soft_wrap=True)
+
+
+def _described(body: Body) -> str:
+    if isinstance(body, Surface):
+        points = f"surface of {body.shape[0]} x {body.shape[1]} points"
+        size = " x ".join(engineering(size, "m") for size in body.sizes)
+    else:
+        points = f"line of {body.heights.size} points"
+        size = engineering(body.length, "m")
+    tilt = ", tilt removed" if "detrended" in body.settings else ""
+    slope = f"rms slope {body.rms_slope:.3g}"
+    return f"{points}, {size}; rms height {engineering(body.rms_height, 'm')}, {slope}{tilt}"
