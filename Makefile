@@ -1,0 +1,35 @@
+# Everything needs Python 3.11 or newer, git and make; the environment is made in .venv.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+OUT ?= out/paper
+
+.PHONY: paper paper-full test check benchmark clean
+
+paper: $(VENV)/installed
+	$(BIN)/roughline paper --scale quick --out $(OUT)
+
+paper-full: $(VENV)/installed
+	$(BIN)/roughline paper --scale full --out out/paper-full
+
+test: $(VENV)/installed
+	$(BIN)/python -m pytest
+
+check: $(VENV)/installed
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+benchmark: $(VENV)/installed
+	$(BIN)/python benchmarks/measure.py
+
+$(VENV)/installed: pyproject.toml requirements.lock
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "roughline needs Python 3.11 or newer; set PYTHON=...")'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --editable .
+	touch $@
+
+clean:
+	rm -rf $(VENV) out build dist

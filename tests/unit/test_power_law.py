@@ -1,0 +1,87 @@
+"""Fits recover what was put in, and refuse what cannot be fitted."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.power_law import linear_exponent, scaling_exponent
+
+FORCE = np.geomspace(1e-5, 1, 51)
+
+
+def test_an_exact_power_law_is_recovered():
+    law = rl.fit_power_law(FORCE, 0.9 * FORCE**0.55, window=(1e-4, 1e-2))
+    assert law.exponent == pytest.approx(0.55, abs=1e-12)
+    assert law.prefactor == pytest.approx(0.9, rel=1e-12)
+    assert np.ptp(law.exponent_interval) < 1e-12
+    assert (law.window, law.points, law.realisations) == ((1e-4, 1e-2), 21, 1)
+    assert law(1e-3) == pytest.approx(0.9 * 1e-3**0.55)
+    assert law.interval_from == "regression"
+
+
+def test_only_the_window_counts_and_its_edges_belong_to_it():
+    broken = np.where(FORCE > 1.0001e-2, 7.0, 0.9 * FORCE**0.55)
+    assert rl.fit_power_law(FORCE, broken, (1e-4, 1e-2)).exponent == pytest.approx(0.55)
+    assert rl.fit_power_law(FORCE, broken, (1e-4, 2e-2)).exponent != pytest.approx(0.55, abs=0.01)
+
+
+@pytest.mark.parametrize("realisations", [1, 60])
+def test_intervals_cover_the_truth_at_their_level(realisations):
+    rng = np.random.default_rng(1)
+    trials, covered = 200, 0
+    force = np.geomspace(1e-2, 1e-1, 10)
+    for _ in range(trials):
+        if realisations == 1:
+            noise = np.exp(0.05 * rng.normal(size=force.size))
+        else:  # each realisation is off by a factor and a tilt of its own, as surfaces are
+            factor, tilt = rng.normal(size=(2, realisations, 1))
+            noise = 1 + 0.2 * factor + 0.1 * tilt * np.log(force / 0.03)
+        law = rl.fit_power_law(force, 0.8 * force**0.6 * noise, (1e-2, 1e-1))
+        covered += law.exponent_interval[0] <= 0.6 <= law.exponent_interval[1]
+    # 95 % of 200, less four standard errors of a binomial
+    assert 0.95 * trials - 4 * np.sqrt(0.05 * 0.95 * trials) <= covered
+
+
+def test_the_mean_at_fixed_force_is_fitted():
+    stiffness = np.array([1.0, 3.0])[:, None] * FORCE**0.5
+    law = rl.fit_power_law(FORCE, stiffness, (1e-4, 1e-2))
+    assert law.prefactor == pytest.approx(2.0)  # the geometric mean would give 1.73
+    assert law.realisations == 2
+    assert law.interval_from == "resampled realisations"
+
+
+def test_the_same_seed_gives_the_same_interval():
+    stiffness = np.random.default_rng(0).uniform(1, 2, (20, 1)) * FORCE**0.5
+    fits = [rl.fit_power_law(FORCE, stiffness, (1e-4, 1e-2), rng=seed) for seed in (3, 3, 4)]
+    assert fits[0] == fits[1]
+    assert fits[0].prefactor_interval != fits[2].prefactor_interval
+
+
+def test_predicted_exponents():
+    dimensions = np.array([2.0, 2.2, 2.4, 2.6, 2.8, 3.0])
+    assert scaling_exponent(dimensions).round(3).tolist() == [0.5, 0.556, 0.625, 0.714, 0.833, 1.0]
+    assert linear_exponent(dimensions).round(3).tolist() == [
+        0.513,
+        0.565,
+        0.616,
+        0.667,
+        0.719,
+        0.77,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "window", "message"),
+    [
+        (FORCE, (2.0, 3.0), "holds 0 loads; at least 3"),
+        (FORCE, (1e-2, 1e-3), "window is .0.01, 0.001.; two rising"),
+        (np.full(51, np.nan), (1e-4, 1e-2), "21 values of stiffness_bar in the window are not"),
+        (-FORCE, (1e-4, 1e-2), "are not positive"),
+        (FORCE[:-1], (1e-4, 1e-2), r"force_bar has shape \(51,\) and stiffness_bar \(50,\)"),
+    ],
+)
+def test_what_cannot_be_fitted_is_refused(stiffness, window, message):
+    with pytest.raises(rl.InputError, match=message):
+        rl.fit_power_law(FORCE, stiffness, window)
+    with pytest.raises(rl.InputError, match="confidence is 1.5"):
+        rl.fit_power_law(FORCE, FORCE, (1e-4, 1e-2), confidence=1.5)

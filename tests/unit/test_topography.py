@@ -1,0 +1,112 @@
+"""Surface and Line: what they hold, and what they refuse."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+
+
+def wave(nx=64, ny=48):
+    x, y = np.meshgrid(np.arange(nx) / nx, np.arange(ny) / ny, indexing="ij")
+    return np.cos(2 * np.pi * x) * np.cos(4 * np.pi * y)
+
+
+def test_sizes_and_spacing_belong_together():
+    surface = rl.Surface(wave(), sizes=(2.0, 3.0))
+    assert surface.shape == (64, 48)
+    assert surface.spacing == (2 / 64, 3 / 48)
+    assert (surface.area, surface.length) == (6.0, pytest.approx(np.sqrt(6)))
+    assert rl.Line([0.0, 1.0, 0.0, 1.0], length=2.0).spacing == 0.5
+
+
+def test_rms_quantities_converge_to_those_of_a_wave():
+    coarse, fine = (rl.Surface(wave(n, n), sizes=(1.0, 1.0)) for n in (128, 256))
+    q2 = 4 * np.pi**2 * (1 + 4)
+    for surface, tolerance in ((coarse, 0.02), (fine, 0.01)):  # the borders count for 1 / n
+        assert surface.rms_height == pytest.approx(0.5)
+        assert surface.rms_slope == pytest.approx(0.5 * np.sqrt(q2), rel=tolerance)
+        assert surface.rms_curvature == pytest.approx(0.25 * q2, rel=2 * tolerance)
+    line = rl.Line(np.cos(2 * np.pi * np.arange(4096) / 4096), length=1.0)
+    assert line.rms_slope == pytest.approx(2 * np.pi * np.sqrt(0.5), rel=1e-3)
+    assert line.rms_curvature == pytest.approx(4 * np.pi**2 * np.sqrt(0.5), rel=1e-3)
+
+
+@pytest.mark.parametrize("scale", [1e-150, 1e-12, 1e12, 1e149])
+def test_rms_quantities_neither_underflow_nor_overflow(scale):
+    reference, scaled = rl.Surface(wave(), (1, 1)), rl.Surface(wave() * scale, (1, 1))
+    for name in ("rms_height", "rms_slope", "rms_curvature"):
+        assert getattr(scaled, name) == pytest.approx(getattr(reference, name) * scale, rel=1e-12)
+
+
+def test_detrending_removes_mean_and_tilt_and_nothing_else():
+    x, y = np.meshgrid(np.arange(64), np.arange(48), indexing="ij")
+    flat = rl.Surface(wave(), (1, 1)).detrended()
+    tilted = rl.Surface(wave() + 5 + 0.3 * x - 0.2 * y, (1, 1)).detrended()
+    assert tilted.heights == pytest.approx(flat.heights, abs=1e-12)
+    assert tilted.settings["detrended"] == "tilt"
+    plane = np.stack([np.ones(x.size), x.ravel(), y.ravel()])
+    assert np.abs(plane @ tilted.heights.ravel()).max() < 1e-8
+    line = rl.Line(np.sin(np.arange(50.0)) + 3 * np.arange(50), 1.0).detrended()
+    assert abs(line.heights.sum()) < 1e-10
+    assert abs(line.heights @ np.arange(50.0)) < 1e-8
+
+
+def test_scaled_heights_say_so():
+    surface = rl.Surface(wave(), (1, 1)).scaled(3.0)
+    assert surface.heights == pytest.approx(3 * wave())
+    assert surface.settings["height_factor"] == 3.0
+
+
+def test_bodies_are_values():
+    heights = wave()
+    surface = rl.Surface(heights, (1, 1))
+    with pytest.raises(ValueError, match="read-only"):
+        surface.heights[0, 0] = 1
+    heights[0, 0] = 2.0  # the caller's array stays the caller's
+    with pytest.raises(AttributeError):
+        surface.sizes = (2.0, 2.0)
+    with pytest.raises(TypeError):
+        surface.settings["n"] = 1
+
+
+NAN, INF = wave(), wave()
+NAN[3, 4], INF[0, :2] = np.nan, -np.inf
+
+
+@pytest.mark.parametrize(
+    ("heights", "sizes", "message"),
+    [
+        (NAN, (1, 1), "1 of 3072 heights are NaN or infinite"),
+        (INF, (1, 1), "2 of 3072 heights are NaN or infinite"),
+        (np.ma.masked_greater(wave(), 0.5), (1, 1), "heights are masked"),
+        (wave()[0], (1, 1), "the heights have 1 dimensions; a Surface takes 2"),
+        (wave()[:1], (1, 1), "1 x 48 points; at least 2 x 2"),
+        (np.zeros((0, 0)), (1, 1), "0 x 0 points"),
+        (wave() + 1j, (1, 1), "not an array of real numbers"),
+        ([["a", "b"], ["c", "d"]], (1, 1), "not an array of real numbers"),
+        (wave() * 1e200, (1, 1), "heights reach 1e[+]200"),
+        (wave(), (1, 0), "sizes is .1, 0.; give two positive"),
+        (wave(), (1, -1), "sizes is .1, -1."),
+        (wave(), (1, np.nan), "sizes is .1, nan."),
+        (wave(), 1.0, "sizes is 1.0; give two"),
+        (wave(), (1, 2, 3), "sizes is .1, 2, 3."),
+    ],
+)
+def test_impossible_surfaces_are_refused(heights, sizes, message):
+    with pytest.raises(rl.InputError, match=message):
+        rl.Surface(heights, sizes)
+
+
+@pytest.mark.parametrize(
+    ("heights", "length", "kind", "message"),
+    [
+        ([1.0], 1.0, "reduced", "the line has 1 points; at least 2"),
+        (wave(), 1.0, "reduced", "the heights have 2 dimensions; a Line takes 1"),
+        ([0.0, np.nan], 1.0, "reduced", "1 of 2 heights are NaN"),
+        ([0.0, 1.0], 0.0, "reduced", "length is 0.0; give a positive number"),
+        ([0.0, 1.0], 1.0, "scan", "kind is 'scan'"),
+    ],
+)
+def test_impossible_lines_are_refused(heights, length, kind, message):
+    with pytest.raises(rl.InputError, match=message):
+        rl.Line(heights, length, kind=kind)
