@@ -59,9 +59,7 @@ def test_a_straight_cut_has_the_height_variance_and_half_the_slope_variance():
     assert slopes == pytest.approx(spectrum.moment(2) / 2, rel=1e-7)
 
 
-@pytest.mark.parametrize(
-    ("hurst", "ratio"), [(0.2, 1.254), (0.5, 1.571), (0.8, 1.839), (1.0, 2.0)]
-)
+@pytest.mark.parametrize(("hurst", "ratio"), [(0.2, 1.254), (0.5, 1.571), (0.8, 1.839), (1.0, 2.0)])
 def test_the_reduced_spectrum_exceeds_the_cut_by_a_gamma_ratio(hurst, ratio):
     spectrum = rl.SelfAffine(hurst=hurst, C_0=1.0)
     q = spectrum.q_low * np.array([1.5, 4.0, 90.0])

@@ -106,7 +106,9 @@ def test_the_same_seed_gives_the_same_bytes():
     for body in ("surface", "line"):
         make = getattr(by_rms(), body)
         assert make(33, 7).heights.tobytes() == make(33, np.int64(7)).heights.tobytes()
-        assert make(33, 7).heights.tobytes() == make(33, np.random.SeedSequence(7)).heights.tobytes()
+        assert (
+            make(33, 7).heights.tobytes() == make(33, np.random.SeedSequence(7)).heights.tobytes()
+        )
         assert make(33, 7).heights.tobytes() != make(33, 8).heights.tobytes()
 
 

@@ -1,0 +1,219 @@
+"""The command line as a new user meets it: real files, plain messages, exit codes."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import xarray
+from typer.testing import CliRunner
+
+import roughline as rl
+from roughline import cli
+
+
+def roughline(*arguments, timeout=120):
+    """Run the installed command in a process of its own."""
+    command = [sys.executable, "-c", "from roughline.cli import main; main()", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=timeout, check=False)
+
+
+@pytest.fixture
+def invoke(monkeypatch, capsys):
+    """Run the command in this process; returns exit code, output and errors."""
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["roughline", *map(str, arguments)])
+        with pytest.raises(SystemExit) as caught:
+            cli.main()
+        captured = capsys.readouterr()
+        return caught.value.code, captured.out, captured.err
+
+    return run
+
+
+@pytest.fixture
+def surface_file(tmp_path, invoke):
+    path = tmp_path / "surface.nc"
+    code, out, _ = invoke(
+        *("generate", "--hurst", 0.8, "--length", "1 mm", "--rms-height", "1 um"),
+        *("-n", 32, "--seed", 7, "--out", path),
+    )
+    assert code == 0
+    assert "surface of 32 x 32 points, 1 mm x 1 mm; rms height 1 µm" in out
+    return path
+
+
+def test_help_and_version():
+    done = roughline("--help")
+    assert done.returncode == 0
+    for command in ("paper", "press", "generate"):
+        assert command in done.stdout
+        assert roughline(command, "--help").returncode == 0
+    assert roughline("--version").stdout == f"roughline {rl.__version__}\n"
+
+
+def test_a_generated_surface_is_pressed(surface_file, invoke, tmp_path):
+    out_folder = tmp_path / "pressed"
+    code, out, _ = invoke(
+        "press", surface_file, "--modulus", "110 GPa", "--loads", 8, "--out", out_folder
+    )
+    assert code == 0
+    assert "E* = 110 GPa; full model, free half-space" in out
+    assert "tilt removed" not in out
+    for name in ("curve.nc", "curve.png", "curve.pdf", "contact.png", "contact.pdf"):
+        assert (out_folder / name).stat().st_size > 1000
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
+    curve = rl.press(spectrum.surface(32, 7), E_star=110e9, n_loads=8)
+    with xarray.open_dataset(out_folder / "curve.nc", engine="h5netcdf") as data:
+        assert data.stiffness.values == pytest.approx(curve.stiffness)
+        assert data.stiffness.attrs["units"] == "N/m"
+        assert data.attrs["body_file"] == "surface.nc"
+
+
+def test_a_generated_line_is_pressed(invoke, tmp_path):
+    path = tmp_path / "line.nc"
+    code, out, _ = invoke(
+        *("generate", "--fractal-dimension", 2.2, "--length", "1 mm", "--rms-height", "1 um"),
+        *("-n", 4096, "--line", "--out", path, "--roll-off", "0.2 mm", "--cutoff", "2 um"),
+    )
+    assert (code, "line of 4096 points, 1 mm" in out) == (0, True)
+    code, out, _ = invoke("press", path, "--modulus", "2 MPa", "--force", "1 uN", "--force", "1 mN")
+    assert code == 0
+    assert "reduced model, exact" in out
+    assert "contact area" not in out
+
+
+def test_the_table_is_in_si_units(surface_file, invoke):
+    code, out, _ = invoke("press", surface_file, "--modulus", "1 MPa", "--depth", "0.5 um")
+    assert code == 0
+    surface = rl.read(surface_file)
+    curve = rl.press(surface, E_star=1e6, depths=[0.5e-6])
+    row = next(line for line in out.splitlines() if line.strip().startswith("1"))
+    assert "500 nm" in row
+    assert f"{curve.stiffness[0]:.4g} N/m" in row
+    assert f"{curve.area_fraction[0]:.3%}" in row
+
+
+def test_the_first_real_surface(topographies, invoke, tmp_path):
+    code, out, _ = invoke(
+        *("press", topographies / "al3d-1.al3d", "--modulus", "110 GPa"),
+        *("--loads", 20, "--out", tmp_path / "al3d"),
+    )
+    assert code == 0
+    assert "200 x 296 points, 87.61 µm x 129.7 µm" in out
+    assert "tilt removed" in out.replace("\n", " ")
+    assert len([line for line in out.splitlines() if "N/m" in line]) == 20
+    assert (tmp_path / "al3d" / "curve.nc").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("press", "none.sur", "--modulus", "1 GPa"), "none.sur does not exist"),
+        (("press", "{file}", "--modulus", "110"), 'modulus is "110", without a unit'),
+        (("press", "{file}", "--modulus", "-1 GPa"), "E_star is -1000000000.0; a positive"),
+        (("press", "{file}", "--modulus", "nan GPa"), "E_star is nan"),
+        (("press", "{file}", "--modulus", "5 m"), "no quantity in Pa"),
+        (("press", "{file}", "--modulus", "1 GPa", "--loads", "1"), "n_loads is 1"),
+        (("press", "{file}", "--modulus", "1 GPa", "--force", "-1 N"), "negative"),
+        (("press", "{file}", "--modulus", "1 GPa", "--force", "0 N"), "touches nothing"),
+        (
+            ("press", "{file}", "--modulus", "1 GPa", "--force", "2 N", "--force", "1 N"),
+            "does not exceed",
+        ),
+        (
+            ("press", "{file}", "--modulus", "1 GPa", "--force", "2 N", "--depth", "1 um"),
+            "both depths and forces",
+        ),
+        (
+            ("press", "{file}", "--modulus", "1 GPa", "--periodic", "--depth", "1 mm"),
+            "beyond reach",
+        ),
+        (("press", "{file}", "--modulus", "1 GPa", "--unit", "um"), "leave unit = um out"),
+        (("press", "{file}", "--modulus", "1 GPa", "--out", "{file}/sub"), "cannot write to"),
+        (("press", "{text}", "--modulus", "1 GPa"), "of a type that is not known"),
+        (
+            ("generate", "--length", "1 mm", "--rms-height", "1 um", "--out", "x.nc"),
+            "neither of hurst and fractal_dimension",
+        ),
+        (
+            (
+                "generate",
+                "--hurst",
+                "2",
+                "--length",
+                "1 mm",
+                "--rms-height",
+                "1 um",
+                "--out",
+                "x.nc",
+            ),
+            "hurst is 2.0; allowed is 0 to 1",
+        ),
+        (
+            ("generate", "--hurst", "1", "--length", "1", "--rms-height", "1 um", "--out", "x.nc"),
+            "without a unit",
+        ),
+        (
+            (
+                "generate",
+                "--hurst",
+                "1",
+                "--length",
+                "1 m",
+                "--rms-height",
+                "1 m",
+                "--out",
+                "x.txt",
+            ),
+            'does not end in ".nc"',
+        ),
+        (("paper", "--out", "{file}"), "cannot keep results in"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_2(surface_file, tmp_path, invoke, arguments, message):
+    text = tmp_path / "notes.txt"
+    text.write_text("no topography")
+    filled = [argument.format(file=surface_file, text=text) for argument in arguments]
+    code, _, errors = invoke(*filled)
+    assert code == 2
+    assert message in errors
+    lines = [line for line in errors.splitlines() if line.startswith("roughline:")]
+    assert len(lines) == 1
+    assert "Traceback" not in errors
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["presss"],
+        ["press"],
+        ["press", "x", "--modulus"],
+        ["paper", "--scale", "huge"],
+        ["generate"],
+    ],
+)
+def test_a_wrong_call_is_exit_2(arguments):
+    assert CliRunner().invoke(cli.app, arguments).exit_code == 2
+
+
+def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch):
+    import roughline.report.pressed as pressed
+
+    original = pressed.press
+    monkeypatch.setattr(pressed, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
+    code, out, _ = invoke("press", surface_file, "--modulus", "1 GPa", "--loads", 6)
+    assert code == 1
+    assert "max_iterations reached" in " ".join(out.split())
+
+
+def test_figures_of_a_failed_load_show_the_others(surface_file, tmp_path):
+    from roughline.report.pressed import write_pressed
+
+    surface = rl.read(surface_file)
+    curve = rl.press(surface, E_star=1e9, n_loads=6, fields=True, max_iterations=12, throw=False)
+    assert not curve.converged.all()
+    files = write_pressed(surface, curve, tmp_path / "figures")
+    assert all(file.stat().st_size > 0 for file in files)
+    assert np.isfinite(curve.stiffness).any()

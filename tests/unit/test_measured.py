@@ -1,0 +1,158 @@
+"""Files in and out: metres always, one clear line otherwise."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.measured import levelled
+from roughline.quantities import engineering, in_si, metres_per
+
+SPECTRUM = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
+
+
+def write_with_the_library(path, heights, sizes, unit):
+    """Write a topography through SurfaceTopography's own NetCDF writer."""
+    from SurfaceTopography import Topography
+
+    Topography(heights, sizes, unit=unit).to_netcdf(str(path))
+
+
+@pytest.mark.parametrize(("unit", "metres"), [("m", 1.0), ("mm", 1e-3), ("µm", 1e-6), ("nm", 1e-9)])
+def test_a_surface_is_the_same_in_every_unit(tmp_path, unit, metres):
+    surface = SPECTRUM.surface(24, 7)
+    path = tmp_path / "map.nc"
+    write_with_the_library(path, surface.heights / metres, (1e-3 / metres, 1e-3 / metres), unit)
+    found = rl.read(path)
+    assert found.unit == "m"
+    assert found.sizes == pytest.approx((1e-3, 1e-3), rel=1e-7)  # the writer keeps them in float32
+    assert found.heights == pytest.approx(surface.heights, rel=1e-9, abs=1e-18)
+
+
+@pytest.mark.parametrize("body", ["surface", "line"])
+def test_what_is_written_is_read_back(tmp_path, body):
+    original = replace(getattr(SPECTRUM, body)(64, 7), unit="m")
+    path = tmp_path / "body.nc"
+    rl.write(original, path)
+    found = rl.read(str(path))
+    assert type(found) is type(original)
+    assert found.heights.tobytes() == original.heights.tobytes()
+    assert found.spacing == original.spacing
+    assert found.settings["seed"] == original.settings["seed"]
+    assert levelled(found) is found  # a synthetic body keeps its tilt
+    rl.write(found, path)  # over itself
+
+
+def test_a_file_without_unit_is_refused_until_one_is_given(tmp_path):
+    path = tmp_path / "body.nc"
+    rl.write(SPECTRUM.surface(16, 7), path)
+    with pytest.raises(rl.UnitError, match="body.nc states no unit; say which"):
+        rl.read(path)
+    found = rl.read(path, unit="mm")
+    assert found.sizes == pytest.approx((1e-6, 1e-6))
+    with pytest.raises(rl.UnitError, match='unit is "1 parsnip"'):
+        rl.read(path, unit="parsnip")
+    rl.write(found, path)
+    with pytest.raises(rl.UnitError, match="states its unit, m; leave unit = nm out"):
+        rl.read(path, unit="nm")
+
+
+def test_a_text_scan_without_unit_is_refused_until_one_is_given(tmp_path):
+    path = tmp_path / "scan.txt"
+    x = np.linspace(0, 10, 50) ** 1.1
+    np.savetxt(path, np.stack([x, np.sin(x)], axis=1))
+    with pytest.raises(rl.UnitError, match="states no unit"):
+        rl.read(path)
+    line = rl.read(path, unit="um")
+    assert (line.kind, line.unit) == ("profile", "m")
+    assert line.length == pytest.approx((x[-1] - x[0]) * 1e-6, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [("notes.txt", "no numbers here"), ("empty.al3d", ""), ("noise.opd", "\x01\x02" * 500)],
+)
+def test_unknown_and_damaged_files_get_one_line(tmp_path, name, content):
+    path = tmp_path / name
+    path.write_text(content)
+    with pytest.raises(rl.InputError, match=name) as caught:
+        rl.read(path)
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 250
+
+
+def test_missing_files_and_folders_are_named(tmp_path):
+    with pytest.raises(rl.InputError, match="does not exist; give a file"):
+        rl.read(tmp_path / "none.sur")
+    with pytest.raises(rl.InputError, match="is a folder"):
+        rl.read(tmp_path)
+    surface = SPECTRUM.surface(8, 1)
+    with pytest.raises(rl.InputError, match='does not end in ".nc"'):
+        rl.write(surface, tmp_path / "surface.txt")
+    with pytest.raises(rl.StoreError, match="cannot write"):
+        rl.write(surface, tmp_path / "none" / "surface.nc")
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "points", "size"),
+    [
+        ("al3d-1.al3d", "surface", 200 * 296, 87.6054e-6),
+        ("di-1.di", "surface", 512 * 512, 500e-9),
+        ("dektak-1.csv", "profile", 9600, 1499.8e-6),
+        ("mitutoyo_mock.xlsx", "profile", 960, 480e-6),
+    ],
+)
+def test_real_files_open_in_metres(topographies, name, kind, points, size):
+    body = rl.read(topographies / name)
+    assert body.unit == "m"
+    assert body.heights.size == points
+    assert (body.sizes[0] if kind == "surface" else body.length) == pytest.approx(size)
+    assert kind == ("surface" if isinstance(body, rl.Surface) else body.kind)
+    assert levelled(body).rms_height < body.rms_height
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("opd-1.opd", "116 missing points of 307200"),
+        ("sur-3.sur", "233009 missing points of 262144"),
+        ("xy-1.txt", "states no unit"),
+        ("di_corrupted.di", "di_corrupted.di is damaged or of a type that is not known"),
+    ],
+)
+def test_real_files_that_cannot_be_used_say_why(topographies, name, message):
+    with pytest.raises(rl.InputError, match=message):
+        rl.read(topographies / name)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("110 GPa", "Pa", 110e9),
+        ("110GPa", "Pa", 110e9),
+        ("0.5 mm", "m", 5e-4),
+        ("2 µm", "m", 2e-6),
+        ("2um", "m", 2e-6),
+        ("1e3 N/mm^2", "Pa", 1e9),
+        ("2 kN", "N", 2000.0),
+        ("-3 N", "N", -3.0),
+    ],
+)
+def test_quantities_become_si(text, unit, value):
+    assert in_si(text, unit, "it") == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    "text", ["5 N", "abc", "", "GPa", "5 GPa 3", "9**9**9 Pa", "1/0 Pa", "5 GPaa", "5 Pa*" * 50]
+)
+def test_senseless_quantities_are_refused(text):
+    with pytest.raises(rl.UnitError, match="modulus is .* such as"):
+        in_si(text, "Pa", "modulus")
+    with pytest.raises(rl.UnitError, match="without a unit; give one"):
+        in_si("5", "Pa", "modulus")
+
+
+def test_units_are_written_with_prefixes():
+    assert engineering(1.2344e-6, "m") == "1.234 µm"
+    assert metres_per("um") == metres_per("µm") == pytest.approx(1e-6)
