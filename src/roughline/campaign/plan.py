@@ -134,7 +134,7 @@ def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
         model="full",
         fractal_dimensions=PAPER_DIMENSIONS,
         n=256 if quick else 2048,
-        realisations=12 if quick else 60,
+        realisations=10 if quick else 60,
         force_bars=_decades(1e-3, 1e1, per_decade=6),
         seed=seed,
         batch=1,

@@ -1,0 +1,81 @@
+"""The half-space's kernel and convolution against high precision and dense matrices."""
+
+import mpmath
+import numpy as np
+import pytest
+
+from roughline.halfspace import operator as operators
+from roughline.halfspace.kernel import love
+
+KERNEL = 3e-14  # relative; the elongated cells are the worst
+
+
+def love_to_50_digits(x, y, dx, dy):
+    with mpmath.workdps(50):
+        x, y, dx, dy = map(mpmath.mpf, (x, y, dx, dy))
+
+        def corner(a, b):
+            if a == 0 or b == 0:
+                return mpmath.mpf(0)
+            return a * mpmath.asinh(b / abs(a)) + b * mpmath.asinh(a / abs(b))
+
+        right, left, top, bottom = x + dx / 2, x - dx / 2, y + dy / 2, y - dy / 2
+        total = corner(right, top) - corner(left, top) - corner(right, bottom)
+        return float((total + corner(left, bottom)) / mpmath.pi)
+
+
+@pytest.mark.parametrize(
+    ("dx", "dy"), [(1.0, 1.0), (1.0, 0.1), (0.1, 1.0), (1e-9, 3e-9), (1e6, 2e6)]
+)
+def test_the_kernel_is_exact_from_0_to_16384_cells(dx, dy):
+    rng = np.random.default_rng(0)
+    near = [(i, j) for i in range(8) for j in range(8)]
+    far = (2 ** rng.uniform(0, 14, size=(300, 2))).astype(int).tolist()
+    edges = [(0, 16384), (16384, 0), (16384, 16384), (3, 16), (16, 3), (64, 1), (1, 64), (0, 65)]
+    for i, j in [*near, *far, *edges]:
+        expected = love_to_50_digits(i * dx, j * dy, dx, dy)
+        assert love(i * dx, j * dy, dx, dy) == pytest.approx(expected, rel=KERNEL)
+
+
+def test_the_kernel_is_even_and_swaps_with_its_axes():
+    x, y = np.array([0.0, 1.0, 5.0, 40.0, 500.0]), np.array([2.0, 0.0, 7.0, 3.0, 90.0])
+    assert (love(x, y, 1.0, 2.0) == love(-x, y, 1.0, 2.0)).all()
+    assert (love(x, y, 1.0, 2.0) == love(x, -y, 1.0, 2.0)).all()
+    assert love(x, y, 1.0, 2.0) == pytest.approx(love(y, x, 2.0, 1.0), rel=1e-14)
+
+
+@pytest.mark.parametrize("shape", [(2, 2), (7, 9), (16, 16), (5, 12), (13, 2), (31, 17)])
+@pytest.mark.parametrize("spacing", [(0.3, 0.7), (1.0, 0.1)])
+def test_the_convolution_equals_the_dense_matrix(shape, spacing):
+    rng = np.random.default_rng(1)
+    x, y = (s * i.ravel() for s, i in zip(spacing, np.indices(shape), strict=True))
+    matrix = love(x[:, None] - x, y[:, None] - y, *spacing) / 2.0
+    operator = operators.free(shape, spacing, E_star=2.0)
+    pressure = rng.normal(size=shape)
+    expected = (matrix @ pressure.ravel()).reshape(shape)
+    found = operator.displacement(pressure)
+    assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
+    rows_in, rows_out = np.array([0, shape[0] - 1]), np.array([shape[0] // 2])
+    some = np.zeros(shape)
+    some[rows_in] = pressure[rows_in]
+    expected = (matrix @ some.ravel()).reshape(shape)[rows_out]
+    found = operator.convolve(pressure[rows_in], rows_in, rows_out)
+    assert np.abs(found - expected).max() < 1e-12 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("shape", [(2, 2), (7, 9), (8, 6), (5, 12)])
+def test_the_periodic_operator_is_the_fourier_sum(shape):
+    spacing = (0.3, 0.7)
+    pressure = np.random.default_rng(1).normal(size=shape)
+    q = [2 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(shape, spacing, strict=True)]
+    magnitude = np.hypot(q[0][:, None], q[1])
+    magnitude[0, 0] = np.inf
+    expected = np.fft.ifft2(2 / (2.0 * magnitude) * np.fft.fft2(pressure)).real
+    found = operators.periodic(shape, spacing, E_star=2.0).displacement(pressure)
+    assert np.abs(found - expected).max() < 1e-13 * np.abs(expected).max()
+    assert abs(found.mean()) < 1e-13 * np.abs(found).max()
+
+
+def test_the_spectrum_is_positive():
+    for shape, spacing in (((32, 32), (1.0, 1.0)), ((17, 40), (1.0, 0.1))):
+        assert operators.free(shape, spacing, 1.0).spectrum.min() > 0
