@@ -69,7 +69,9 @@ def oracle(boundary, heights, depth):
     R = cholesky(K + shift)
     pressure, _ = nnls(R, solve_triangular(R, depth - separation, trans="T"), maxiter=10**5)
     contact = pressure > 0
-    stiffness = cell_area * np.linalg.solve(K[np.ix_(contact, contact)], np.ones(contact.sum())).sum()
+    stiffness = (
+        cell_area * np.linalg.solve(K[np.ix_(contact, contact)], np.ones(contact.sum())).sum()
+    )
     return pressure.reshape(N, N), cell_area * pressure.sum(), stiffness
 
 

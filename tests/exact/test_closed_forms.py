@@ -64,7 +64,11 @@ def test_flat_punches():
     # with r = a sin(t) the pressure's root at the rim goes away
     total = quad(
         lambda t: (
-            2 * math.pi * 0.09 * math.sin(t) * math.cos(t)
+            2
+            * math.pi
+            * 0.09
+            * math.sin(t)
+            * math.cos(t)
             * float(punch.disc_pressure(5.0, 0.3, np.array(0.3 * math.sin(t))))
         ),
         0,

@@ -26,9 +26,7 @@ def pressed_to(heights, depth, size=(1.0, 1.0), **settings):
     return rl.press(rl.Surface(heights, size), E_star=1.0, depths=[depth], **settings)
 
 
-@pytest.mark.parametrize(
-    "n", [8, 16, 32, 64, 128, pytest.param(256, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize("n", [8, 16, 32, 64, 128, pytest.param(256, marks=pytest.mark.slow)])
 def test_square_punch_of_uniform_elements(n):
     table = {8: 1.10650, 16: 1.12863, 32: 1.14021, 64: 1.14617, 128: 1.14921, 256: 1.15074}
     curve = pressed_to(np.zeros((n, n)), 1.0)

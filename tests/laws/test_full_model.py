@@ -65,7 +65,9 @@ def test_mirrors_turns_and_shifts_of_the_datum_do_not_matter(surface, periodic):
     one = rl.press(surface, E_star=1.0, depths=depths, periodic=periodic)
     h = surface.heights
     for same in (h[::-1], h[:, ::-1], h.T, np.rot90(h), h + 5.0):
-        other = rl.press(rl.Surface(same, surface.sizes), E_star=1.0, depths=depths, periodic=periodic)
+        other = rl.press(
+            rl.Surface(same, surface.sizes), E_star=1.0, depths=depths, periodic=periodic
+        )
         assert other.force == pytest.approx(one.force, rel=10 * RTOL)
         assert other.stiffness == pytest.approx(one.stiffness, rel=1e-7)
         assert (other.area_fraction == one.area_fraction).all()
@@ -101,7 +103,9 @@ def test_stiffness_lies_between_the_secant_and_the_punch(surface):
 @given(surfaces(), boundaries)
 def test_the_tangent_is_the_centred_difference(surface, periodic):
     depths = reachable_depths(surface, 4)
-    tangent = rl.press(surface, E_star=1.0, depths=depths, periodic=periodic, fields=True, rtol=1e-9)
+    tangent = rl.press(
+        surface, E_star=1.0, depths=depths, periodic=periodic, fields=True, rtol=1e-9
+    )
     for i, depth in enumerate(depths):
         near = rl.press(
             surface,

@@ -29,8 +29,24 @@ _STAGES = {
 }
 
 
-def _progress() -> Progress:
-    return Progress(
+@contextmanager
+def study_progress() -> Iterator[Callable[[str, int, int], None]]:
+    """Show a bar for each stage of a study; gives the callback."""
+    with _bars() as show:
+        yield lambda stage, done, total: show(_STAGES[stage], done, total)
+
+
+@contextmanager
+def load_progress() -> Iterator[Callable[[int, int], None]]:
+    """Show a bar over the loads of one body; gives the callback."""
+    with _bars() as show:
+        yield lambda done, total: show("loads", done, total)
+
+
+@contextmanager
+def _bars() -> Iterator[Callable[[str, int, int], None]]:
+    """Bars by name, on standard error; nothing is drawn before the first is told of."""
+    progress = Progress(
         TextColumn("{task.description:<22}"),
         BarColumn(),
         MofNCompleteColumn(),
@@ -39,35 +55,20 @@ def _progress() -> Progress:
         TimeRemainingColumn(),
         console=Console(stderr=True),
     )
+    tasks: dict[str, TaskID] = {}
 
+    def show(name: str, done: int, total: int) -> None:
+        if not tasks:
+            progress.start()
+        if name not in tasks:
+            tasks[name] = progress.add_task(name, total=total)
+        progress.update(tasks[name], completed=done)
 
-@contextmanager
-def study_progress() -> Iterator[Callable[[str, int, int], None]]:
-    """Show a bar for each stage of a study; gives the callback."""
-    with _progress() as bars:
-        tasks: dict[str, TaskID] = {}
-
-        def show(stage: str, done: int, total: int) -> None:
-            if stage not in tasks:
-                tasks[stage] = bars.add_task(_STAGES[stage], total=total)
-            bars.update(tasks[stage], completed=done)
-
+    try:
         yield show
-
-
-@contextmanager
-def load_progress() -> Iterator[Callable[[int, int], None]]:
-    """Show a bar over the loads of one body; gives the callback."""
-    with _progress() as bars:
-        task: TaskID | None = None
-
-        def show(done: int, total: int) -> None:
-            nonlocal task
-            if task is None:
-                task = bars.add_task("loads", total=total)
-            bars.update(task, completed=done)
-
-        yield show
+    finally:
+        if tasks:
+            progress.stop()
 
 
 def print_pressed(pressed: Pressed) -> None:
