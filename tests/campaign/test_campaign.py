@@ -239,3 +239,16 @@ def test_equal_results_give_equal_reports(report, finished, tmp_path):
     for name in ("report.html", "figures/figure_3.pdf", "figures/figure_1.png", "data/full.csv"):
         assert (tmp_path / name).read_bytes() == (report.parent / name).read_bytes()
     assert again.name == "report.html"
+
+
+def test_a_worker_that_dies_is_said_and_nothing_is_lost(finished, tmp_path, monkeypatch):
+    import roughline.campaign.run as campaign_run
+
+    plan, _ = finished
+    again = Store(tmp_path / "store", plan)
+    first = plan.reduced.cases()[0]
+    again.put(first, evaluate(first))
+    monkeypatch.setattr(campaign_run, "evaluate", os._exit)  # takes the process with it
+    with pytest.raises(rl.RoughlineError, match="a worker process died"):
+        run(plan, again, workers=1)
+    assert first not in again.missing(plan.reduced)

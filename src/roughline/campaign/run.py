@@ -6,6 +6,7 @@ import multiprocessing
 import signal
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from roughline.campaign.plan import Case, Gallery, Plan
 from roughline.campaign.store import Store
 from roughline.contact import press
 from roughline.curve import Curve
+from roughline.errors import RoughlineError
 from roughline.spectra import SelfAffine
 
 Progress = Callable[[str, int, int], None]
@@ -90,19 +92,30 @@ def evaluate(case: Case) -> Results:
 
 def _run_cases(cases: list[Case], total: int, store: Store, workers: int, report: Progress) -> None:
     context = multiprocessing.get_context("spawn")
+    not_ours = set(multiprocessing.active_children())
     done = total - len(cases)
-    with ProcessPoolExecutor(workers, context, initializer=_start_worker) as pool:
+    pool = ProcessPoolExecutor(workers, context, initializer=_start_worker)
+    try:
         pending: dict[Future[Results], Case] = {pool.submit(evaluate, case): case for case in cases}
-        try:
-            while pending:
-                finished, _ = wait(pending, return_when=FIRST_COMPLETED)
-                for future in finished:
-                    case = pending.pop(future)
-                    store.put(case, future.result())
-                    done += 1
-                    report(case.ensemble.model, done, total)
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+        while pending:
+            finished, _ = wait(pending, return_when=FIRST_COMPLETED)
+            for future in finished:
+                case = pending.pop(future)
+                store.put(case, future.result())
+                done += 1
+                report(case.ensemble.model, done, total)
+    except BaseException as error:
+        pool.shutdown(wait=False, cancel_futures=True)
+        # a batch may take minutes: whoever interrupts is not made to wait for it
+        for process in set(multiprocessing.active_children()) - not_ours:
+            process.terminate()
+        if isinstance(error, BrokenProcessPool):
+            raise RoughlineError(
+                "a worker process died, perhaps for want of memory; what is done is kept: run "
+                "again, with fewer workers"
+            ) from error
+        raise
+    pool.shutdown()
 
 
 def _start_worker() -> None:
