@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,20 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 from roughline._version import __version__
 from roughline.curve import RESOLVED_FROM, Curve, Fields, Status
 from roughline.errors import ConvergenceError, InputError
+from roughline.loads import Loads, Wish, line_loads, surface_loads
 from roughline.reduction import Springs
 from roughline.topography import Body, Line, Surface
 
 Real = NDArray[np.float64]
-
-_SATURATED_FORCE_BAR = 3.0  # k is within 5 % of the punch there, for every fractal dimension
-
-
-@dataclass(frozen=True, eq=False)
-class _Loads:
-    """Checked loads: depths or forces, rising."""
-
-    control: str
-    values: Real
 
 
 def press(
@@ -94,13 +84,13 @@ def press(
                 "periodic and fields belong to the full model; the reduced model of a Line has "
                 "no boundary and no fields: leave them out, or press a Surface"
             )
-        return _press_line(body, E_star, depths, forces, n_loads)
+        return _press_line(body, E_star, Wish(depths, forces, n_loads))
     if not isinstance(body, Surface):
         raise InputError(
             f"body is a {type(body).__name__}; a Surface or a Line is needed: wrap heights as "
             "Surface(heights, sizes=(Lx, Ly)) or Line(heights, length=L)"
         )
-    loads = _surface_loads(body, E_star, depths, forces, n_loads, periodic)
+    loads = surface_loads(body, E_star, Wish(depths, forces, n_loads), periodic)
     settings = {
         "roughline_version": __version__,
         "model": "full",
@@ -117,13 +107,7 @@ def press(
     return curve
 
 
-def _press_line(
-    line: Line,
-    E_star: float,
-    depths: ArrayLike | None,
-    forces: ArrayLike | None,
-    n_loads: int | None,
-) -> Curve:
+def _press_line(line: Line, E_star: float, wish: Wish) -> Curve:
     if line.kind == "profile":
         raise InputError(
             "this line is a measured profile, a straight cut, and not the reduced line of its "
@@ -131,26 +115,13 @@ def _press_line(
             "reduced line from its spectrum with SelfAffine(...).line(n)"
         )
     springs = Springs.under(line.heights, line.spacing, E_star)
-    if n_loads is None:
-        loads = _given_loads(depths, forces)
-    else:
-        _refuse_constant(line, n_loads)
-        few = min(RESOLVED_FROM, line.heights.size - 1)
-        positive = springs.touch_forces[springs.touch_forces > 0]
-        lowest = max(springs.touch_forces[few], positive[0])
-        loads = _spaced_loads(depths, forces, n_loads, lowest, springs.touch_forces[-1])
+    loads = line_loads(line, springs, wish)
     if loads.control == "forces":
-        force, depth, count = (
-            loads.values,
-            springs.depth(loads.values),
-            springs.count_under(loads.values),
-        )
+        force, depth = loads.values, springs.depth(loads.values)
+        count = springs.count_under(force)
     else:
-        force, depth, count = (
-            springs.force(loads.values),
-            loads.values,
-            springs.count_at(loads.values),
-        )
+        force, depth = springs.force(loads.values), loads.values
+        count = springs.count_at(depth)
     return Curve(
         depth=depth,
         force=force,
@@ -175,7 +146,7 @@ def _press_line(
 def _press_surface(
     surface: Surface,
     E_star: float,
-    loads: _Loads,
+    loads: Loads,
     periodic: bool,
     keep_fields: bool,
     rtol: float,
@@ -258,93 +229,6 @@ def _press_surface(
         settings={**settings, **_of_body(surface)},
         fields=tuple(all_fields),
     )
-
-
-def _surface_loads(
-    surface: Surface,
-    E_star: float,
-    depths: ArrayLike | None,
-    forces: ArrayLike | None,
-    n_loads: int | None,
-    periodic: bool,
-) -> _Loads:
-    if n_loads is None:
-        loads = _given_loads(depths, forces)
-        if periodic and loads.control == "depths":
-            deepest = float(np.mean(surface.heights.max() - surface.heights))
-            if not loads.values[-1] < deepest:
-                raise InputError(
-                    f"depth {loads.values[-1]:g} is beyond reach: the periodic half-space is in "
-                    f"full contact at {deepest:g}, whatever the force; give smaller depths, or "
-                    "forces"
-                )
-        return loads
-    _refuse_constant(surface, n_loads)
-    if periodic:
-        # Persson: 95 % contact at a mean pressure of E* times the rms slope
-        highest = E_star * surface.rms_slope * surface.area
-    else:
-        highest = _SATURATED_FORCE_BAR * E_star * surface.rms_height * surface.length
-    separation = np.sort(surface.heights.max() - surface.heights, axis=None)
-    few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
-    radius = np.sqrt(few * surface.spacing[0] * surface.spacing[1] / np.pi)
-    lowest = highest * 1e-3
-    if few < separation.size:
-        lowest = min(lowest, 2 * E_star * radius * separation[few])
-    return _spaced_loads(depths, forces, n_loads, lowest, highest)
-
-
-def _given_loads(depths: ArrayLike | None, forces: ArrayLike | None) -> _Loads:
-    if (depths is None) == (forces is None):
-        given = "no loads" if depths is None else "both depths and forces"
-        raise InputError(f"{given} given; give one of depths, forces and n_loads")
-    control = "forces" if depths is None else "depths"
-    try:
-        values = np.atleast_1d(np.asarray(forces if depths is None else depths, np.float64))
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{control} are not numbers ({error})") from error
-    if values.ndim != 1 or values.size == 0:
-        raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")
-    for wrong, what in (
-        (~np.isfinite(values), "not finite"),
-        (values < 0, "negative: compression counts positive"),
-        (values == 0, "zero: it touches nothing"),
-    ):
-        if wrong.any():
-            raise InputError(
-                f"{control}[{wrong.argmax()}] is {values[wrong][0]}, {what}; give positive, "
-                "rising numbers"
-            )
-    falling = np.diff(values) <= 0
-    if falling.any():
-        i = int(falling.argmax())
-        raise InputError(
-            f"{control}[{i + 1}] = {values[i + 1]:g} does not exceed {control}[{i}] = "
-            f"{values[i]:g}; sort them and give each once"
-        )
-    return _Loads(control, values)
-
-
-def _spaced_loads(
-    depths: ArrayLike | None,
-    forces: ArrayLike | None,
-    n_loads: int,
-    lowest: float,
-    highest: float,
-) -> _Loads:
-    if depths is not None or forces is not None:
-        raise InputError("n_loads given beside depths or forces; give one of the three")
-    if not isinstance(n_loads, int | np.integer) or n_loads < 2:
-        raise InputError(f"n_loads is {n_loads!r}; a whole number of at least 2 is needed")
-    return _Loads("forces", np.geomspace(lowest, highest, int(n_loads)))
-
-
-def _refuse_constant(body: Body, n_loads: int) -> None:
-    if body.rms_height == 0:
-        raise InputError(
-            f"all heights are {body.heights.flat[0]:g}: a flat punch has no range of loads from "
-            f"which to choose n_loads = {n_loads}; give depths or forces"
-        )
 
 
 def _check_number(name: str, value: float, low: float, high: float, allowed: str) -> None:

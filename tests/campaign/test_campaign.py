@@ -1,6 +1,7 @@
 """Ensembles: the same bytes whatever happens on the way, and nothing lost."""
 
 import json
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -241,14 +242,18 @@ def test_equal_results_give_equal_reports(report, finished, tmp_path):
     assert again.name == "report.html"
 
 
-def test_a_worker_that_dies_is_said_and_nothing_is_lost(finished, tmp_path, monkeypatch):
-    import roughline.campaign.run as campaign_run
-
-    plan, _ = finished
+def test_a_worker_that_dies_is_said_and_nothing_is_lost(finished, tmp_path):
+    plan, store = finished
     again = Store(tmp_path / "store", plan)
-    first = plan.reduced.cases()[0]
-    again.put(first, evaluate(first))
-    monkeypatch.setattr(campaign_run, "evaluate", os._exit)  # takes the process with it
+
+    def kill_at_once(stage, done, total):
+        if (stage, done) == ("full", 1):
+            for process in multiprocessing.active_children():
+                process.kill()
+
     with pytest.raises(rl.RoughlineError, match="a worker process died"):
-        run(plan, again, workers=1)
-    assert first not in again.missing(plan.reduced)
+        run(plan, again, workers=1, progress=kill_at_once)
+    assert again.missing(plan.reduced) == []
+    assert 0 < len(again.missing(plan.full)) < len(plan.full.cases())
+    run(plan, again, workers=1)
+    assert everything(again) == everything(store)
