@@ -177,8 +177,8 @@ def test_the_full_scale_is_the_papers():
 
 
 def test_a_load_that_fails_is_kept_as_missing_and_counted(finished, tmp_path):
-    from roughline.report.claims import summarise
     from roughline.report.paper import write_report
+    from roughline.report.summary import summarise
 
     plan, _ = finished
     hurt = Store(tmp_path / "store", plan)

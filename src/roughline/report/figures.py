@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from roughline import scaling
 from roughline.power_law import PowerLaw, linear_exponent, scaling_exponent
-from roughline.report.claims import (
+from roughline.report.style import COLUMN, MARKERS, PAGE, colours, new_figure
+from roughline.report.summary import (
     WINDOW_AGREEMENT,
     WINDOW_AREA,
     WINDOW_FULL,
@@ -19,7 +20,6 @@ from roughline.report.claims import (
     DimensionSummary,
     Window,
 )
-from roughline.report.style import COLUMN, MARKERS, PAGE, colours, new_figure
 
 if TYPE_CHECKING:
     import xarray

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from roughline._version import __version__
@@ -14,21 +13,19 @@ from roughline.campaign.plan import Plan, Scale, paper_plan
 from roughline.campaign.run import Progress, run
 from roughline.campaign.store import Store
 from roughline.errors import StoreError
-from roughline.power_law import linear_exponent, scaling_exponent
 from roughline.report import figures
-from roughline.report.claims import (
-    OTHER_WINDOWS_REDUCED,
+from roughline.report.claims import Claim, judge
+from roughline.report.page import Picture, Section, Table, render
+from roughline.report.style import save, styled
+from roughline.report.summary import (
     WINDOW_AREA,
     WINDOW_FULL,
     WINDOW_REDUCED,
-    Claim,
     DimensionSummary,
     exponents,
-    judge,
     summarise,
 )
-from roughline.report.page import Picture, Section, Table, render
-from roughline.report.style import save, styled
+from roughline.report.tables import constant_table, exponent_table, write_data
 
 if TYPE_CHECKING:
     import xarray
@@ -158,7 +155,7 @@ def write_report(plan: Plan, store: Store, out: Path) -> Path:
             png, _ = save(draw(), out / "figures", file_name)
             name, caption = _CAPTIONS[file_name]
             pictures.append(Picture(png, name, caption.format(force_bar=plan.gallery.force_bar)))
-    _write_data(out / "data", reduced, full, gallery, summaries, claims)
+    write_data(out / "data", reduced, full, gallery, summaries, claims)
     page = out / "report.html"
     sections = _sections(plan, reduced, full, summaries, claims, pictures)
     lead = (
@@ -205,7 +202,7 @@ def _sections(
                 f"κ of eq. 4 from F̄ = {WINDOW_AREA[0]:.3g} to {WINDOW_AREA[1]:.3g}.",
                 _completeness(reduced, full, summaries),
             ],
-            tables=[_exponent_table(summaries), _constant_table(summaries)],
+            tables=[exponent_table(summaries), constant_table(summaries)],
         ),
         Section("Figures", pictures=pictures),
         Section(
@@ -240,51 +237,6 @@ def _completeness(
     )
 
 
-def _exponent_table(summaries: list[DimensionSummary]) -> Table:
-    header = (
-        "D_f",
-        "1/(4 - D_f)",
-        "0.2567 D_f",
-        "α 1D",
-        *(f"α 1D, {low:g} to {high:g}" for low, high in OTHER_WINDOWS_REDUCED),
-        "α 3D",
-        "3D loads under 10 cells",
-    )
-    rows = [
-        (
-            f"{s.fractal_dimension:.1f}",
-            f"{scaling_exponent(s.fractal_dimension):.3f}",
-            f"{linear_exponent(s.fractal_dimension):.3f}",
-            _with_interval(s.reduced.exponent, s.reduced.exponent_interval),
-            *(f"{law.exponent:.3f}" for law in s.reduced_elsewhere),
-            _with_interval(s.full.exponent, s.full.exponent_interval),
-            f"{s.unresolved:.0%}",
-        )
-        for s in summaries
-    ]
-    return Table(header, rows, numbers=range(len(header)))
-
-
-def _constant_table(summaries: list[DimensionSummary]) -> Table:
-    header = ("D_f", "ζ 1D", "ζ 3D", "k 3D over 1D", "κ", "A ~ F^")
-    rows = [
-        (
-            f"{s.fractal_dimension:.1f}",
-            _with_interval(s.reduced.prefactor, s.reduced.prefactor_interval),
-            _with_interval(s.full.prefactor, s.full.prefactor_interval),
-            _with_interval(s.agreement.value, (s.agreement.low, s.agreement.high)),
-            _with_interval(s.kappa.value, (s.kappa.low, s.kappa.high)),
-            _with_interval(s.area_exponent.value, (s.area_exponent.low, s.area_exponent.high)),
-        )
-        for s in summaries
-    ]
-    return Table(header, rows, numbers=range(len(header)))
-
-
-def _with_interval(value: float, interval: tuple[float, float]) -> str:
-    return f"{value:.3f} ({interval[0]:.3f}-{interval[1]:.3f})"
-
-
 def _settings_table(plan: Plan) -> Table:
     rows = []
     for name, ensemble in (("reduced, 1D", plan.reduced), ("full, 3D", plan.full)):
@@ -303,38 +255,3 @@ def _settings_table(plan: Plan) -> Table:
         )
     header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")
     return Table(header, rows)
-
-
-def _write_data(
-    folder: Path,
-    reduced: xarray.Dataset,
-    full: xarray.Dataset,
-    gallery: xarray.Dataset,
-    summaries: list[DimensionSummary],
-    claims: list[Claim],
-) -> None:
-    import pandas as pd  # here because it loads slowly
-
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, data in (("reduced", reduced), ("full", full), ("gallery", gallery)):
-        data.to_netcdf(folder / f"{name}.nc", engine="h5netcdf")
-    for name, data in (("reduced", reduced), ("full", full)):
-        stiffness = data.stiffness
-        table = {
-            "stiffness_mean": stiffness.mean("realisation"),
-            "stiffness_standard_deviation": stiffness.std("realisation", ddof=1),
-            "depth_mean": data.depth.mean("realisation"),
-            "realisations_converged": np.isfinite(stiffness).sum("realisation"),
-            "realisations_resolved": data.resolved.sum("realisation"),
-        }
-        if "area_fraction" in data:
-            table["area_fraction_mean"] = data.area_fraction.mean("realisation")
-        frame = pd.DataFrame({key: value.to_series() for key, value in table.items()})
-        frame.to_csv(folder / f"{name}.csv")
-    for name, shown in (
-        ("exponents", _exponent_table(summaries)),
-        ("constants", _constant_table(summaries)),
-    ):
-        frame = pd.DataFrame(shown.rows, columns=list(shown.header))
-        frame.to_csv(folder / f"{name}.csv", index=False)
-    pd.DataFrame([vars(claim) for claim in claims]).to_csv(folder / "claims.csv", index=False)
