@@ -90,7 +90,7 @@ def press(
             f"body is a {type(body).__name__}; a Surface or a Line is needed: wrap heights as "
             "Surface(heights, sizes=(Lx, Ly)) or Line(heights, length=L)"
         )
-    loads = surface_loads(body, E_star, Wish(depths, forces, n_loads), periodic)
+    loads = surface_loads(body, E_star, Wish(depths, forces, n_loads), periodic, rtol)
     settings = {
         "roughline_version": __version__,
         "model": "full",

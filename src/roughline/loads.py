@@ -14,6 +14,8 @@ from roughline.reduction import Springs
 from roughline.topography import Body, Line, Surface
 
 _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
+_GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
+_SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
 _SMALLEST_SPAN = 1e-3  # of spaced forces, where few points leave less between touch and saturation
 
 
@@ -53,12 +55,15 @@ def line_loads(line: Line, springs: Springs, wish: Wish) -> Loads:
     return _spaced_loads(wish, float(lowest), float(touch_forces[-1]))
 
 
-def surface_loads(surface: Surface, E_star: float, wish: Wish, periodic: bool) -> Loads:
+def surface_loads(
+    surface: Surface, E_star: float, wish: Wish, periodic: bool, rtol: float
+) -> Loads:
     """Return the loads of a surface; spaced ones run from about ten cells to saturation."""
     if wish.n_loads is None:
         loads = _given_loads(wish)
         if periodic and loads.control == "depths":
             _refuse_beyond_full_contact(surface, loads.values[-1])
+        _refuse_beyond_precision(surface, E_star, loads, rtol)
         return loads
     _refuse_constant(surface, wish)
     if periodic:
@@ -132,4 +137,27 @@ def _refuse_beyond_full_contact(surface: Surface, depth: float) -> None:
         raise InputError(
             f"depth {depth:g} is beyond reach: the periodic half-space is in full contact at "
             f"{full_contact:g}, whatever the force; give smaller depths, or forces"
+        )
+
+
+def _refuse_beyond_precision(surface: Surface, E_star: float, loads: Loads, rtol: float) -> None:
+    """Refuse loads so large or small that gaps cannot be told to the tolerance."""
+    if surface.rms_height == 0:
+        return
+    unit = surface.rms_height
+    name = "rms heights"
+    if loads.control == "forces":
+        unit *= E_star * surface.length
+        name = "E* h L"
+    reach = loads.values / unit
+    if reach[-1] * _GAP_ROUNDING > rtol:
+        raise InputError(
+            f"{loads.control}[{reach.size - 1}] is {reach[-1]:.1g} {name}: so deep, double "
+            f"precision cannot tell gaps to rtol = {rtol:g}; give at most "
+            f"{rtol / _GAP_ROUNDING:.0g} {name}, or a larger rtol"
+        )
+    if reach[0] < _SMALLEST_REACH:
+        raise InputError(
+            f"{loads.control}[0] is {reach[0]:.1g} {name}, too small to be told from none; give "
+            f"at least {_SMALLEST_REACH:g} {name}"
         )

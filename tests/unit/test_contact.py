@@ -139,9 +139,28 @@ def test_what_does_not_converge_is_said(surface):
     assert (curve.residual[failed] > 1e-6).all()
 
 
-def test_a_tolerance_beyond_double_precision_is_not_claimed(surface):
-    curve = rl.press(surface, E_star=1.0, forces=[1e9], rtol=1e-12, throw=False)
+def test_a_tolerance_beyond_double_precision_is_not_claimed(surface, monkeypatch):
+    monkeypatch.setattr("roughline.loads._GAP_ROUNDING", 0.0)  # let it through to the solver
+    curve = rl.press(surface, E_star=1.0, forces=[1e7], rtol=1e-12, throw=False)
     assert curve.status[0] in (rl.Status.STALLED, rl.Status.MAX_ITERATIONS)
+    with pytest.raises(rl.ConvergenceError, match="stalled|max_iterations"):
+        rl.press(surface, E_star=1.0, forces=[1e7], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("loads", "message"),
+    [
+        ({"forces": [1e300]}, "forces[0] is 1e+300 E* h L: so deep, double precision cannot"),
+        ({"forces": [1.0, 1e10]}, "forces[1] is 1e+10 E* h L: so deep"),
+        ({"depths": [1e10]}, "depths[0] is 1e+10 rms heights: so deep"),
+        ({"forces": [1e-300]}, "forces[0] is 1e-300 E* h L, too small to be told from none"),
+        ({"depths": [1e-200, 1.0]}, "depths[0] is 1e-200 rms heights, too small"),
+    ],
+)
+def test_loads_beyond_double_precision_are_refused(surface, loads, message):
+    with pytest.raises(rl.InputError, match=re.escape(message)):
+        rl.press(surface, E_star=1.0, **loads)
+    assert rl.press(surface, E_star=1.0, forces=[1e-30, 1e8]).converged.all()
 
 
 def test_progress_is_told_after_each_load(surface):

@@ -12,6 +12,7 @@ from roughline.halfspace.preconditioner import Preconditioner, Stencil
 
 Vector = NDArray[np.float64]
 
+_STALLED_AFTER = 200  # iterations without a smaller error: rounding is all that is left
 _REFRESH = 50  # iterations after which the residual is recomputed rather than updated
 
 
@@ -89,19 +90,23 @@ class Patch:
         residual = target - self.displacement(pressure)
         direction = np.zeros_like(start)
         slope, level = 1.0, 0.0
+        least_error, least_at = np.inf, 0
         for iteration in range(limit + 1):
             step = self._precondition(residual)
             if fixed_total:
                 level = -step.sum() / total_of_ones
                 step += level * ones
-            if np.abs(residual + level).max() <= tolerance or iteration == limit:
+            error = float(np.abs(residual + level).max())
+            if error < least_error:
+                least_error, least_at = error, iteration
+            if error <= tolerance or iteration == limit or iteration - least_at > _STALLED_AFTER:
                 break
             slope_before, slope = slope, float((residual + level) @ step)
             direction = step + (slope / slope_before if iteration else 0.0) * direction
             response = self.displacement(direction)
             curvature = float(direction @ response)
             if not (curvature > 0 and slope > 0):
-                break  # rounding is all that is left: nothing more to gain
+                break  # nothing more to gain
             pressure += slope / curvature * direction
             if (iteration + 1) % _REFRESH:
                 residual -= slope / curvature * response
