@@ -21,9 +21,10 @@ from roughline.topography import Line, Settings, Surface
 
 Real = NDArray[np.float64]
 Amplitudes = Literal["fixed", "gaussian"]
+Body = Literal["surface", "line"]
 Normalisation = Literal["rms_height", "C_0"]
 
-_LARGEST_LINE = 2**28
+_LARGEST: dict[Body, int] = {"surface": 2**15, "line": 2**28}
 
 
 @dataclass(frozen=True, init=False)
@@ -192,7 +193,7 @@ class SelfAffine:
         """
         return self.C_0 * self._unit_moment(order)
 
-    def lattice_moment(self, order: int, n: int, body: Literal["surface", "line"]) -> float:
+    def lattice_moment(self, order: int, n: int, body: Body) -> float:
         """Moment as the sum over the modes that a grid of n points carries. [length^(2 - order)]
 
         This is what synthesised heights have; the continuum integral can be far from it, since
@@ -235,16 +236,8 @@ class SelfAffine:
         Surface
             Heights (n, n). [length]
         """
-        n = _checked_points(n, largest=2**15)
-        generator = synthesis.generator(rng)
-        settings = self._settings("surface", n, rng, generator, amplitudes)
-        draws = synthesis.surface_draws(n, generator)
-        _, power = self._lattice_power(n, "surface", half=True)
-        moduli = np.sqrt(power)
-        if amplitudes == "gaussian":
-            moduli *= _rayleigh(synthesis.surface_draws(n, generator.spawn(1)[0]))
-        heights = synthesis.surface_heights(moduli, draws, n)
-        return Surface(self._scaled(heights), (self.length, self.length), settings=settings)
+        heights, settings = self._generate("surface", n, rng, amplitudes)
+        return Surface(heights, (self.length, self.length), settings=settings)
 
     def line(self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed") -> Line:
         """Generate the random line of the reduction method (spectrum ``C_reduced``).
@@ -261,16 +254,8 @@ class SelfAffine:
         Line
             Heights (n,). [length]
         """
-        n = _checked_points(n, largest=_LARGEST_LINE)
-        generator = synthesis.generator(rng)
-        settings = self._settings("line", n, rng, generator, amplitudes)
-        draws = synthesis.line_draws(n, generator)
-        _, power = self._lattice_power(n, "line", half=True)
-        moduli = np.sqrt(power)
-        if amplitudes == "gaussian":
-            moduli *= _rayleigh(synthesis.line_draws(n, generator.spawn(1)[0]))
-        heights = synthesis.line_heights(moduli, draws, n)
-        return Line(self._scaled(heights), self.length, settings=settings)
+        heights, settings = self._generate("line", n, rng, amplitudes)
+        return Line(heights, self.length, settings=settings)
 
     def _shape(self, q: Real) -> Real:
         """C_2d over C_0."""
@@ -313,9 +298,7 @@ class SelfAffine:
         result[inside] = q * (q / self.q_roll) ** -decay * part
         return result
 
-    def _lattice_power(
-        self, n: int, body: Literal["surface", "line"], half: bool = False
-    ) -> tuple[Real, Real]:
+    def _lattice_power(self, n: int, body: Body, half: bool = False) -> tuple[Real, Real]:
         """Wavenumbers of a grid's modes and the share of <h²> that each carries.
 
         With `half`, only the modes that the real inverse FFT wants (a line's from m = 1 on).
@@ -336,22 +319,22 @@ class SelfAffine:
             power *= self.magnitude**2 / power.sum() / (2 if body == "line" else 1)
         return q, power if half or body == "surface" else 2 * power
 
-    def _scaled(self, heights: Real) -> Real:
-        if self.normalisation == "rms_height":
-            heights *= self.magnitude / np.sqrt(np.mean(heights**2))
-        return heights
-
-    def _settings(
-        self,
-        body: str,
-        n: int,
-        rng: synthesis.Seed,
-        generator: np.random.Generator,
-        amplitudes: str,
-    ) -> Settings:
+    def _generate(
+        self, body: Body, n: int, rng: synthesis.Seed, amplitudes: Amplitudes
+    ) -> tuple[Real, Settings]:
+        """Heights of a body, and the settings that make them again."""
+        if not isinstance(n, int | np.integer) or not 3 <= n <= _LARGEST[body]:
+            raise InputError(
+                f"n is {n!r}; a whole number of points from 3 to {_LARGEST[body]} is needed"
+            )
         if amplitudes not in ("fixed", "gaussian"):
             raise InputError(f'amplitudes is {amplitudes!r}; allowed are "fixed" and "gaussian"')
-        return {
+        draw, heights_of = {
+            "surface": (synthesis.surface_draws, synthesis.surface_heights),
+            "line": (synthesis.line_draws, synthesis.line_heights),
+        }[body]
+        for_phases, for_amplitudes = synthesis.generators(rng)
+        settings: Settings = {
             "origin": f"self-affine {body}",
             "hurst": self.hurst,
             "length": self.length,
@@ -359,23 +342,17 @@ class SelfAffine:
             self.normalisation: self.magnitude,
             "q_roll": self.q_roll,
             "q_high": self.q_high,
-            "n": n,
+            "n": int(n),
             "amplitudes": amplitudes,
-            "seed": _described(rng, generator),
+            "seed": synthesis.described(rng, for_phases),
         }
-
-
-def _described(rng: synthesis.Seed, generator: np.random.Generator) -> str:
-    if isinstance(rng, np.random.Generator):
-        return "a generator in an unknown state"
-    sequence = generator.bit_generator.seed_seq
-    assert isinstance(sequence, np.random.SeedSequence)
-    return f"entropy {sequence.entropy}, spawn key {sequence.spawn_key}"
-
-
-def _rayleigh(draws: Real) -> Real:
-    """Moduli of complex Gaussian modes of unit mean square."""
-    return np.sqrt(-np.log1p(-draws))
+        moduli = np.sqrt(self._lattice_power(n, body, half=True)[1])
+        if amplitudes == "gaussian":
+            moduli *= synthesis.rayleigh(draw(n, for_amplitudes))
+        heights = heights_of(moduli, draw(n, for_phases), n)
+        if self.normalisation == "rms_height":
+            heights *= self.magnitude / np.sqrt(np.mean(heights**2))
+        return heights, settings
 
 
 def _power_integral(exponent: float, start: float, end: float) -> float:
@@ -390,9 +367,3 @@ def _power_integral(exponent: float, start: float, end: float) -> float:
 def _check_positive(name: str, value: float) -> None:
     if not 0 < value < math.inf:
         raise InputError(f"{name} is {value}; a positive, finite number is needed")
-
-
-def _checked_points(n: int, largest: int) -> int:
-    if not isinstance(n, int | np.integer) or not 3 <= n <= largest:
-        raise InputError(f"n is {n!r}; a whole number of points from 3 to {largest} is needed")
-    return int(n)

@@ -13,11 +13,15 @@ from roughline import fft
 from roughline.errors import InputError
 
 Real = NDArray[np.float64]
+_AMPLITUDES = 0x616D706C  # spawn key of the amplitudes, far from those that count realisations
+
 Seed = int | np.random.SeedSequence | np.random.Generator | None
 
 
-def generator(rng: Seed) -> np.random.Generator:
-    """Return the generator of a seed; realisation i of an ensemble is ``root.spawn(i + 1)[i]``.
+def generators(rng: Seed) -> tuple[np.random.Generator, np.random.Generator]:
+    """Return the generators of phases and of amplitudes that belong to a seed.
+
+    Realisation i of an ensemble has the seed ``SeedSequence(root, spawn_key=(i,))``.
 
     Parameters
     ----------
@@ -29,12 +33,31 @@ def generator(rng: Seed) -> np.random.Generator:
     InputError
         If it is none of these, or a negative integer.
     """
+    if isinstance(rng, np.random.Generator):
+        return rng, rng.spawn(1)[0]
     try:
-        return np.random.default_rng(rng)
+        seed = rng if isinstance(rng, np.random.SeedSequence) else np.random.SeedSequence(rng)
     except (TypeError, ValueError) as error:
         raise InputError(
             f"rng is {rng!r}; a seed is a non-negative integer, a numpy SeedSequence or Generator"
         ) from error
+    # not seed.spawn(), which would count up in the caller's seed
+    child = np.random.SeedSequence(seed.entropy, spawn_key=(*seed.spawn_key, _AMPLITUDES))
+    return np.random.default_rng(seed), np.random.default_rng(child)
+
+
+def described(rng: Seed, generator: np.random.Generator) -> str:
+    """Say how to make the generator of the phases again."""
+    if isinstance(rng, np.random.Generator):
+        return "a generator in an unknown state"
+    seed = generator.bit_generator.seed_seq
+    assert isinstance(seed, np.random.SeedSequence)
+    return f"entropy {seed.entropy}, spawn key {seed.spawn_key}"
+
+
+def rayleigh(draws: Real) -> Real:
+    """Turn draws into moduli of complex Gaussian modes of unit mean square."""
+    return np.sqrt(-np.log1p(-draws))
 
 
 def line_draws(n: int, rng: np.random.Generator) -> Real:

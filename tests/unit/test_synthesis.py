@@ -152,3 +152,18 @@ def test_the_longest_line_works():
 def test_impossible_bodies_are_refused(n, rng, amplitudes, message):
     with pytest.raises(rl.InputError, match=message):
         by_rms().surface(n, rng, amplitudes)
+
+
+def test_a_seed_sequence_may_be_used_again():
+    seed = np.random.SeedSequence(7)
+    first, second = (by_rms().surface(16, seed, "gaussian").heights for _ in range(2))
+    assert first.tobytes() == second.tobytes()
+    assert first.tobytes() == by_rms().surface(16, 7, "gaussian").heights.tobytes()
+
+
+def test_a_generator_moves_on():
+    rng = np.random.default_rng(7)
+    first, second = (by_rms().surface(16, rng) for _ in range(2))
+    assert first.heights.tobytes() == by_rms().surface(16, 7).heights.tobytes()
+    assert first.heights.tobytes() != second.heights.tobytes()
+    assert first.settings["seed"] == "a generator in an unknown state"
