@@ -190,11 +190,11 @@ def _press_surface(
     )
     for i, (contact, tangent) in enumerate(path):
         status[i] = outcomes[contact.outcome]
-        if status[i] == Status.CONVERGED and not tangent.converged:
-            status[i] = Status.NO_TANGENT
         residual[i] = contact.residuals.worst
+        if tangent is not None and not tangent.converged:
+            status[i] = Status.NO_TANGENT
         converged = status[i] == Status.CONVERGED
-        if converged:
+        if tangent is not None and converged:
             touching = int(np.count_nonzero(contact.pressure > 0))
             depth[i] = contact.depth * unit_height
             force[i] = contact.force * unit_force

@@ -179,9 +179,10 @@ class Curve:
                 {"units": "1", "long_name": "real contact area over nominal area"},
             )
         units = {"pressure": pressures, "displacement": lengths, "gap": lengths, "contact": "1"}
-        for name, unit in units.items() if self.fields else ():
-            missing = np.full(next(f for f in self.fields if f).gap.shape, np.nan)
-            stack = [getattr(f, name) if f else missing for f in self.fields]
+        found = [fields for fields in self.fields if fields is not None]
+        for name, unit in units.items() if found else ():
+            missing = np.full(found[0].gap.shape, np.nan)
+            stack = [getattr(fields, name) if fields else missing for fields in self.fields]
             variables[name] = (("load", "x", "y"), np.array(stack, float), {"units": unit})
         attrs = {
             "E_star": self.E_star,

@@ -163,6 +163,15 @@ def test_loads_beyond_double_precision_are_refused(surface, loads, message):
     assert rl.press(surface, E_star=1.0, forces=[1e-30, 1e8]).converged.all()
 
 
+@pytest.mark.parametrize("loads", [{"depths": [1.0, 2.0]}, {"forces": [0.1, 2.0]}])
+def test_a_single_iteration_is_too_few_and_harmless(surface, loads):
+    curve = rl.press(surface, E_star=1.0, max_iterations=1, throw=False, fields=True, **loads)
+    assert (curve.status == rl.Status.MAX_ITERATIONS).all()
+    assert np.isnan(curve.stiffness).all()
+    assert curve.fields == (None, None)
+    assert "pressure" not in curve.to_dataset()
+
+
 def test_progress_is_told_after_each_load(surface):
     told = []
     rl.press(surface, E_star=1.0, n_loads=4, progress=lambda *args: told.append(args))

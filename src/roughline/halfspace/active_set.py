@@ -123,9 +123,9 @@ def solve(
     operator: Operator,
     stencil: Stencil,
     separation: Field,
-    length_scale: float,
+    rms_height: float,
     load: Load,
-    start: tuple[Nodes, NDArray[np.float64]],
+    start: tuple[float, Nodes, NDArray[np.float64]],
     rtol: float,
     max_iterations: int,
 ) -> Contact:
@@ -137,24 +137,26 @@ def solve(
         The half-space and its preconditioner.
     separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch, zero at the highest point. [length]
-    length_scale : float
-        Length that gaps are compared with. [length]
+    rms_height : float
+        Gaps are compared with this, or with the depth where that is smaller; zero for a flat
+        punch, where it is the depth. [length]
     load : Load
         What is prescribed.
-    start : tuple of ndarray
-        Nodes to start from, ascending, and their pressures.
+    start : tuple
+        Depth to start from [length], nodes, ascending, and their pressures.
     rtol : float
         Bound on every residual.
     max_iterations : int
         Bound on the convolutions.
     """
-    nodes, pressure = start
+    depth, nodes, pressure = start
     sharpest = _INNER_MARGIN * rtol
     sharpness = max(0.1, sharpest)
     convolutions, fewest_changes, waited = 0, nodes.size + separation.size, 0
     while True:
         patch = Patch(operator, stencil, nodes)
         target = -separation.flat[nodes] + (load.depth or 0.0)
+        length_scale = min(rms_height or np.inf, abs(depth))
         if load.force is not None:
             pressure = _with_total(pressure, load.force / operator.cell_area)
         pressure, level = patch.pressure_for(
@@ -165,6 +167,7 @@ def solve(
             fixed_total=load.force is not None,
         )
         depth = level if load.depth is None else load.depth
+        length_scale = min(rms_height or np.inf, abs(depth))
         displacement = patch.displacement_everywhere(pressure)
         convolutions += patch.convolutions
         gap = displacement - (depth - separation)

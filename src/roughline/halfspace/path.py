@@ -13,7 +13,7 @@ from roughline.halfspace.preconditioner import Stencil
 from roughline.halfspace.tangent import Tangent, tangent
 
 Field = NDArray[np.float64]
-Start = tuple[NDArray[np.intp], NDArray[np.float64]]
+Start = tuple[float, NDArray[np.intp], NDArray[np.float64]]
 
 
 def follow(
@@ -24,7 +24,7 @@ def follow(
     E_star: float,
     rtol: float,
     max_iterations: int,
-) -> Iterator[tuple[Contact, Tangent]]:
+) -> Iterator[tuple[Contact, Tangent | None]]:
     """Solve the contact under each load in turn.
 
     Parameters
@@ -34,7 +34,7 @@ def follow(
     separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch, zero at the highest point. [length]
     rms_height : float
-        Gaps are judged against this, or against the depth where that is smaller. [length]
+        Gaps are compared with this, or with the depth where that is smaller. [length]
     loads : iterable of Load
         Rising loads.
     E_star : float
@@ -47,31 +47,30 @@ def follow(
     Yields
     ------
     tuple of Contact and Tangent
-        For each load, also for one that was not solved.
+        For each load; without a tangent where the contact was not certified.
     """
     stencil = Stencil.of(operator)
     before: tuple[Contact, Tangent] | None = None
     for load in loads:
         if before is None:
-            depth, start = _first_guess(operator, separation, load, E_star)
-            tangent_start = None
+            start, tangent_start = _first_guess(operator, separation, load, E_star), None
         else:
-            depth, start, tangent_start = _predicted(operator, separation, load, *before)
-        length_scale = min(rms_height, depth) if rms_height > 0 else depth
+            start, tangent_start = _predicted(operator, separation, load, *before)
         contact = solve(
-            operator, stencil, separation, length_scale, load, start, rtol, max_iterations
+            operator, stencil, separation, rms_height, load, start, rtol, max_iterations
         )
+        if contact.outcome is not Outcome.CERTIFIED:
+            before = None
+            yield contact, None
+            continue
         if tangent_start is not None:
             tangent_start = tangent_start[contact.patch.nodes]
         stiffness = tangent(operator, contact, tangent_start)
+        before = (contact, stiffness) if stiffness.converged else None
         yield contact, stiffness
-        solved = contact.outcome is Outcome.CERTIFIED and stiffness.converged
-        before = (contact, stiffness) if solved else None
 
 
-def _first_guess(
-    operator: Operator, separation: Field, load: Load, E_star: float
-) -> tuple[float, Start]:
+def _first_guess(operator: Operator, separation: Field, load: Load, E_star: float) -> Start:
     """Start from every node that the rigid shift would overlap.
 
     For a force, the shift at which one disc of that many nodes, 2 E* a (d - mean separation),
@@ -87,12 +86,12 @@ def _first_guess(
         reached = depths <= np.append(separations[1:], np.inf)
         depth = float(depths[reached.argmax()])
     nodes = np.flatnonzero(separation < depth)
-    return depth, (nodes, np.zeros(nodes.size))
+    return depth, nodes, np.zeros(nodes.size)
 
 
 def _predicted(
     operator: Operator, separation: Field, load: Load, contact: Contact, tangent: Tangent
-) -> tuple[float, Start, NDArray[np.float64]]:
+) -> tuple[Start, NDArray[np.float64]]:
     """Follow the tangent: p + dF w, and the nodes that press or overlap then."""
     if load.force is not None:
         rise = load.force - contact.force
@@ -111,4 +110,4 @@ def _predicted(
     candidates[contact.patch.nodes] = False
     candidates |= pressure > 0
     nodes = np.flatnonzero(candidates)
-    return depth, (nodes, pressure[nodes]), field_per_force
+    return (depth, nodes, pressure[nodes]), field_per_force
