@@ -69,6 +69,21 @@ def test_exponents_of_the_full_model(hurst):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("hurst", [0.8, 0.5])
+def test_the_raw_stiffness_of_both_models_agrees_and_differs_near_saturation(hurst):
+    forces = np.array([0.01, 0.03, 0.1, 0.3, 30.0])
+    spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0)
+    surfaces = [spectrum.surface(128, np.random.SeedSequence(3, spawn_key=(i,))) for i in range(30)]
+    full, reduced = stiffness_of(surfaces, forces), stiffness_of(lines(hurst), forces)
+    ratio = full.mean(axis=0) / reduced.mean(axis=0)
+    error = ratio * np.hypot(
+        *(k.std(axis=0) / k.mean(axis=0) / len(k) ** 0.5 for k in (full, reduced))
+    )
+    assert (np.abs(ratio - 1) < 0.1 + 3 * error)[:4].all()
+    assert ratio[4] == pytest.approx(1.149, abs=0.003)  # the punch of a grid of 128²
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("hurst", "n", "scatter"), [(1.0, 2**14, 0.28), (0.0, 2**12, 0.127), (0.0, 2**18, 0.06)]
 )
