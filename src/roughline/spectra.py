@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from roughline import synthesis
+from roughline.band import Band
 from roughline.errors import InputError
 from roughline.topography import Line, Settings, Surface
 
@@ -115,6 +116,10 @@ class SelfAffine:
         object.__setattr__(self, "q_high", float(q_high))
 
     @property
+    def _band(self) -> Band:
+        return Band(self.q_low, self.q_roll, self.q_high, 2 * (self.hurst + 1))
+
+    @property
     def fractal_dimension(self) -> float:
         """D_f = 3 - H. [1]"""
         return round(3 - self.hurst, 12)
@@ -135,7 +140,7 @@ class SelfAffine:
         """
         if self.normalisation == "C_0":
             return self.magnitude
-        return self.magnitude**2 / self._unit_moment(0)
+        return self.magnitude**2 / self._band.moment(0)
 
     @property
     def rms_height(self) -> float:
@@ -152,7 +157,7 @@ class SelfAffine:
         q : array_like
             Wavenumbers; the sign does not matter. [1 / length]
         """
-        return self.C_0 * self._shape(np.abs(np.asarray(q, dtype=np.float64)))
+        return self.C_0 * self._band.shape(np.abs(np.asarray(q, dtype=np.float64)))
 
     def C_reduced(self, q: ArrayLike) -> Real:
         """Spectrum of the line of the reduction method, pi q C_2d(q), the paper's eq. 7. [length³]
@@ -174,11 +179,7 @@ class SelfAffine:
         q : array_like
             Wavenumbers; the sign does not matter. [1 / length]
         """
-        q = np.abs(np.asarray(q, dtype=np.float64))
-        plateau_from = np.maximum(q, self.q_low)
-        plateau_to = np.maximum(q, self.q_roll)
-        plateau = 2 * (np.sqrt(plateau_to**2 - q**2) - np.sqrt(plateau_from**2 - q**2))
-        return self.C_0 * (plateau + self._abel_of_power(q))
+        return self.C_0 * self._band.cut(np.abs(np.asarray(q, dtype=np.float64)))
 
     def moment(self, order: int) -> float:
         """Moment of the continuum, 2 pi int q^(1 + order) C_2d dq. [length^(2 - order)]
@@ -191,7 +192,7 @@ class SelfAffine:
         InputError
             If the integral diverges, because ``q_high`` is not set.
         """
-        return self.C_0 * self._unit_moment(order)
+        return self.C_0 * self._band.moment(order)
 
     def lattice_moment(self, order: int, n: int, body: Body) -> float:
         """Moment as the sum over the modes that a grid of n points carries. [length^(2 - order)]
@@ -257,47 +258,6 @@ class SelfAffine:
         heights, settings = self._generate("line", n, rng, amplitudes)
         return Line(heights, self.length, settings=settings)
 
-    def _shape(self, q: Real) -> Real:
-        """C_2d over C_0."""
-        shape = np.ones_like(q)
-        falling = q > self.q_roll
-        shape[falling] = (q[falling] / self.q_roll) ** (-2 * (self.hurst + 1))
-        # a wavenumber computed as m q_low may miss a cutoff of the same name by rounding
-        shape[(q < self.q_low * (1 - 1e-12)) | (q > self.q_high * (1 + 1e-12))] = 0.0
-        return shape
-
-    def _unit_moment(self, order: int) -> float:
-        decay = 2 * (self.hurst + 1)
-        if self.q_high == math.inf and 2 + order - decay >= 0:
-            raise InputError(
-                f"the moment of order {order} diverges for H = {self.hurst:g} without a cutoff: "
-                "give q_high, or take lattice_moment on a grid"
-            )
-        plateau = _power_integral(1 + order, self.q_low, self.q_roll)
-        tail = _power_integral(1 + order - decay, self.q_roll, self.q_high) * self.q_roll**decay
-        return 2 * math.pi * (plateau + tail)
-
-    def _abel_of_power(self, q: Real) -> Real:
-        """Part of C_profile / C_0 that comes from the falling branch, by the beta function.
-
-        With t = (q / q')² it is (q / q_roll)^(-2H - 2) q times the incomplete beta function
-        B(t; H + 1/2, 1/2) between the cutoffs; for q = 0 it is a plain power.
-        """
-        from scipy.special import beta, betainc  # here because it loads slowly
-
-        decay = 2 * (self.hurst + 1)
-        result = np.full(
-            q.shape, 2 * _power_integral(-decay, self.q_roll, self.q_high) * self.q_roll**decay
-        )
-        inside = q > 1e-6 * self.q_low
-        q = q[inside]
-        upper = np.minimum(1.0, (q / self.q_roll) ** 2)
-        lower = np.minimum(upper, (q / self.q_high) ** 2)
-        a, b = self.hurst + 0.5, 0.5
-        part = beta(a, b) * (betainc(a, b, upper) - betainc(a, b, lower))
-        result[inside] = q * (q / self.q_roll) ** -decay * part
-        return result
-
     def _lattice_power(self, n: int, body: Body, half: bool = False) -> tuple[Real, Real]:
         """Wavenumbers of a grid's modes and the share of <h²> that each carries.
 
@@ -312,7 +272,7 @@ class SelfAffine:
             m = np.hypot(mx, my)
             weight = np.where((m > 0) & (m < n / 2), self.q_low**2, 0.0)
         q = self.q_low * m
-        power = weight * self._shape(q)
+        power = weight * self._band.shape(q)
         if self.normalisation == "C_0":
             power *= self.C_0
         elif not half:
@@ -353,15 +313,6 @@ class SelfAffine:
         if self.normalisation == "rms_height":
             heights *= self.magnitude / np.sqrt(np.mean(heights**2))
         return heights, settings
-
-
-def _power_integral(exponent: float, start: float, end: float) -> float:
-    """Integral of q**exponent from start to end, which may be infinite for exponent < -1."""
-    if exponent == -1:
-        return math.log(end / start)
-    rise = exponent + 1
-    at_end = 0.0 if end == math.inf else end**rise
-    return (at_end - start**rise) / rise
 
 
 def _check_positive(name: str, value: float) -> None:

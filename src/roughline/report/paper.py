@@ -13,7 +13,7 @@ from roughline.campaign.plan import Plan, Scale, paper_plan
 from roughline.campaign.run import Progress, run
 from roughline.campaign.store import Store
 from roughline.errors import StoreError
-from roughline.report import figures
+from roughline.report import comparisons, figures
 from roughline.report.claims import Claim, judge
 from roughline.report.page import Picture, Section, Table, render
 from roughline.report.style import save, styled
@@ -145,8 +145,8 @@ def write_report(plan: Plan, store: Store, out: Path) -> Path:
         "figure_3": lambda: figures.figure_3(reduced, dimensions),
         "figure_4": lambda: figures.figure_4(full),
         "figure_5": lambda: figures.figure_5(laws_1d, reduced.fractal_dimension.values, summaries),
-        "area_law": lambda: figures.area_law(full, summaries),
-        "models_compared": lambda: figures.models_compared(reduced, full),
+        "area_law": lambda: comparisons.area_law(full, summaries),
+        "models_compared": lambda: comparisons.models_compared(reduced, full),
     }
     (out / "figures").mkdir(parents=True, exist_ok=True)
     pictures = []

@@ -6,12 +6,18 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 COLUMN, PAGE = 3.5, 7.2
 """Widths of one and two journal columns. [inch]"""
 
 MARKERS = "osD^vP"
+
+FORCE_LABEL = r"force $\bar F = F\,/\,(E^* h L)$"
+SHADE: dict[str, Any] = {"color": "0.92", "zorder": -10, "linewidth": 0}
 
 _RC: Any = {
     "font.size": 9,
@@ -56,3 +62,11 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
     figure.savefig(paths[0], metadata={"Software": None})
     figure.savefig(paths[1], metadata={"CreationDate": None, "Creator": None, "Producer": None})
     return paths
+
+
+def legend_dimensions(axes: Axes, dimensions: NDArray[np.float64]) -> None:
+    """Draw a legend of the fractal dimensions alone, in two columns."""
+    handles, labels = axes.get_legend_handles_labels()
+    wanted = {f"{dimension:.1f}" for dimension in dimensions}
+    kept = [(h, label) for h, label in zip(handles, labels, strict=True) if label in wanted]
+    axes.legend(*zip(*kept, strict=True), title="$D_f$", loc="lower right", ncols=2)
