@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from roughline._version import __version__
 from roughline.curve import RESOLVED_FROM, Curve, Fields, Status
@@ -14,7 +16,8 @@ from roughline.loads import Loads, Wish, line_loads, surface_loads
 from roughline.reduction import Springs
 from roughline.topography import Body, Line, Surface
 
-Real = NDArray[np.float64]
+if TYPE_CHECKING:
+    from roughline.halfspace.active_set import Contact
 
 
 def press(
@@ -91,16 +94,8 @@ def press(
             "Surface(heights, sizes=(Lx, Ly)) or Line(heights, length=L)"
         )
     loads = surface_loads(body, E_star, Wish(depths, forces, n_loads), periodic, rtol)
-    settings = {
-        "roughline_version": __version__,
-        "model": "full",
-        "boundary": "periodic" if periodic else "free",
-        "control": loads.control,
-        "rtol": rtol,
-        "max_iterations": max_iterations,
-    }
     curve = _press_surface(
-        body, E_star, loads, periodic, fields, rtol, max_iterations, settings, progress
+        body, E_star, loads, periodic, fields, rtol, int(max_iterations), progress
     )
     if throw and not curve.converged.all():
         raise ConvergenceError(_failure_message(curve), curve)
@@ -151,67 +146,46 @@ def _press_surface(
     keep_fields: bool,
     rtol: float,
     max_iterations: int,
-    settings: dict[str, str | int | float],
     progress: Callable[[int, int], None] | None,
 ) -> Curve:
     # compiled loops load slowly, so only here
     from roughline.halfspace import operator as operators
-    from roughline.halfspace.active_set import Load, Outcome
     from roughline.halfspace.path import follow
 
-    # The problem is solved without units: E* = 1, cells of unit area, heights over their rms.
-    rms_height = surface.rms_height
-    unit_height = rms_height or float(loads.values[-1])
-    if not rms_height and loads.control == "forces":
-        unit_height = float(loads.values[-1]) / (E_star * surface.length)
-    unit_length = float(np.sqrt(surface.spacing[0]) * np.sqrt(surface.spacing[1]))
-    unit_force = E_star * unit_height * unit_length
-    spacing = (surface.spacing[0] / unit_length, surface.spacing[1] / unit_length)
-    separation = (surface.heights.max() - surface.heights) / unit_height
+    units = _Units.of(surface, E_star, loads)
     make_operator = operators.periodic if periodic else operators.free
-    operator = make_operator(surface.shape, spacing, 1.0)
-    if loads.control == "forces":
-        problem_loads = [Load(force=value / unit_force) for value in loads.values]
-    else:
-        problem_loads = [Load(depth=value / unit_height) for value in loads.values]
-
+    dx, dy = surface.spacing
+    operator = make_operator(surface.shape, (dx / units.length, dy / units.length), 1.0)
+    separation = (surface.heights.max() - surface.heights) / units.height
+    path = follow(
+        operator,
+        separation,
+        surface.rms_height / units.height,
+        loads.control,
+        loads.values / (units.force if loads.control == "forces" else units.height),
+        rtol,
+        max_iterations,
+    )
     count = loads.values.size
     depth, force, stiffness, area_fraction, residual = np.full((5, count), np.nan)
-    status = np.full(count, Status.STALLED, dtype=np.int8)
+    status = np.empty(count, dtype=np.int8)
     resolved = np.zeros(count, dtype=bool)
     all_fields: list[Fields | None] = []
-    outcomes = {
-        Outcome.CERTIFIED: Status.CONVERGED,
-        Outcome.STALLED: Status.STALLED,
-        Outcome.MAX_ITERATIONS: Status.MAX_ITERATIONS,
-    }
-    path = follow(
-        operator, separation, rms_height / unit_height, problem_loads, 1.0, rtol, max_iterations
-    )
     for i, (contact, tangent) in enumerate(path):
-        status[i] = outcomes[contact.outcome]
-        residual[i] = contact.residuals.worst
+        status[i] = Status[contact.outcome.name]
         if tangent is not None and not tangent.converged:
             status[i] = Status.NO_TANGENT
+        residual[i] = contact.residuals.worst
         converged = status[i] == Status.CONVERGED
         if tangent is not None and converged:
             touching = int(np.count_nonzero(contact.pressure > 0))
-            depth[i] = contact.depth * unit_height
-            force[i] = contact.force * unit_force
-            stiffness[i] = tangent.stiffness * E_star * unit_length
+            depth[i] = contact.depth * units.height
+            force[i] = contact.force * units.force
+            stiffness[i] = tangent.stiffness * units.force / units.height
             area_fraction[i] = touching / separation.size
             resolved[i] = touching >= RESOLVED_FROM
         if keep_fields:
-            pressure = np.zeros(separation.size)
-            pressure[contact.patch.nodes] = contact.pressure * (unit_force / unit_length**2)
-            pressure = pressure.reshape(surface.shape)
-            found = Fields(
-                pressure,
-                contact.displacement * unit_height,
-                contact.gap * unit_height,
-                pressure > 0,
-            )
-            all_fields.append(found if converged else None)
+            all_fields.append(_fields(contact, units) if converged else None)
         if progress is not None:
             progress(i + 1, count)
     return Curve(
@@ -223,11 +197,60 @@ def _press_surface(
         resolved=resolved,
         residual=residual,
         E_star=E_star,
-        rms_height=rms_height,
+        rms_height=surface.rms_height,
         length=surface.length,
         unit=surface.unit,
-        settings={**settings, **_of_body(surface)},
+        settings={
+            "roughline_version": __version__,
+            "model": "full",
+            "boundary": "periodic" if periodic else "free",
+            "control": loads.control,
+            "rtol": rtol,
+            "max_iterations": max_iterations,
+            **_of_body(surface),
+        },
         fields=tuple(all_fields),
+    )
+
+
+@dataclass(frozen=True)
+class _Units:
+    """Units in which E* is 1, a cell has unit area and the roughness unit rms.
+
+    The problem is solved in these, so that no scale is too small or too large for it.
+    """
+
+    height: float
+    length: float
+    E_star: float
+
+    @classmethod
+    def of(cls, surface: Surface, E_star: float, loads: Loads) -> _Units:
+        height = surface.rms_height
+        if height == 0:  # a flat punch: its depth, or about so, is the only height there is
+            height = float(loads.values[-1])
+            if loads.control == "forces":
+                height /= E_star * surface.length
+        length = float(np.sqrt(surface.spacing[0]) * np.sqrt(surface.spacing[1]))
+        return cls(height, length, E_star)
+
+    @property
+    def force(self) -> float:
+        return self.E_star * self.height * self.length
+
+    @property
+    def pressure(self) -> float:
+        return self.E_star * self.height / self.length
+
+
+def _fields(contact: Contact, units: _Units) -> Fields:
+    pressure = np.zeros(contact.gap.shape)
+    pressure.flat[contact.patch.nodes] = contact.pressure * units.pressure
+    return Fields(
+        pressure=pressure,
+        displacement=contact.displacement * units.height,
+        gap=contact.gap * units.height,
+        contact=pressure > 0,
     )
 
 

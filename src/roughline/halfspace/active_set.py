@@ -40,7 +40,7 @@ _PATIENCE = 8
 class Outcome(enum.Enum):
     """How the search for the contact set ended."""
 
-    CERTIFIED = "certified"
+    CONVERGED = "converged"
     STALLED = "stalled"
     MAX_ITERATIONS = "max_iterations"
 
@@ -183,7 +183,7 @@ def solve(
 
         outcome = None
         if residuals.worst <= rtol and (not changes or waited > _PATIENCE):
-            outcome = Outcome.CERTIFIED
+            outcome = Outcome.CONVERGED
         elif convolutions >= max_iterations:
             outcome = Outcome.MAX_ITERATIONS
         elif not np.isfinite(residuals.worst) or (not changes and sharpness <= sharpest):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,12 +21,12 @@ def follow(
     operator: Operator,
     separation: Field,
     rms_height: float,
-    loads: Iterable[Load],
-    E_star: float,
+    control: Literal["depths", "forces"],
+    values: NDArray[np.float64],
     rtol: float,
     max_iterations: int,
 ) -> Iterator[tuple[Contact, Tangent | None]]:
-    """Solve the contact under each load in turn.
+    """Solve the contact under each load in turn, for E* = 1.
 
     Parameters
     ----------
@@ -35,10 +36,10 @@ def follow(
         Distance of the bodies at first touch, zero at the highest point. [length]
     rms_height : float
         Gaps are compared with this, or with the depth where that is smaller. [length]
-    loads : iterable of Load
-        Rising loads.
-    E_star : float
-        Contact modulus, for the first guess. [pressure]
+    control : {"depths", "forces"}
+        What is prescribed.
+    values : ndarray, shape (loads,)
+        Rising depths [length] or forces [force].
     rtol : float
         Bound on every residual.
     max_iterations : int
@@ -51,15 +52,16 @@ def follow(
     """
     stencil = Stencil.of(operator)
     before: tuple[Contact, Tangent] | None = None
-    for load in loads:
+    for value in values.tolist():
+        load = Load(depth=value) if control == "depths" else Load(force=value)
         if before is None:
-            start, tangent_start = _first_guess(operator, separation, load, E_star), None
+            start, tangent_start = _first_guess(operator, separation, load), None
         else:
             start, tangent_start = _predicted(operator, separation, load, *before)
         contact = solve(
             operator, stencil, separation, rms_height, load, start, rtol, max_iterations
         )
-        if contact.outcome is not Outcome.CERTIFIED:
+        if contact.outcome is not Outcome.CONVERGED:
             before = None
             yield contact, None
             continue
@@ -70,18 +72,18 @@ def follow(
         yield contact, stiffness
 
 
-def _first_guess(operator: Operator, separation: Field, load: Load, E_star: float) -> Start:
+def _first_guess(operator: Operator, separation: Field, load: Load) -> Start:
     """Start from every node that the rigid shift would overlap.
 
-    For a force, the shift at which one disc of that many nodes, 2 E* a (d - mean separation),
-    would carry it.
+    For a force, the shift at which one disc of that many nodes, 2 a (d - mean separation), would
+    carry it.
     """
     depth = load.depth
     if depth is None:
         assert load.force is not None
         separations = np.sort(separation, axis=None)
         count = np.arange(1, separations.size + 1)
-        stiffness = 2 * E_star * np.sqrt(count * operator.cell_area / np.pi)
+        stiffness = 2 * np.sqrt(count * operator.cell_area / np.pi)
         depths = load.force / stiffness + np.cumsum(separations) / count
         reached = depths <= np.append(separations[1:], np.inf)
         depth = float(depths[reached.argmax()])
