@@ -1,12 +1,15 @@
-"""The one door to the FFT library, and the number of threads it uses.
+"""The one door to the FFT library, and the number of threads at work.
 
-All transforms are unnormalised in both directions. A transform's last bits may depend on the
-number of threads, so whatever must be the same bytes everywhere asks for one thread.
+All transforms are unnormalised in both directions. Each is done by one thread, so its last bits do
+not depend on how many there are; the threads share out the blocks of a large transform instead.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 
 import ducc0.fft
 import numpy as np
@@ -15,7 +18,7 @@ from numpy.typing import NDArray
 from roughline.errors import InputError
 
 Real = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+Complex = NDArray[np.complexfloating]
 
 
 def available_cores() -> int:
@@ -29,7 +32,7 @@ _threads = available_cores()
 
 
 def set_threads(count: int) -> None:
-    """Use `count` threads for the transforms of this process from now on.
+    """Use `count` threads for the work of this process from now on.
 
     Raises
     ------
@@ -44,32 +47,55 @@ def set_threads(count: int) -> None:
     _threads = count
 
 
+def threads() -> int:
+    """Return the number of threads in use."""
+    return _threads
+
+
+def share_out(work: Callable[[int], None], count: int) -> None:
+    """Call ``work(i)`` for i = 0 ... count - 1, the calls shared out over the threads."""
+    workers = min(_threads, count)
+    if workers <= 1:
+        for i in range(count):
+            work(i)
+        return
+
+    def every_nth(first: int) -> None:
+        for i in range(first, count, workers):
+            work(i)
+
+    others = [_pool(_threads).submit(every_nth, first) for first in range(1, workers)]
+    every_nth(0)
+    for other in others:
+        other.result()
+
+
+@cache
+def _pool(workers: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(workers, thread_name_prefix="roughline")
+
+
 def good_size(n: int) -> int:
     """Return the smallest even length of at least `n` that transforms fast."""
     return 2 * ducc0.fft.good_size((n + 1) // 2)
 
 
-def rfft_rows(rows: Real) -> Complex:
-    """Transform each row: real (m, n) to complex (m, n // 2 + 1)."""
-    return ducc0.fft.r2c(rows, axes=(1,), nthreads=_threads)
+def fft_rows(rows: Complex, *, forward: bool) -> None:
+    """Transform each row in place."""
+    ducc0.fft.c2c(rows, axes=(1,), forward=forward, out=rows, nthreads=1)
 
 
-def irfft_rows(rows: Complex, n: int) -> Real:
-    """Transform each row back: complex (m, n // 2 + 1) to real (m, n)."""
-    return ducc0.fft.c2r(rows, axes=(1,), lastsize=n, forward=False, nthreads=_threads)
-
-
-def fft_columns(columns: Complex, *, forward: bool) -> Complex:
+def fft_columns(columns: Complex, *, forward: bool) -> None:
     """Transform each column in place."""
-    return ducc0.fft.c2c(columns, axes=(0,), forward=forward, out=columns, nthreads=_threads)
+    ducc0.fft.c2c(columns, axes=(0,), forward=forward, out=columns, nthreads=1)
 
 
-def cosine_spectrum(quarter: Real) -> Real:
-    """Spectrum of an even, periodic array, given and returned as its quarter (DCT-I)."""
-    return ducc0.fft.dct(quarter, type=1, nthreads=_threads)
+def cosine_spectrum(quarter: Real) -> None:
+    """Turn an even, periodic array, given as its quarter, into its spectrum in place (DCT-I)."""
+    ducc0.fft.dct(quarter, type=1, out=quarter, nthreads=_threads)
 
 
 def synthesise(half_spectrum: Complex, n: int) -> Real:
-    """Sum a Hermitian spectrum, stored for q >= 0 on the last axis, to real values; one thread."""
+    """Sum a Hermitian spectrum, stored for q >= 0 on the last axis, to real values."""
     axes = tuple(range(half_spectrum.ndim))
     return ducc0.fft.c2r(half_spectrum, axes=axes, lastsize=n, forward=False, nthreads=1)

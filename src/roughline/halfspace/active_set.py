@@ -1,8 +1,9 @@
 """The contact problem p >= 0, gap >= 0, p gap = 0 under one load: primal-dual active set.
 
-On the current set the pressures solve K p = d - s; nodes that pull are dropped, nodes outside that
-overlap are added, until neither is left. Each round is solved only as sharply as the last one's
-violations deserve. What is returned carries residuals recomputed from it.
+On the current set the pressures approach those of K p = d - s by conjugate gradients, until what
+is wrong with the set (nodes that pull, nodes outside that overlap) outweighs what is wrong with the
+pressures [4]_. Then the nodes that pull are dropped and those that overlap are added, and so on.
+What is returned carries residuals recomputed from it in double precision.
 
 References
 ----------
@@ -12,120 +13,43 @@ References
    on the multi-level multi-summation and conjugate gradient techniques", Wear 231, 206-219 (1999).
 .. [3] J. J. Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale strictly
    monotone linear complementarity problems", Comput. Oper. Res. 21, 587-596 (1994).
+.. [4] Z. Dostál and J. Schöberl, "Minimizing quadratic functions subject to bound constraints with
+   the rate of convergence and finite termination", Comput. Optim. Appl. 30, 23-43 (2005): there,
+   too, a set is changed when the violations outweigh the residual (proportioning).
 """
 
 from __future__ import annotations
 
-import enum
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.halfspace.operator import Operator
-from roughline.halfspace.patch import Patch
-from roughline.halfspace.preconditioner import Stencil
+from roughline.halfspace.operator import Operator, Places, Precision
+from roughline.halfspace.patch import ConjugateGradients, Patch, merged
+from roughline.halfspace.preconditioner import Approximation
+from roughline.halfspace.state import Contact, Field, Load, Nodes, Outcome, Residuals, Start, Vector
 
-Field = NDArray[np.float64]
-Nodes = NDArray[np.intp]
+Mask = NDArray[np.bool_]
 
 # An inner solve aims below the tolerance so that the certificate is not missed by a hair.
 _INNER_MARGIN = 0.3
-# ... and, while the set still changes, at this part of the last violation.
-_INNER_FRACTION = 0.03
-# Rounds with no fewer wrong nodes than ever before, after which nodes change one by one [3]_.
+# Single precision serves while errors are above this part of the depth; its own are 1e-7 of it.
+_SINGLE_ABOVE = 1e-4
+# Steps on one set before it is looked at again.
+_STEPS = 200
+# Rounds with no fewer wrong nodes than ever before, after which the equations are solved sharply
+# before the set is changed; after twice as many, nodes change one by one [3]_.
 _PATIENCE = 8
-
-
-class Outcome(enum.Enum):
-    """How the search for the contact set ended."""
-
-    CONVERGED = "converged"
-    STALLED = "stalled"
-    MAX_ITERATIONS = "max_iterations"
-
-
-@dataclass(frozen=True)
-class Load:
-    """One load, by depth or by force; the other is None.
-
-    Attributes
-    ----------
-    depth : float or None
-        Approach since first touch. [length]
-    force : float or None
-        Total force. [force]
-    """
-
-    depth: float | None = None
-    force: float | None = None
-
-
-@dataclass(frozen=True)
-class Residuals:
-    """Violations of the contact conditions, recomputed from the returned pressures.
-
-    Attributes
-    ----------
-    gap, penetration : float
-        Largest gap on contact nodes and overlap off them, over the length scale.
-    tension : float
-        Largest pull, over the mean contact pressure.
-    load : float
-        Error of the force, over the force; zero under depth control.
-    """
-
-    gap: float
-    penetration: float
-    tension: float
-    load: float
-
-    @property
-    def worst(self) -> float:
-        """The largest of the four."""
-        return max(self.gap, self.penetration, self.tension, self.load)
-
-
-@dataclass(frozen=True, eq=False)
-class Contact:
-    """State of the contact under one load.
-
-    Attributes
-    ----------
-    depth, force : float
-        Approach since first touch [length] and total force [force].
-    pressure : ndarray, shape (nodes,)
-        Pressures on the nodes in contact, ``patch.nodes``. [pressure]
-    displacement, gap : ndarray, shape (nx, ny)
-        On the whole grid. [length]
-    residuals : Residuals
-        Recomputed from the fields above.
-    outcome : Outcome
-        Whether they are within the tolerance.
-    patch : Patch
-        The equations on the contact nodes.
-    convolutions : int
-        Convolutions spent on this load.
-    """
-
-    depth: float
-    force: float
-    pressure: NDArray[np.float64]
-    displacement: Field
-    gap: Field
-    residuals: Residuals
-    outcome: Outcome
-    patch: Patch
-    convolutions: int
+# Nodes whose gap is below so many times the error on contact may come into contact.
+_WATCHED = 2.0
 
 
 def solve(
     operator: Operator,
-    stencil: Stencil,
+    approximation: Approximation,
     separation: Field,
     rms_height: float,
     load: Load,
-    start: tuple[float, Nodes, NDArray[np.float64]],
+    start: Start,
     rtol: float,
     max_iterations: int,
 ) -> Contact:
@@ -133,8 +57,8 @@ def solve(
 
     Parameters
     ----------
-    operator, stencil
-        The half-space and its preconditioner.
+    operator, approximation
+        The half-space and what its preconditioner knows of it.
     separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch, zero at the highest point. [length]
     rms_height : float
@@ -142,90 +66,172 @@ def solve(
         punch, where it is the depth. [length]
     load : Load
         What is prescribed.
-    start : tuple
-        Depth to start from [length], nodes, ascending, and their pressures.
+    start : Start
+        Where to start from.
     rtol : float
         Bound on every residual.
     max_iterations : int
         Bound on the convolutions.
     """
-    depth, nodes, pressure = start
-    sharpest = _INNER_MARGIN * rtol
-    sharpness = max(0.1, sharpest)
-    convolutions, fewest_changes, waited = 0, nodes.size + separation.size, 0
+    search = _Search(operator, approximation, separation, rms_height, load, start, rtol)
     while True:
-        patch = Patch(operator, stencil, nodes)
-        target = -separation.flat[nodes] + (load.depth or 0.0)
-        length_scale = min(rms_height or np.inf, abs(depth))
-        if load.force is not None:
-            pressure = _with_total(pressure, load.force / operator.cell_area)
-        pressure, level = patch.pressure_for(
-            target,
-            pressure,
-            sharpness * length_scale,
-            max_iterations - convolutions,
-            fixed_total=load.force is not None,
-        )
-        depth = level if load.depth is None else load.depth
-        length_scale = min(rms_height or np.inf, abs(depth))
-        displacement = patch.displacement_everywhere(pressure)
-        convolutions += patch.convolutions
-        gap = displacement - (depth - separation)
-        force = operator.cell_area * float(pressure.sum())
-        residuals = _residuals(gap, nodes, pressure, force, load, length_scale)
-
-        pulling = pressure < 0
-        overlapping = gap.ravel() < -residuals.gap * length_scale
-        overlapping[nodes] = False
-        changes = int(np.count_nonzero(pulling) + np.count_nonzero(overlapping))
-        waited = 0 if changes < fewest_changes else waited + 1
-        fewest_changes = min(changes, fewest_changes)
-
-        outcome = None
-        if residuals.worst <= rtol and (not changes or waited > _PATIENCE):
-            outcome = Outcome.CONVERGED
-        elif convolutions >= max_iterations:
-            outcome = Outcome.MAX_ITERATIONS
-        elif not np.isfinite(residuals.worst) or (not changes and sharpness <= sharpest):
-            outcome = Outcome.STALLED
+        search.assess()
+        outcome = search.outcome(max_iterations)
         if outcome is not None:
             return Contact(
-                depth, force, pressure, displacement, gap, residuals, outcome, patch, convolutions
+                search.depth,
+                search.force,
+                search.nodes,
+                search.pressure,
+                search.gap,
+                search.residuals,
+                outcome,
+                search.convolutions,
             )
+        search.improve(max_iterations)
 
-        if changes:
-            sharpness = _INNER_FRACTION * max(residuals.penetration, residuals.tension)
-            sharpness = min(max(sharpness, sharpest), 0.1)
+
+class _Search:
+    """The current set and pressures, and what is wrong with them."""
+
+    def __init__(
+        self,
+        operator: Operator,
+        approximation: Approximation,
+        separation: Field,
+        rms_height: float,
+        load: Load,
+        start: Start,
+        rtol: float,
+    ) -> None:
+        self.nodes, self.pressure = start.nodes, start.pressure
+        self.convolutions = 0
+        self._operator = operator
+        self._approximation = approximation
+        self._separation = separation
+        self._rms_height = rms_height
+        self._load = load
+        self._rtol = rtol
+        self._outer: Precision = "float32"
+        self._inner: Precision = "float32"
+        self._wrong, self._fewest_wrong, self._waited = separation.size, separation.size + 1, 0
+        self._residual_before = np.inf
+
+    def assess(self) -> None:
+        """Compute the gap everywhere, and with it the residuals."""
+        load, cell_area = self._load, self._operator.cell_area
+        if load.force is not None:
+            self.pressure = _with_total(self.pressure, load.force / cell_area)
+        places = Places.of(self.nodes, self._operator.shape)
+        gap = self._operator.convolve(self.pressure, places, None, self._outer)
+        if load.depth is not None and not self.convolutions:
+            best = _best_factor(load.depth - self._separation.flat[self.nodes], self.pressure,
+                                gap.flat[self.nodes])
+            self.pressure = best * self.pressure
+            gap *= best
+        self.convolutions += 1
+        gap += self._separation
+        total = float(self.pressure.sum())
+        if load.depth is None:  # the work of the pressures
+            self.depth = float(self.pressure @ gap.flat[self.nodes]) / total
         else:
-            sharpness = sharpest
-        if waited > _PATIENCE:
-            _keep_last(pulling, overlapping, nodes)
-            sharpness = sharpest
-        nodes, pressure = _exchanged(nodes, pressure, pulling, overlapping, separation)
+            self.depth = load.depth
+        gap -= self.depth
+        self.gap = gap
+        self.force = cell_area * total
+        self._length_scale = min(self._rms_height or np.inf, abs(self.depth))
+        self.residuals = Residuals.of(
+            gap, self.nodes, self.pressure, self.force, load, self._length_scale
+        )
+
+    def outcome(self, max_iterations: int) -> Outcome | None:
+        """Say whether the search is over, and how it ended."""
+        worst = self.residuals.worst
+        if not np.isfinite(worst):
+            return Outcome.STALLED
+        if self._outer == "float32":
+            if self.convolutions >= max_iterations:
+                self._outer = "float64"
+                self.assess()
+                worst = self.residuals.worst
+            else:
+                return None
+        if worst <= self._rtol:
+            return Outcome.CONVERGED
+        if self.convolutions >= max_iterations:
+            return Outcome.MAX_ITERATIONS
+        if not self._wrong and worst > 0.5 * self._residual_before:
+            if self._inner == "float64":
+                return Outcome.STALLED
+            self._inner = "float64"
+        self._residual_before = worst
+        return None
+
+    def improve(self, max_iterations: int) -> None:
+        """Step towards the pressures of the current set, then exchange the wrong nodes."""
+        tolerance = _INNER_MARGIN * self._rtol * self._length_scale
+        one_by_one = self._waited > 2 * _PATIENCE
+        on_contact = self.gap.flat[self.nodes]
+        reach = np.inf if one_by_one else _WATCHED * float(np.sqrt(np.mean(on_contact**2)))
+        off_contact = self.gap.ravel() < reach
+        off_contact[self.nodes] = False
+        watched = np.flatnonzero(off_contact)
+        patch = Patch(self._operator, self._approximation, self.nodes, watched)
+        fixed_total = self._load.force is not None
+        solution = ConjugateGradients(
+            patch,
+            self.pressure,
+            -on_contact - (self.depth if fixed_total else 0.0),
+            self.gap.flat[watched] + self.depth,
+            fixed_total=fixed_total,
+            precision=self._inner,
+        )
+        while True:
+            level = solution.level if fixed_total else self.depth
+            error = float(np.abs(solution.error).max())
+            pulling = solution.pressure < 0
+            overlapping = solution.watched < level - tolerance
+            if error <= tolerance or solution.steps >= _STEPS:
+                break
+            if self._waited <= _PATIENCE and solution.steps:
+                pull = self._approximation.own * solution.pressure[pulling]
+                overlap = solution.watched[overlapping] - level
+                if pull @ pull + overlap @ overlap > solution.error @ solution.error:
+                    break
+            if self.convolutions + solution.steps >= max_iterations or not solution.advance():
+                break
+        self.convolutions += solution.steps
+        self.pressure = solution.pressure
+        worst = max(error, -float(solution.pressure.min()) * self._approximation.own)
+        self._outer = "float32" if worst > _SINGLE_ABOVE * abs(level) else "float64"
+        if one_by_one:
+            _keep_last(self.nodes, pulling, watched, overlapping)
+        self._wrong = int(np.count_nonzero(pulling) + np.count_nonzero(overlapping))
+        self._exchange(pulling, watched[overlapping])
+        self._waited = 0 if self._wrong < self._fewest_wrong else self._waited + 1
+        self._fewest_wrong = min(self._wrong, self._fewest_wrong)
+
+    def _exchange(self, pulling: Mask, added: Nodes) -> None:
+        """Drop nodes that pull and add others; the highest point stays if none does."""
+        if pulling.any():
+            self.nodes, self.pressure = self.nodes[~pulling], self.pressure[~pulling]
+        if added.size:
+            self.nodes, order = merged(self.nodes, added)
+            self.pressure = np.append(self.pressure, np.zeros(added.size))[order]
+        if not self.nodes.size:
+            self.nodes = np.array([self._separation.argmin()])
+            self.pressure = np.zeros(1)
 
 
-def _residuals(
-    gap: Field,
-    nodes: Nodes,
-    pressure: NDArray[np.float64],
-    force: float,
-    load: Load,
-    length_scale: float,
-) -> Residuals:
-    on_contact = gap.flat[nodes]
-    # gaps on contact count as such whatever their sign, so they may stay in the minimum
-    overlap_everywhere = max(0.0, -float(gap.min()))
-    overlap_on_contact = max(0.0, -float(on_contact.min()))
-    penetration = overlap_everywhere if overlap_everywhere > overlap_on_contact else 0.0
-    return Residuals(
-        gap=float(np.abs(on_contact).max()) / length_scale,
-        penetration=penetration / length_scale,
-        tension=max(0.0, -float(pressure.min())) / abs(float(pressure.mean())),
-        load=0.0 if load.force is None else abs(force - load.force) / load.force,
-    )
+def _keep_last(nodes: Nodes, pulling: Mask, watched: Nodes, overlapping: Mask) -> None:
+    """Leave only the wrong node of highest index, the rule that cannot cycle."""
+    last_pulling = nodes[pulling].max(initial=-1)
+    last_overlapping = watched[overlapping].max(initial=-1)
+    pulling &= (nodes == last_pulling) & (last_pulling > last_overlapping)
+    overlapping &= (watched == last_overlapping) & (last_overlapping > last_pulling)
 
 
-def _with_total(pressure: NDArray[np.float64], total: float) -> NDArray[np.float64]:
+def _with_total(pressure: Vector, total: float) -> Vector:
     """Scale the pressures to a total; spread it evenly where there is nothing to scale."""
     now = float(pressure.sum())
     if now > 0:
@@ -233,31 +239,7 @@ def _with_total(pressure: NDArray[np.float64], total: float) -> NDArray[np.float
     return np.full_like(pressure, total / pressure.size)
 
 
-def _keep_last(pulling: NDArray[np.bool_], overlapping: NDArray[np.bool_], nodes: Nodes) -> None:
-    """Leave only the wrong node of highest index, the rule that cannot cycle."""
-    last_pulling = nodes[pulling].max(initial=-1)
-    last_overlapping = np.flatnonzero(overlapping).max(initial=-1)
-    if last_pulling > last_overlapping:
-        overlapping[:] = False
-        pulling &= nodes == last_pulling
-    else:
-        pulling[:] = False
-        overlapping[:last_overlapping] = False
-
-
-def _exchanged(
-    nodes: Nodes,
-    pressure: NDArray[np.float64],
-    pulling: NDArray[np.bool_],
-    overlapping: NDArray[np.bool_],
-    separation: Field,
-) -> tuple[Nodes, NDArray[np.float64]]:
-    """Drop the pulling nodes and add the overlapping ones; the highest point stays if none does."""
-    field = np.zeros(separation.size)
-    field[nodes] = pressure
-    in_contact = overlapping
-    in_contact[nodes[~pulling]] = True
-    if not in_contact.any():
-        in_contact[separation.argmin()] = True
-    kept = np.flatnonzero(in_contact)
-    return kept, np.maximum(field[kept], 0.0)
+def _best_factor(target: Vector, pressure: Vector, displacement: Vector) -> float:
+    """Return the factor by which the pressures come closest to the target, in energy."""
+    energy = float(pressure @ displacement)
+    return max(float(pressure @ target) / energy, 0.0) if energy > 0 else 1.0

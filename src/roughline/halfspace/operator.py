@@ -2,16 +2,53 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roughline import fft
+from roughline.halfspace import loops
 from roughline.halfspace.kernel import love
 
-_BLOCK = 2**19  # complex numbers held at once while the columns are transformed
+Field = NDArray[np.float64]
+Precision = Literal["float32", "float64"]
+
+_BLOCK = 64  # modes whose columns are transformed at a time: they fit into a core's cache
+_PAIRS = 64  # pairs of rows transformed at a time
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Some nodes of a grid, row by row.
+
+    Attributes
+    ----------
+    nodes : ndarray of int
+        Flat indices in the grid, ascending.
+    rows : ndarray of int
+        The rows that hold any, ascending.
+    starts : ndarray of int, shape (len(rows) + 1,)
+        Where each row begins in `nodes`.
+    columns : ndarray of int32
+        Column of each node.
+    """
+
+    nodes: NDArray[np.intp]
+    rows: NDArray[np.intp]
+    starts: NDArray[np.intp]
+    columns: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, nodes: NDArray[np.intp], shape: tuple[int, int]) -> Places:
+        """List nodes, given as ascending flat indices."""
+        edges = np.searchsorted(nodes, np.arange(shape[0] + 1) * shape[1])
+        rows = np.flatnonzero(np.diff(edges))
+        starts = np.append(edges[rows], nodes.size)
+        return cls(nodes, rows, starts, (nodes % shape[1]).astype(np.int32))
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,19 +73,28 @@ class Operator:
     shape: tuple[int, int]
     spacing: tuple[float, float]
     periods: tuple[int, int]
-    spectrum: NDArray[np.float64]
+    spectrum: Field
 
     @property
     def cell_area(self) -> float:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
 
-    @cached_property
-    def all_rows(self) -> NDArray[np.intp]:
-        """Indices of every row of the grid."""
-        return np.arange(self.shape[0])
+    @property
+    def is_periodic(self) -> bool:
+        """Whether displacements are counted from their mean, so that none is under even load."""
+        return bool(self.spectrum[0, 0] == 0)
 
-    def displacement(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+    @cached_property
+    def _spectrum_float32(self) -> NDArray[np.float32]:
+        return self.spectrum.astype(np.float32)
+
+    @cached_property
+    def _scratch(self) -> NDArray[np.complex128]:
+        """Room for the row transforms, two rows in each complex one."""
+        return np.empty(((self.shape[0] + 1) // 2, self.periods[1]), dtype=np.complex128)
+
+    def displacement(self, pressure: Field) -> Field:
         """Return u = K p on the whole grid.
 
         Parameters
@@ -61,49 +107,96 @@ class Operator:
         ndarray, shape (nx, ny)
             Displacement at the centre of each cell. [length]
         """
-        return self.convolve(pressure, self.all_rows, self.all_rows)
+        nodes = np.flatnonzero(pressure)
+        return self.convolve(pressure.flat[nodes], Places.of(nodes, self.shape))
+
+    @overload
+    def convolve(
+        self,
+        pressure: Field,
+        sources: Places,
+        targets: None = None,
+        precision: Precision = "float64",
+    ) -> Field: ...
+
+    @overload
+    def convolve(
+        self, pressure: Field, sources: Places, targets: Places, precision: Precision = "float64"
+    ) -> Field: ...
 
     def convolve(
         self,
-        pressure_rows: NDArray[np.float64],
-        rows_in: NDArray[np.intp],
-        rows_out: NDArray[np.intp],
-    ) -> NDArray[np.float64]:
-        """Displacement on some rows of the grid from the pressure on some rows.
+        pressure: Field,
+        sources: Places,
+        targets: Places | None = None,
+        precision: Precision = "float64",
+    ) -> Field:
+        """Displacement at some places, or on the whole grid, from the pressure on some places.
 
-        Rows without pressure are never transformed, nor rows that nobody asks for: rows first,
-        then the columns a block at a time (pad, transform, multiply, back, crop), then rows.
+        Rows without pressure are never transformed, nor rows that nobody asks for. Two rows make
+        one complex row: rows first, then the columns a block at a time (separate, pad, transform,
+        multiply, back, crop, join), then rows.
 
         Parameters
         ----------
-        pressure_rows : ndarray, shape (len(rows_in), ny)
-            The rows that carry pressure. [pressure]
-        rows_in, rows_out : ndarray of int
-            Their indices in the grid, and the indices of the rows wanted.
+        pressure : ndarray
+            Pressures on the sources. [pressure]
+        sources, targets : Places
+            Where the pressure acts and where the displacement is wanted; None: everywhere.
+        precision : {"float64", "float32"}
+            Of the transforms; single precision errs by some 1e-7 of the largest displacement.
 
         Returns
         -------
-        ndarray, shape (len(rows_out), ny)
+        ndarray, shape of targets or (nx, ny)
             Displacement. [length]
         """
-        (_, ny), (mx, my) = self.shape, self.periods
-        padded = pressure_rows
-        if my > ny:
-            padded = np.zeros((len(rows_in), my))
-            padded[:, :ny] = pressure_rows
-        modes_in = fft.rfft_rows(padded)
-        modes_out = np.empty((len(rows_out), my // 2 + 1), dtype=np.complex128)
-        width = max(64, _BLOCK // mx)
-        for start in range(0, my // 2 + 1, width):
-            block = slice(start, min(start + width, my // 2 + 1))
-            columns = np.zeros((mx, block.stop - start), dtype=np.complex128)
-            columns[rows_in] = modes_in[:, block]
-            columns = fft.fft_columns(columns, forward=True)
-            columns[: mx // 2 + 1] *= self.spectrum[:, block]
-            columns[mx // 2 + 1 :] *= self.spectrum[(mx - 1) // 2 : 0 : -1, block]
-            columns = fft.fft_columns(columns, forward=False)
-            modes_out[:, block] = columns[rows_out]
-        return fft.irfft_rows(modes_out, my)[:, :ny]
+        (nx, ny), (mx, my) = self.shape, self.periods
+        single = precision == "float32"
+        spectrum = self._spectrum_float32 if single else self.spectrum
+        modes = self._scratch
+        if single:
+            modes = modes.view(np.complex64).reshape(-1)[: modes.size].reshape(modes.shape)
+        real_modes = modes.view(np.float32 if single else np.float64).reshape(len(modes), my, 2)
+        rows_out = np.arange(nx) if targets is None else targets.rows
+
+        def transform_rows(first: int, last: int) -> None:
+            loops.scatter_pairs(
+                pressure, sources.starts, sources.columns, first, last, real_modes
+            )
+            fft.fft_rows(modes[first:last], forward=True)
+
+        def convolve_columns(first: int, last: int) -> None:
+            columns = np.empty((mx, last - first), dtype=modes.dtype)
+            real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
+            loops.load_columns(real_modes, sources.rows, first, real_columns)
+            fft.fft_columns(columns, forward=True)
+            loops.weigh_columns(real_columns, spectrum, first)
+            fft.fft_columns(columns, forward=False)
+            loops.store_columns(real_columns, rows_out, first, real_modes)
+
+        if targets is None:
+            field = np.empty((nx, ny))
+        else:
+            field = np.empty(targets.nodes.size)
+
+        def transform_rows_back(first: int, last: int) -> None:
+            fft.fft_rows(modes[first:last], forward=False)
+            if targets is None:
+                loops.gather_rows(real_modes, first, last, field)
+            else:
+                loops.gather_pairs(
+                    real_modes, targets.starts, targets.columns, first, last, field
+                )
+
+        _in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS)
+        _in_blocks(convolve_columns, my // 2 + 1, _BLOCK)
+        _in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS)
+        return field
+
+
+def _in_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:
+    fft.share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
 
 
 def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Operator:
@@ -123,10 +216,16 @@ def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) ->
     """
     mx, my = fft.good_size(2 * shape[0]), fft.good_size(2 * shape[1])
     dx, dy = spacing
-    offsets_x = dx * np.arange(mx // 2 + 1)[:, np.newaxis]
-    offsets_y = dy * np.arange(my // 2 + 1)[np.newaxis, :]
-    kernel = love(offsets_x, offsets_y, dx, dy)
-    spectrum = fft.cosine_spectrum(kernel) / (E_star * mx * my)
+    spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
+    offsets_y = dy * np.arange(my // 2 + 1)
+
+    def fill(first: int, last: int) -> None:
+        offsets_x = dx * np.arange(first, last)[:, np.newaxis]
+        spectrum[first:last] = love(offsets_x, offsets_y, dx, dy)
+
+    _in_blocks(fill, len(spectrum), max(1, 2**16 // len(offsets_y)))
+    fft.cosine_spectrum(spectrum)
+    spectrum /= E_star * mx * my
     return Operator(shape, spacing, (mx, my), spectrum)
 
 

@@ -2,114 +2,140 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.halfspace.operator import Operator
-from roughline.halfspace.preconditioner import Preconditioner, Stencil
+from roughline.halfspace.operator import Operator, Places, Precision
+from roughline.halfspace.preconditioner import Approximation, Preconditioner
 
 Vector = NDArray[np.float64]
-
-_STALLED_AFTER = 200  # iterations without a smaller error: rounding is all that is left
-_REFRESH = 50  # iterations after which the residual is recomputed rather than updated
-
-
-class Solution(NamedTuple):
-    """What conjugate gradients return.
-
-    Attributes
-    ----------
-    values : ndarray, shape (nodes,)
-        Pressures on the nodes.
-    level : float
-        The uniform displacement that goes with a fixed total; zero where the total is free.
-    """
-
-    values: Vector
-    level: float
+Nodes = NDArray[np.intp]
 
 
 class Patch:
     """A set of contact nodes of one operator; all vectors run over these nodes only.
 
-    Attributes
+    Parameters
     ----------
+    operator, approximation
+        The half-space and what its preconditioner knows of it.
     nodes : ndarray of int
         Flat indices in the grid, ascending.
-    convolutions : int
-        Convolutions done on this patch so far.
+    watched : ndarray of int, optional
+        Nodes off the contact whose displacement is followed as well.
     """
 
-    def __init__(self, operator: Operator, stencil: Stencil, nodes: NDArray[np.intp]) -> None:
+    def __init__(
+        self,
+        operator: Operator,
+        approximation: Approximation,
+        nodes: Nodes,
+        watched: Nodes | None = None,
+    ) -> None:
+        self.operator = operator
         self.nodes = nodes
-        self.convolutions = 0
-        self._operator = operator
-        self._columns = nodes % operator.shape[1]
-        self._rows, self._row = np.unique(nodes // operator.shape[1], return_inverse=True)
-        self._precondition = Preconditioner(stencil, operator.shape, nodes)
+        self.places = Places.of(nodes, operator.shape)
+        self.precondition = Preconditioner(approximation, self.places)
+        self._targets = self.places
+        if watched is not None and watched.size:
+            both, order = merged(nodes, watched)
+            self._targets = Places.of(both, operator.shape)
+            self._on_contact = np.flatnonzero(order < nodes.size)
+            self._off_contact = np.flatnonzero(order >= nodes.size)
 
-    def displacement(self, pressure: Vector) -> Vector:
-        """Displacement of the nodes under pressures on them."""
-        return self._convolve(pressure, self._rows)[self._row, self._columns]
+    def displacement(self, pressure: Vector, precision: Precision) -> tuple[Vector, Vector]:
+        """Displacement of the nodes, and of the watched ones, under pressures on the nodes."""
+        found = self.operator.convolve(pressure, self.places, self._targets, precision)
+        if self._targets is self.places:
+            return found, found[:0]
+        return found[self._on_contact], found[self._off_contact]
 
-    def displacement_everywhere(self, pressure: Vector) -> NDArray[np.float64]:
-        """Displacement of the whole grid under pressures on the nodes."""
-        return self._convolve(pressure, self._operator.all_rows)
 
-    def _convolve(self, pressure: Vector, rows_out: NDArray[np.intp]) -> NDArray[np.float64]:
-        self.convolutions += 1
-        pressure_rows = np.zeros((len(self._rows), self._operator.shape[1]))
-        pressure_rows[self._row, self._columns] = pressure
-        return self._operator.convolve(pressure_rows, self._rows, rows_out)
+class ConjugateGradients:
+    """Steps towards the pressures that displace the nodes of a patch by a target.
 
-    def pressure_for(
-        self, target: Vector, start: Vector, tolerance: float, limit: int, *, fixed_total: bool
-    ) -> Solution:
-        """Find the pressures that displace the nodes by `target`.
+    With `fixed_total` the sum of the pressures stays as it is, and the nodes are displaced by
+    ``target + level``, the level being found as well: residuals are projected so that no step
+    changes the sum (Polonsky and Keer 1999, here with a preconditioner).
 
-        With ``fixed_total`` the sum of the pressures stays that of `start`, and the nodes are
-        displaced by ``target + level``, the level being found as well: the residual is projected
-        so that no step changes the sum (Polonsky and Keer 1999, here with a preconditioner).
+    Parameters
+    ----------
+    patch : Patch
+        The equations.
+    pressure : ndarray, shape (nodes,)
+        Pressures to start from.
+    residual : ndarray, shape (nodes,)
+        The target less the displacement that they cause. [length]
+    watched : ndarray, shape (watched,)
+        Displacement of the watched nodes. [length]
+    fixed_total : bool
+        Whether the total load or the level is prescribed.
+    precision : {"float64", "float32"}
+        Of the convolutions.
 
-        Parameters
-        ----------
-        target, start : ndarray, shape (nodes,)
-            Displacements wanted and pressures to start from.
-        tolerance : float
-            Largest error of a displacement. [length]
-        limit : int
-            Largest number of iterations; what is returned then may miss the tolerance.
-        fixed_total : bool
-            Whether the total load or the level is prescribed.
-        """
-        pressure = start.copy()
-        ones = self._precondition(np.ones_like(start)) if fixed_total else start
-        total_of_ones = ones.sum()
-        residual = target - self.displacement(pressure)
-        direction = np.zeros_like(start)
-        slope, level = 1.0, 0.0
-        least_error, least_at = np.inf, 0
-        for iteration in range(limit + 1):
-            step = self._precondition(residual)
-            if fixed_total:
-                level = -step.sum() / total_of_ones
-                step += level * ones
-            error = float(np.abs(residual + level).max())
-            if error < least_error:
-                least_error, least_at = error, iteration
-            if error <= tolerance or iteration == limit or iteration - least_at > _STALLED_AFTER:
-                break
-            slope_before, slope = slope, float((residual + level) @ step)
-            direction = step + (slope / slope_before if iteration else 0.0) * direction
-            response = self.displacement(direction)
-            curvature = float(direction @ response)
-            if not (curvature > 0 and slope > 0):
-                break  # nothing more to gain
-            pressure += slope / curvature * direction
-            if (iteration + 1) % _REFRESH:
-                residual -= slope / curvature * response
-            else:
-                residual = target - self.displacement(pressure)
-        return Solution(pressure, level)
+    Attributes
+    ----------
+    pressure, watched : ndarray
+        After the steps so far.
+    level : float
+        The uniform displacement that goes with a fixed total; zero where the total is free.
+    error : ndarray, shape (nodes,)
+        Displacement that is still missing. [length]
+    energy : float
+        Estimate of the energy norm of the error, squared. [pressure length]
+    steps : int
+        Steps, and so convolutions, done.
+    """
+
+    def __init__(
+        self,
+        patch: Patch,
+        pressure: Vector,
+        residual: Vector,
+        watched: Vector,
+        *,
+        fixed_total: bool,
+        precision: Precision,
+    ) -> None:
+        self.pressure = pressure
+        self.watched = watched
+        self.level = 0.0
+        self.steps = 0
+        self._patch = patch
+        self._precision = precision
+        self._residual = residual
+        self._ones = patch.precondition(np.ones_like(pressure)) if fixed_total else None
+        self._direction = np.zeros_like(pressure)
+        self.energy = np.inf
+        self._project()
+
+    def _project(self) -> None:
+        self._step = self._patch.precondition(self._residual)
+        if self._ones is not None:
+            self.level = -float(self._step.sum() / self._ones.sum())
+            self._step += self.level * self._ones
+        self.error = self._residual + self.level
+        self._energy_before, self.energy = self.energy, float(self.error @ self._step)
+
+    def advance(self) -> bool:
+        """Do one step; return False if there is nothing more to gain."""
+        self._direction *= self.energy / self._energy_before  # nothing yet on the first step
+        self._direction += self._step
+        response, watched = self._patch.displacement(self._direction, self._precision)
+        curvature = float(self._direction @ response)
+        if not (curvature > 0 and self.energy > 0):
+            return False
+        length = self.energy / curvature
+        self.pressure += length * self._direction
+        self.watched += length * watched
+        self._residual -= length * response
+        self.steps += 1
+        self._project()
+        return True
+
+
+def merged(nodes: Nodes, others: Nodes) -> tuple[Nodes, NDArray[np.intp]]:
+    """Merge two ascending, disjoint lists; also return where each entry stood in their chain."""
+    chain = np.concatenate([nodes, others])
+    order = np.argsort(chain, kind="stable")
+    return chain[order], order

@@ -8,13 +8,16 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.halfspace.active_set import Contact, Load, Outcome, solve
-from roughline.halfspace.operator import Operator
-from roughline.halfspace.preconditioner import Stencil
+from roughline.halfspace.active_set import solve
+from roughline.halfspace.operator import Operator, Places
+from roughline.halfspace.patch import merged
+from roughline.halfspace.preconditioner import Approximation
+from roughline.halfspace.state import Contact, Field, Load, Outcome, Start, Vector
 from roughline.halfspace.tangent import Tangent, tangent
 
-Field = NDArray[np.float64]
-Start = tuple[float, NDArray[np.intp], NDArray[np.float64]]
+# New contact relieves its surroundings, which the tangent cannot know: nodes that it would overlap
+# after this part of the rise are taken to come into contact.
+_BELIEVED = 0.5
 
 
 def follow(
@@ -50,30 +53,29 @@ def follow(
     tuple of Contact and Tangent
         For each load; without a tangent where the contact was not certified.
     """
-    stencil = Stencil.of(operator)
+    approximation = Approximation.of(operator)
     before: tuple[Contact, Tangent] | None = None
     for value in values.tolist():
         load = Load(depth=value) if control == "depths" else Load(force=value)
         if before is None:
-            start, tangent_start = _first_guess(operator, separation, load), None
+            start = _first_guess(operator, separation, load)
         else:
-            start, tangent_start = _predicted(operator, separation, load, *before)
+            start = _predicted(operator, separation, load, *before)
         contact = solve(
-            operator, stencil, separation, rms_height, load, start, rtol, max_iterations
+            operator, approximation, separation, rms_height, load, start, rtol, max_iterations
         )
         if contact.outcome is not Outcome.CONVERGED:
             before = None
             yield contact, None
             continue
-        if tangent_start is not None:
-            tangent_start = tangent_start[contact.patch.nodes]
-        stiffness = tangent(operator, contact, tangent_start)
+        guess = None if before is None else _carried(before[0], before[1], contact)
+        stiffness = tangent(operator, approximation, contact, guess, rtol)
         before = (contact, stiffness) if stiffness.converged else None
         yield contact, stiffness
 
 
 def _first_guess(operator: Operator, separation: Field, load: Load) -> Start:
-    """Start from every node that the rigid shift would overlap.
+    """Start from every node that the rigid shift would overlap, pressed as much as it overlaps.
 
     For a force, the shift at which one disc of that many nodes, 2 a (d - mean separation), would
     carry it.
@@ -88,28 +90,37 @@ def _first_guess(operator: Operator, separation: Field, load: Load) -> Start:
         reached = depths <= np.append(separations[1:], np.inf)
         depth = float(depths[reached.argmax()])
     nodes = np.flatnonzero(separation < depth)
-    return depth, nodes, np.zeros(nodes.size)
+    return Start(nodes, depth - separation.flat[nodes])
 
 
 def _predicted(
-    operator: Operator, separation: Field, load: Load, contact: Contact, tangent: Tangent
-) -> tuple[Start, NDArray[np.float64]]:
+    operator: Operator, separation: Field, load: Load, contact: Contact, stiffness: Tangent
+) -> Start:
     """Follow the tangent: p + dF w, and the nodes that press or overlap then."""
     if load.force is not None:
         rise = load.force - contact.force
-        depth = contact.depth + rise / tangent.stiffness
     else:
         assert load.depth is not None
-        depth = load.depth
-        rise = tangent.stiffness * (depth - contact.depth)
-    per_force = contact.patch.displacement_everywhere(tangent.pressure_per_force)
-    gap = contact.gap + rise * (per_force - 1 / tangent.stiffness)
-    pressure = np.zeros(separation.size)
-    pressure[contact.patch.nodes] = contact.pressure + rise * tangent.pressure_per_force
-    field_per_force = np.zeros(separation.size)
-    field_per_force[contact.patch.nodes] = tangent.pressure_per_force
-    candidates = gap.ravel() < 0
-    candidates[contact.patch.nodes] = False
-    candidates |= pressure > 0
-    nodes = np.flatnonzero(candidates)
-    return (depth, nodes, pressure[nodes]), field_per_force
+        rise = stiffness.stiffness * (load.depth - contact.depth)
+    places = Places.of(contact.nodes, operator.shape)
+    gap = operator.convolve(stiffness.pressure_per_force, places, None, "float32")
+    gap -= 1 / stiffness.stiffness
+    gap *= _BELIEVED * rise
+    gap += contact.gap
+    gap.flat[contact.nodes] = 0.0
+    overlapping = np.flatnonzero(gap < 0)
+    pressure = contact.pressure + rise * stiffness.pressure_per_force
+    pressing = pressure > 0
+    nodes, order = merged(contact.nodes[pressing], overlapping)
+    pressure = np.append(pressure[pressing], np.zeros(overlapping.size))[order]
+    return Start(nodes, pressure)
+
+
+def _carried(before: Contact, stiffness: Tangent, contact: Contact) -> Vector:
+    """Return dp/dF of the load before on the nodes that are still in contact, zero on others."""
+    carried = np.zeros(contact.nodes.size)
+    where = np.searchsorted(before.nodes, contact.nodes)
+    where[where == before.nodes.size] = 0
+    still = before.nodes[where] == contact.nodes
+    carried[still] = stiffness.pressure_per_force[where[still]]
+    return carried

@@ -9,17 +9,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.halfspace.active_set import Contact
 from roughline.halfspace.operator import Operator
+from roughline.halfspace.patch import ConjugateGradients, Patch
+from roughline.halfspace.preconditioner import Approximation
+from roughline.halfspace.state import Contact, Vector
 
-# The energy w K w errs by the square of what the displacements err by: this makes 1e-9 or better.
-_RTOL = 1e-5
-_LIMIT = 2000
-# The secant compliance sets the first tolerance; near full periodic contact the tangent's is far
-# smaller, and the tolerance has to follow it down.
-_TIGHTENINGS = 6
+# The stiffness is the energy form 1 / (w K w); conjugate gradients tell the energy of their error,
+# and stop at this part of the tolerance for all else.
+_MARGIN = 0.01
+_STEPS = 300  # steps after which the energy is computed afresh
+_ROUNDS = 6
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,17 +32,24 @@ class Tangent:
         k = dF/dd; infinite in full contact of the periodic half-space. [force / length]
     pressure_per_force : ndarray, shape (nodes,)
         dp/dF on the contact nodes. [1 / area]
+    convolutions : int
+        Convolutions spent.
     converged : bool
         Whether the linear equations were solved.
     """
 
     stiffness: float
-    pressure_per_force: NDArray[np.float64]
+    pressure_per_force: Vector
+    convolutions: int
     converged: bool
 
 
 def tangent(
-    operator: Operator, contact: Contact, start: NDArray[np.float64] | None = None
+    operator: Operator,
+    approximation: Approximation,
+    contact: Contact,
+    start: Vector | None,
+    rtol: float,
 ) -> Tangent:
     """Solve for the exact stiffness of a contact.
 
@@ -51,31 +58,40 @@ def tangent(
 
     Parameters
     ----------
-    operator : Operator
-        The half-space.
+    operator, approximation
+        The half-space and what its preconditioner knows of it.
     contact : Contact
         The contact whose set of nodes is held fixed.
     start : ndarray, shape (nodes,), optional
         Guess of dp/dF, such as that of the load before; the pressures themselves if absent.
         [1 / area]
+    rtol : float
+        The stiffness is sought to a hundredth of it.
     """
-    cell_area, patch = operator.cell_area, contact.patch
-    points = operator.shape[0] * operator.shape[1]
-    if patch.nodes.size == points and operator.spectrum[0, 0] == 0:
-        even = np.full(points, 1 / (points * cell_area))
-        return Tangent(np.inf, even, converged=True)
+    cell_area = operator.cell_area
+    if operator.is_periodic and contact.nodes.size == contact.gap.size:
+        even = np.full(contact.nodes.size, 1 / (contact.nodes.size * cell_area))
+        return Tangent(np.inf, even, 0, converged=True)
+    patch = Patch(operator, approximation, contact.nodes)
     if start is None or not start.sum() > 0:
         start = contact.pressure
     pressure = start / (start.sum() * cell_area)
-    target = np.zeros_like(pressure)
-    under_load = contact.displacement.flat[patch.nodes]
-    compliance = cell_area * float(contact.pressure @ under_load) / contact.force**2  # the secant
-    for _ in range(_TIGHTENINGS):
-        tolerance = _RTOL * compliance
-        pressure = patch.pressure_for(target, pressure, tolerance, _LIMIT, fixed_total=True).values
-        displacement = patch.displacement(pressure)
-        compliance = cell_area * float(pressure @ displacement)
-        if tolerance <= 4 * _RTOL * compliance:
+    convolutions, accuracy = 0, _MARGIN * rtol
+    for _ in range(_ROUNDS):
+        displacement, watched = patch.displacement(pressure, "float64")
+        compliance = float(pressure @ displacement) * cell_area
+        solution = ConjugateGradients(
+            patch, pressure, -displacement, watched, fixed_total=True, precision="float32"
+        )
+        convolutions += 1
+        # compliance counts forces, energies of errors count pressures
+        converged = solution.energy * cell_area <= accuracy * compliance
+        if converged:
             break
-    error = np.abs(displacement - compliance).max()
-    return Tangent(1 / compliance, pressure, converged=bool(error <= 10 * _RTOL * compliance))
+        while solution.energy * cell_area > 0.1 * accuracy * compliance and (
+            solution.steps < _STEPS and solution.advance()
+        ):
+            pass
+        pressure = solution.pressure
+        convolutions += solution.steps
+    return Tangent(1 / compliance, pressure, convolutions, converged=converged)
