@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from roughline._version import __version__
 from roughline.curve import RESOLVED_FROM, Curve, Fields, Status
@@ -17,7 +17,7 @@ from roughline.reduction import Springs
 from roughline.topography import Body, Line, Surface
 
 if TYPE_CHECKING:
-    from roughline.halfspace.active_set import Contact
+    from roughline.halfspace.state import Contact
 
 
 def press(
@@ -185,7 +185,7 @@ def _press_surface(
             area_fraction[i] = touching / separation.size
             resolved[i] = touching >= RESOLVED_FROM
         if keep_fields:
-            all_fields.append(_fields(contact, units) if converged else None)
+            all_fields.append(_fields(contact, separation, units) if converged else None)
         if progress is not None:
             progress(i + 1, count)
     return Curve(
@@ -243,12 +243,12 @@ class _Units:
         return self.E_star * self.height / self.length
 
 
-def _fields(contact: Contact, units: _Units) -> Fields:
+def _fields(contact: Contact, separation: NDArray[np.float64], units: _Units) -> Fields:
     pressure = np.zeros(contact.gap.shape)
-    pressure.flat[contact.patch.nodes] = contact.pressure * units.pressure
+    pressure.flat[contact.nodes] = contact.pressure * units.pressure
     return Fields(
         pressure=pressure,
-        displacement=contact.displacement * units.height,
+        displacement=(contact.gap + (contact.depth - separation)) * units.height,
         gap=contact.gap * units.height,
         contact=pressure > 0,
     )

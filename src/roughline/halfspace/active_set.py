@@ -203,7 +203,8 @@ class _Search:
         self.convolutions += solution.steps
         self.pressure = solution.pressure
         worst = max(error, -float(solution.pressure.min()) * self._approximation.own)
-        self._outer = "float32" if worst > _SINGLE_ABOVE * abs(level) else "float64"
+        rough = worst > max(_SINGLE_ABOVE * abs(level), self._rtol * self._length_scale)
+        self._outer = "float32" if rough else "float64"
         if one_by_one:
             _keep_last(self.nodes, pulling, watched, overlapping)
         self._wrong = int(np.count_nonzero(pulling) + np.count_nonzero(overlapping))

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.halfspace.active_set import solve
+from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.operator import Operator, Places
 from roughline.halfspace.patch import merged
 from roughline.halfspace.preconditioner import Approximation
@@ -58,7 +59,7 @@ def follow(
     for value in values.tolist():
         load = Load(depth=value) if control == "depths" else Load(force=value)
         if before is None:
-            start = _first_guess(operator, separation, load)
+            start = first_guess(operator, separation, rms_height, load)
         else:
             start = _predicted(operator, separation, load, *before)
         contact = solve(
@@ -72,25 +73,6 @@ def follow(
         stiffness = tangent(operator, approximation, contact, guess, rtol)
         before = (contact, stiffness) if stiffness.converged else None
         yield contact, stiffness
-
-
-def _first_guess(operator: Operator, separation: Field, load: Load) -> Start:
-    """Start from every node that the rigid shift would overlap, pressed as much as it overlaps.
-
-    For a force, the shift at which one disc of that many nodes, 2 a (d - mean separation), would
-    carry it.
-    """
-    depth = load.depth
-    if depth is None:
-        assert load.force is not None
-        separations = np.sort(separation, axis=None)
-        count = np.arange(1, separations.size + 1)
-        stiffness = 2 * np.sqrt(count * operator.cell_area / np.pi)
-        depths = load.force / stiffness + np.cumsum(separations) / count
-        reached = depths <= np.append(separations[1:], np.inf)
-        depth = float(depths[reached.argmax()])
-    nodes = np.flatnonzero(separation < depth)
-    return Start(nodes, depth - separation.flat[nodes])
 
 
 def _predicted(

@@ -14,7 +14,9 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,10 +26,12 @@ from roughline.halfspace import loops
 from roughline.halfspace.operator import Operator, Places
 
 Field = NDArray[np.float64]
+Indices = NDArray[np.integer] | NDArray[np.floating]
 
 _RADIUS = 2
 _BLOCK = 16  # cells along the side of a block
 _COARSEST = 32  # blocks along a side of the lattice that is solved directly
+_RIDGE = 1 + 1e-9  # on diagonals, against rounding
 _GROUP = 4  # blocks along a side of a group, which makes one block of the next lattice
 
 
@@ -44,46 +48,45 @@ class Approximation:
     taps : ndarray, shape (taps,)
         Its coefficients. All but the central one are negative and together weigh less than it, so
         the stencil cut to any set of nodes is positive definite. [pressure / length]
-    own, block_own : float
-        Displacement of a node by its own pressure, and by the mean of the others in its block.
-    between : ndarray, shape (blocks along x, blocks along y)
-        Displacement of one node by the pressure on one other, by the distance of their blocks.
+    own : float
+        Displacement of a node by its own pressure. [length / pressure]
+    between : tuple of ndarray
+        For each lattice, displacement of a node by the pressure on another, averaged over their
+        blocks, by the distance of these. A positive definite function, as the kernel is.
+        [length / pressure]
     """
 
     shape: tuple[int, int]
     offsets: NDArray[np.intp]
     taps: Field
     own: float
-    block_own: float
-    between: Field
+    between: tuple[Field, ...]
 
     @classmethod
     def of(cls, operator: Operator) -> Approximation:
         """Derive it from the operator's spectrum."""
+        # even pressure displaces nothing in a periodic half-space: let it displace as the rest does
+        raised = float(operator.spectrum.max()) if operator.is_periodic else 0.0
+        own = _even_sum(operator, operator.spectrum, [np.zeros(1)] * 2)[0, 0] + raised
+        between = []
+        sides = [min(_BLOCK, n) for n in operator.shape]
+        while True:
+            lags = [
+                side * np.arange(-(-n // side))
+                for side, n in zip(sides, operator.shape, strict=True)
+            ]
+            between.append(_even_sum(operator, operator.spectrum, lags, sides) + raised)
+            if max(between[-1].shape) <= _COARSEST:
+                break
+            sides = [_GROUP * side for side in sides]
         offsets, taps = _stencil(operator)
-        near = [np.arange(min(_BLOCK, period)) for period in operator.periods]
-        kernel = _even_sum(operator.spectrum, operator.periods, near)
-        if operator.is_periodic:
-            # even pressure displaces nothing: let it displace as much as the longest wave does
-            raised = max(operator.spectrum.flat[1:].max(), 0.0)
-            kernel = kernel + raised
-        else:
-            raised = 0.0
-        pairs = [np.where(lags > 0, 2.0, 1.0) * (_BLOCK - lags) for lags in near]
-        weights = np.outer(*pairs)
-        weights[0, 0] = 0.0
-        block_own = float((weights * kernel).sum() / weights.sum())
-        far = [
-            np.minimum(lags, period - lags)
-            for lags, period in zip(
-                (_BLOCK * np.arange(-(-n // _BLOCK)) for n in operator.shape),
-                operator.periods,
-                strict=True,
-            )
-        ]
-        between = _even_sum(operator.spectrum, operator.periods, far) + raised
-        between[0, 0] = block_own
-        return cls(operator.shape, offsets, taps, float(kernel[0, 0]), block_own, between)
+        return cls(operator.shape, offsets, taps, own, tuple(between))
+
+    @cached_property
+    def grid(self) -> Field:
+        """Room for the grid and the stencil's margin; zero whenever it is not in use."""
+        nx, ny = self.shape
+        return np.zeros((nx + 2 * _RADIUS) * (ny + 2 * _RADIUS))
 
 
 def _stencil(operator: Operator) -> tuple[NDArray[np.intp], Field]:
@@ -101,24 +104,29 @@ def _stencil(operator: Operator) -> tuple[NDArray[np.intp], Field]:
     ]
     offsets = np.array(cells, dtype=np.intp)
     lags = np.arange(_RADIUS + 1)
-    taps = _even_sum(inverse, operator.periods, [lags, lags])[
-        abs(offsets[:, 0]), abs(offsets[:, 1])
-    ]
+    taps = _even_sum(operator, inverse, [lags, lags])[abs(offsets[:, 0]), abs(offsets[:, 1])]
     centre = (offsets == 0).all(axis=1)
     around = np.minimum(taps, 0.0)
     around *= min(1.0, 0.99 * taps[centre].item() / max(-around.sum(), 1e-300))
     return offsets, np.where(centre, taps, around)
 
 
-def _even_sum(quarter: Field, periods: tuple[int, int], lags: list[NDArray[np.intp]]) -> Field:
-    """Transform an even spectrum given by its quarter, at the lags wanted only."""
+def _even_sum(
+    operator: Operator, quarter: Field, lags: Sequence[Indices], sides: Sequence[int] = (1, 1)
+) -> Field:
+    """Transform an even spectrum given by its quarter, at the lags wanted only.
+
+    With `sides`, the result is averaged over all pairs of cells of two blocks at these lags.
+    """
     result = quarter
-    for axis, period in enumerate(periods):
+    for axis, period in enumerate(operator.periods):
         modes = np.arange(period // 2 + 1)
         weights = np.full(modes.size, 2.0)
         weights[0] = 1.0
         if period % 2 == 0:
             weights[-1] = 1.0
+        angle = np.pi / period * modes[1:]
+        weights[1:] *= (np.sin(sides[axis] * angle) / (sides[axis] * np.sin(angle))) ** 2
         # the product modulo the period keeps the angle small and exact
         cosines = weights * np.cos(2 * np.pi / period * (np.outer(lags[axis], modes) % period))
         result = np.moveaxis(np.tensordot(cosines, result, axes=(1, axis)), 0, axis)
@@ -129,18 +137,27 @@ class Preconditioner:
     """The approximate inverse on one set of contact nodes."""
 
     def __init__(self, approximation: Approximation, places: Places) -> None:
-        nx, ny = approximation.shape
+        ny = approximation.shape[1]
         rows = np.repeat(places.rows, np.diff(places.starts))
         width = ny + 2 * _RADIUS
         self._taps = approximation.taps
         self._offsets = approximation.offsets @ np.array([width, 1])
         self._places = (rows + _RADIUS) * width + places.columns + _RADIUS
-        self._grid = np.zeros((nx + 2 * _RADIUS) * width)
-        lattice = approximation.between.shape
-        self._block = ((rows // _BLOCK) * lattice[1] + places.columns // _BLOCK).astype(np.int32)
+        self._grid = approximation.grid
+        sides = [min(_BLOCK, n) for n in approximation.shape]
+        lattice = approximation.between[0].shape
+        self._lattice = lattice
+        self._block = (rows // sides[0]) * lattice[1] + places.columns // sides[1]
         count = np.bincount(self._block, minlength=lattice[0] * lattice[1]).astype(np.float64)
         self._per_node = 1 / np.maximum(count, 1.0)
-        self._coarse = _Lattice(approximation, count.reshape(lattice))
+        energy = count**2 * approximation.between[0][0, 0]
+        # nodes at random in a block of so many cells
+        energy += count * (1 - count / (sides[0] * sides[1])) * (
+            approximation.own - approximation.between[0][0, 0]
+        )
+        self._coarse = _Lattices(
+            approximation.between, count.reshape(lattice), energy.reshape(lattice)
+        )
 
     def __call__(self, residual: Field) -> Field:
         """Return the pressure change that would undo `residual`, were the inverse exact."""
@@ -158,81 +175,94 @@ class Preconditioner:
             result,
             sums_of_result,
         )
-        means = self._coarse(sums) - sums_of_result * self._per_node
+        means = self._coarse(sums.reshape(self._lattice)).ravel()
+        means -= sums_of_result * self._per_node
         loops.add_blocks(means, self._block, result)
         return result
 
 
-class _Lattice:
-    """Equations for the mean pressures of blocks, of which each holds some contact nodes.
+class _Lattices:
+    """Equations for even pressures on blocks, on a lattice of blocks and ever coarser ones.
 
-    The energy of even pressures on two blocks is taken as if their nodes lay at random in them.
+    The energies are those of the averaged kernel, and at least these on the diagonal, so all
+    matrices are positive definite.
     """
 
-    def __init__(self, approximation: Approximation, count: Field) -> None:
-        between = approximation.between
-        # of each block with itself
-        energy = count * (approximation.own + (count - 1) * approximation.block_own)
+    def __init__(self, between: tuple[Field, ...], count: Field, energy: Field) -> None:
+        self._groups: list[_Groups] = []
+        for kernel in between[:-1]:
+            self._groups.append(_Groups(kernel, count, energy))
+            count, energy = self._groups[-1].count, self._groups[-1].energy
+        self._occupied = np.flatnonzero(count)
+        x, y = np.divmod(self._occupied, count.shape[1])
+        matrix = between[-1][abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
+        weights = count.ravel()[self._occupied]
+        matrix *= weights[:, np.newaxis] * weights
+        _set_diagonal(matrix, energy.ravel()[self._occupied])
+        self._factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
         self._shape = count.shape
-        self._groups: list[tuple[tuple[int, int], Field]] = []
-        while max(count.shape) > _COARSEST:
-            count, energy, between = self._gather(count, energy, between)
-        occupied = np.flatnonzero(count)
-        self._occupied = occupied
-        matrix = _energies(count.ravel()[occupied], energy.ravel()[occupied], between, occupied)
-        self._factor = cho_factor(matrix, overwrite_a=True)
-
-    def _gather(self, count: Field, energy: Field, between: Field) -> tuple[Field, Field, Field]:
-        """Invert the equations of each group of blocks, for pressures that sum to zero."""
-        side = _GROUP
-        shape = tuple(-(-n // side) for n in count.shape)
-        padding = [(0, m * side - n) for m, n in zip(shape, count.shape, strict=True)]
-
-        def grouped(values: Field) -> Field:
-            padded = np.pad(values, padding).reshape(shape[0], side, shape[1], side)
-            return padded.transpose(0, 2, 1, 3).reshape(-1, side * side)
-
-        counts, energies = grouped(count), grouped(energy)
-        near = np.zeros((side, side))
-        near[: between.shape[0], : between.shape[1]] = between[:side, :side]
-        x, y = np.divmod(np.arange(side * side), side)
-        kernel = near[abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
-        matrices = counts[:, :, np.newaxis] * counts[:, np.newaxis, :] * kernel
-        diagonal = np.arange(side * side)
-        matrices[:, diagonal, diagonal] = energies
-        sums = matrices.sum(axis=(1, 2))
-        matrices[:, diagonal, diagonal] += counts == 0  # empty blocks: anything invertible
-        inverses = np.linalg.inv(matrices)
-        even = np.einsum("gij,gj->gi", inverses, counts)
-        total = np.maximum(np.einsum("gi,gi->g", even, counts), 1e-300)
-        inverses -= even[:, :, np.newaxis] * (even / total[:, np.newaxis])[:, np.newaxis, :]
-        self._groups.append((count.shape, inverses))
-        return counts.sum(axis=1).reshape(shape), sums.reshape(shape), between[::side, ::side]
 
     def __call__(self, sums: Field) -> Field:
-        return self._solve(sums.reshape(self._shape), 0).ravel()
-
-    def _solve(self, sums: Field, level: int) -> Field:
-        if level == len(self._groups):
-            pressure = np.zeros(sums.size)
-            pressure[self._occupied] = cho_solve(self._factor, sums.ravel()[self._occupied])
-            return pressure.reshape(sums.shape)
-        (nx, ny), inverses = self._groups[level]
-        side = _GROUP
-        mx, my = -(-nx // side), -(-ny // side)
-        padded = np.pad(sums, [(0, mx * side - nx), (0, my * side - ny)])
-        groups = padded.reshape(mx, side, my, side).transpose(0, 2, 1, 3).reshape(mx * my, -1)
-        pressure = np.einsum("gij,gj->gi", inverses, groups)
-        pressure += self._solve(groups.sum(axis=1).reshape(mx, my), level + 1).reshape(-1, 1)
-        spread = pressure.reshape(mx, my, side, side).transpose(0, 2, 1, 3)
-        return spread.reshape(mx * side, my * side)[:nx, :ny]
+        """Return the pressure on the nodes of each block from the sum of their residuals."""
+        levels = []
+        for groups in self._groups:
+            levels.append(groups.details(sums))
+            sums = groups.sums(sums)
+        pressure = np.zeros(self._shape)
+        pressure.flat[self._occupied] = cho_solve(
+            self._factor, sums.ravel()[self._occupied], check_finite=False
+        )
+        for details in reversed(levels):
+            nx, ny = details.shape
+            pressure = np.repeat(np.repeat(pressure, _GROUP, axis=0), _GROUP, axis=1)[:nx, :ny]
+            pressure = pressure + details
+        return pressure
 
 
-def _energies(
-    count: Field, energy: Field, between: Field, places: NDArray[np.intp]
-) -> Field:
-    x, y = np.divmod(places, between.shape[1])
-    matrix = between[abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
-    matrix *= count[:, np.newaxis] * count
-    np.fill_diagonal(matrix, energy)
-    return matrix
+class _Groups:
+    """Groups of the blocks of a lattice, in each of which pressures sum to zero."""
+
+    def __init__(self, kernel: Field, count: Field, energy: Field) -> None:
+        self._shape = count.shape
+        self._lattice = tuple(-(-n // _GROUP) for n in count.shape)
+        counts, energies = self._grouped(count), self._grouped(energy)
+        near = np.zeros((_GROUP, _GROUP))
+        near[: kernel.shape[0], : kernel.shape[1]] = kernel[:_GROUP, :_GROUP]
+        x, y = np.divmod(np.arange(_GROUP**2), _GROUP)
+        matrices = counts[:, :, np.newaxis] * counts[:, np.newaxis, :]
+        matrices *= near[abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
+        _set_diagonal(matrices, energies)
+        self.count = counts.sum(axis=1).reshape(self._lattice)
+        self.energy = matrices.sum(axis=(1, 2)).reshape(self._lattice)
+        _set_diagonal(matrices, np.where(counts == 0, 1.0, energies))  # any number will do
+        self._inverses = np.linalg.inv(matrices)
+        even = np.einsum("gij,gj->gi", self._inverses, counts)
+        total = np.maximum(np.einsum("gi,gi->g", even, counts), 1e-300)
+        even /= np.sqrt(total)[:, np.newaxis]
+        self._inverses -= even[:, :, np.newaxis] * even[:, np.newaxis, :]
+
+    def _grouped(self, values: Field) -> Field:
+        """Rearrange a lattice to groups, zero where they reach beyond it."""
+        padding = [(0, m * _GROUP - n) for m, n in zip(self._lattice, self._shape, strict=True)]
+        padded = np.pad(values, padding)
+        split = padded.reshape(self._lattice[0], _GROUP, self._lattice[1], _GROUP)
+        return split.transpose(0, 2, 1, 3).reshape(-1, _GROUP**2)
+
+    def sums(self, values: Field) -> Field:
+        """Sum over each group."""
+        return self._grouped(values).sum(axis=1).reshape(self._lattice)
+
+    def details(self, sums: Field) -> Field:
+        """Return the pressures that sum to zero in each group."""
+        pressure = np.einsum("gij,gj->gi", self._inverses, self._grouped(sums))
+        (mx, my), (nx, ny) = self._lattice, self._shape
+        split = pressure.reshape(mx, my, _GROUP, _GROUP).transpose(0, 2, 1, 3)
+        return split.reshape(mx * _GROUP, my * _GROUP)[:nx, :ny]
+
+
+def _set_diagonal(matrices: Field, energies: Field) -> None:
+    """Set the last two axes' diagonal to the energies, or to what is there where that is more."""
+    diagonal = np.arange(matrices.shape[-1])
+    matrices[..., diagonal, diagonal] = _RIDGE * np.maximum(
+        matrices[..., diagonal, diagonal], energies
+    )
