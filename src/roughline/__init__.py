@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from roughline.errors import RoughlineError as RoughlineError
     from roughline.errors import StoreError as StoreError
     from roughline.errors import UnitError as UnitError
+    from roughline.estimates import Estimate as Estimate
+    from roughline.estimates import estimate as estimate
+    from roughline.fft import set_threads as set_threads
     from roughline.measured import read as read
     from roughline.measured import write as write
     from roughline.power_law import PowerLaw as PowerLaw
@@ -37,6 +40,9 @@ _HOMES = {
     "RoughlineError": "errors",
     "StoreError": "errors",
     "UnitError": "errors",
+    "Estimate": "estimates",
+    "estimate": "estimates",
+    "set_threads": "fft",
     "read": "measured",
     "write": "measured",
     "PowerLaw": "power_law",

@@ -78,6 +78,9 @@ class Curve:
         Exact k = dF/dd. [force / length]
     area_fraction : ndarray, shape (loads,), or None
         Real over nominal contact area; None for a line, whose area predicts nothing.
+    area_fraction_corrected : ndarray, shape (loads,), or None
+        The same without what whole cells overstate along the outline of the contact
+        (Yastrebov, Anciaux and Molinari 2017).
     status : ndarray of int8, shape (loads,)
         A :class:`Status` for each load; where it is not converged the other values are NaN.
     resolved : ndarray of bool, shape (loads,)
@@ -94,6 +97,8 @@ class Curve:
         Unit of lengths ("m": forces are in newtons, stiffness in N/m).
     settings : mapping
         How it was computed: version, tolerance, boundary, and the settings of the body.
+    warnings : sequence of str
+        What to know before the numbers are used; empty where there is nothing to say.
     fields : sequence of Fields
         One for each load if asked for, else empty; None for a load that did not converge.
     """
@@ -102,6 +107,7 @@ class Curve:
     force: Real
     stiffness: Real
     area_fraction: Real | None
+    area_fraction_corrected: Real | None
     status: NDArray[np.int8]
     resolved: NDArray[np.bool_]
     residual: Real
@@ -110,6 +116,7 @@ class Curve:
     length: float
     unit: str | None
     settings: Mapping[str, str | int | float]
+    warnings: Sequence[str] = ()
     fields: Sequence[Fields | None] = field(default=(), repr=False)
 
     @property
@@ -178,6 +185,12 @@ class Curve:
                 self.area_fraction,
                 {"units": "1", "long_name": "real contact area over nominal area"},
             )
+        if self.area_fraction_corrected is not None:
+            variables["area_fraction_corrected"] = (
+                "load",
+                self.area_fraction_corrected,
+                {"units": "1", "long_name": "the same, corrected for the outline's steps"},
+            )
         units = {"pressure": pressures, "displacement": lengths, "gap": lengths, "contact": "1"}
         found = [fields for fields in self.fields if fields is not None]
         for name, unit in units.items() if found else ():
@@ -192,6 +205,8 @@ class Curve:
             "length_units": lengths,
             **self.settings,
         }
+        if self.warnings:
+            attrs["warnings"] = "; ".join(self.warnings)
         return xarray.Dataset(variables, attrs=attrs)
 
     def write(self, path: str | Path) -> None:

@@ -15,6 +15,7 @@ from roughline.topography import Body, Line, Surface
 
 _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
+_GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
 _SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
 _SMALLEST_SPAN = 1e-3  # of spaced forces, where few points leave less between touch and saturation
 
@@ -56,14 +57,22 @@ def line_loads(line: Line, springs: Springs, wish: Wish) -> Loads:
 
 
 def surface_loads(
-    surface: Surface, E_star: float, wish: Wish, periodic: bool, rtol: float
+    surface: Surface, E_star: float, wish: Wish, periodic: bool, rtol: float, *, single: bool
 ) -> Loads:
-    """Return the loads of a surface; spaced ones run from about ten cells to saturation."""
+    """Return the loads of a surface; spaced ones run from about ten cells to saturation.
+
+    Loads are refused for which a gap cannot be told to `rtol`, in `single` precision or in double.
+    """
+    if single and rtol < _GAP_ROUNDING_SINGLE:
+        raise InputError(
+            f"rtol is {rtol:g}; single precision tells gaps to {_GAP_ROUNDING_SINGLE:g} at best: "
+            'give a larger rtol, or precision="mixed"'
+        )
     if wish.n_loads is None:
         loads = _given_loads(wish)
         if periodic and loads.control == "depths":
             _refuse_beyond_full_contact(surface, loads.values[-1])
-        _refuse_beyond_precision(surface, E_star, loads, rtol)
+        _refuse_beyond_precision(surface, E_star, loads, rtol, single)
         return loads
     _refuse_constant(surface, wish)
     if periodic:
@@ -78,7 +87,9 @@ def surface_loads(
         # so many cells as one disc, pressed down to the last of them: F = 2 E* a d
         radius = np.sqrt(few * surface.spacing[0] * surface.spacing[1] / np.pi)
         lowest = 2 * E_star * radius * separation[few]
-    return _spaced_loads(wish, float(lowest), highest)
+    loads = _spaced_loads(wish, float(lowest), highest)
+    _refuse_beyond_precision(surface, E_star, loads, rtol, single)
+    return loads
 
 
 def _given_loads(wish: Wish) -> Loads:
@@ -140,7 +151,9 @@ def _refuse_beyond_full_contact(surface: Surface, depth: float) -> None:
         )
 
 
-def _refuse_beyond_precision(surface: Surface, E_star: float, loads: Loads, rtol: float) -> None:
+def _refuse_beyond_precision(
+    surface: Surface, E_star: float, loads: Loads, rtol: float, single: bool
+) -> None:
     """Refuse loads so large or small that gaps cannot be told to the tolerance."""
     if surface.rms_height == 0:
         return
@@ -150,11 +163,12 @@ def _refuse_beyond_precision(surface: Surface, E_star: float, loads: Loads, rtol
         unit *= E_star * surface.length
         name = "E* h L"
     reach = loads.values / unit
-    if reach[-1] * _GAP_ROUNDING > rtol:
+    rounding = _GAP_ROUNDING_SINGLE if single else _GAP_ROUNDING
+    if reach[-1] * rounding > rtol:
         raise InputError(
-            f"{loads.control}[{reach.size - 1}] is {reach[-1]:.1g} {name}: so deep, double "
-            f"precision cannot tell gaps to rtol = {rtol:g}; give at most "
-            f"{rtol / _GAP_ROUNDING:.0g} {name}, or a larger rtol"
+            f"{loads.control}[{reach.size - 1}] is {reach[-1]:.1g} {name}: so deep, "
+            f"{'single' if single else 'double'} precision cannot tell gaps to rtol = {rtol:g}; "
+            f"give at most {rtol / rounding:.0g} {name}, or a larger rtol"
         )
     if reach[0] < _SMALLEST_REACH:
         raise InputError(

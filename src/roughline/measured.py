@@ -10,10 +10,9 @@ import numpy as np
 
 from roughline.errors import InputError, StoreError, UnitError
 from roughline.quantities import metres_per
-from roughline.topography import Body, Line, Surface
+from roughline.topography import MEASURED, Body, Line, Surface
 
 _FORMAT = "roughline body 1"
-_INSTRUMENT = "instrument file"
 
 
 def read(path: str | Path, unit: str | None = None) -> Body:
@@ -91,7 +90,7 @@ def write(body: Body, path: str | Path) -> None:
 
 def levelled(body: Body) -> Body:
     """Return an instrument's topography without its tilt, anything else as it is."""
-    return body.detrended() if body.settings.get("origin") == _INSTRUMENT else body
+    return body.detrended() if body.settings.get("origin") == MEASURED else body
 
 
 def _read_own(path: Path, unit: str | None) -> Body | None:
@@ -165,7 +164,7 @@ def _metres_per_file_unit(path: Path, stated: str | None, given: str | None) -> 
 
 
 def _body_of(topography: Any, factor: float, path: Path, unit: str) -> Body:
-    settings = {"origin": _INSTRUMENT, "file": path.name, "file_unit": unit}
+    settings = {"origin": MEASURED, "file": path.name, "file_unit": unit}
     if topography.is_uniform and topography.has_undefined_data:
         missing = int(np.count_nonzero(np.ma.getmaskarray(topography.heights())))
         raise InputError(

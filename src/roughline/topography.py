@@ -14,6 +14,9 @@ from roughline.errors import InputError
 
 Settings = Mapping[str, str | int | float]
 
+MEASURED = "instrument file"
+"""Origin, in the settings, of what an instrument measured."""
+
 # Beyond this, squares of lengths leave the range of double precision.
 _LARGEST = 1e150
 
@@ -36,8 +39,8 @@ class Surface:
     Raises
     ------
     InputError
-        For heights that are not real, finite numbers or fewer than 2 x 2, and for sizes that are
-        not positive.
+        For heights that are not real, finite numbers or a single one, and for sizes that are not
+        positive.
     """
 
     heights: NDArray[np.float64]
@@ -47,10 +50,10 @@ class Surface:
 
     def __post_init__(self) -> None:
         heights = _checked_heights(self.heights, dimensions=2)
-        if min(heights.shape) < 2:
+        if heights.size < 2:
             raise InputError(
-                f"the surface has {heights.shape[0]} x {heights.shape[1]} points; at least 2 x 2 "
-                "are needed: give more points, or a Line for a profile"
+                f"the surface has {heights.shape[0]} x {heights.shape[1]} points; at least 1 x 2 "
+                "are needed: give more points"
             )
         _freeze(self, heights=heights, sizes=_checked_sizes("sizes", self.sizes))
 
@@ -100,6 +103,38 @@ class Surface:
         along_x = np.diff(self.heights, n=2, axis=0)[:, 1:-1] / dx**2
         along_y = np.diff(self.heights, n=2, axis=1)[1:-1, :] / dy**2
         return _rms(along_x + along_y) / 2
+
+    @property
+    def is_cut_out(self) -> bool:
+        """Whether a larger surface goes on beyond the border: a measured or a cropped one."""
+        return "cropped" in self.settings or self.settings.get("origin") == MEASURED
+
+    def cropped(self, x: tuple[int, int], y: tuple[int, int]) -> Surface:
+        """Return a rectangle of the surface.
+
+        Parameters
+        ----------
+        x, y : tuple of int
+            First point along each side, and the one after the last.
+
+        Raises
+        ------
+        InputError
+            If they are not within the grid, in rising order.
+        """
+        for name, (first, end), n in (("x", x, self.shape[0]), ("y", y, self.shape[1])):
+            if not 0 <= first < end <= n:
+                raise InputError(
+                    f"{name} is ({first}, {end}); give 0 <= first < end <= {n}, the points there"
+                )
+        (dx, dy), heights = self.spacing, self.heights[slice(*x), slice(*y)]
+        settings = {**self.settings, "cropped": f"x {x[0]}:{x[1]}, y {y[0]}:{y[1]}"}
+        sizes = (dx * heights.shape[0], dy * heights.shape[1])
+        return Surface(heights, sizes, self.unit, settings)
+
+    def settings_as_body(self) -> Settings:
+        """Return the settings with names that say that they are the body's."""
+        return _as_body(self.settings)
 
     def detrended(self) -> Surface:
         """Return the surface without its mean and tilt (least-squares plane)."""
@@ -178,6 +213,10 @@ class Line:
             return float("nan")
         return _rms(np.diff(self.heights, n=2) / self.spacing**2)
 
+    def settings_as_body(self) -> Settings:
+        """Return the settings with names that say that they are the body's."""
+        return _as_body(self.settings)
+
     def detrended(self) -> Line:
         """Return the line without its mean and tilt (least squares)."""
         x = np.linspace(-1.0, 1.0, self.heights.size)
@@ -197,6 +236,10 @@ BodyType = TypeVar("BodyType", Surface, Line)
 def with_heights(body: BodyType, heights: NDArray[np.float64], **settings: Any) -> BodyType:
     """Return the body with other heights and further settings."""
     return replace(body, heights=heights, settings={**body.settings, **settings})
+
+
+def _as_body(settings: Settings) -> Settings:
+    return {f"body_{name}": value for name, value in settings.items()}
 
 
 def _freeze(body: Body, **fields: Any) -> None:

@@ -80,7 +80,7 @@ NAN[3, 4], INF[0, :2] = np.nan, -np.inf
         (INF, (1, 1), "2 of 3072 heights are NaN or infinite"),
         (np.ma.masked_greater(wave(), 0.5), (1, 1), "heights are masked"),
         (wave()[0], (1, 1), "the heights have 1 dimensions; a Surface takes 2"),
-        (wave()[:1], (1, 1), "1 x 48 points; at least 2 x 2"),
+        (wave()[:1, :1], (1, 1), "1 x 1 points; at least 1 x 2"),
         (np.zeros((0, 0)), (1, 1), "0 x 0 points"),
         (wave() + 1j, (1, 1), "not an array of real numbers"),
         ([["a", "b"], ["c", "d"]], (1, 1), "not an array of real numbers"),

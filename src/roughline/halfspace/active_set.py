@@ -23,10 +23,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.halfspace.operator import Operator, Places, Precision
+from roughline.halfspace.operator import Operator, Places
 from roughline.halfspace.patch import ConjugateGradients, Patch, merged
 from roughline.halfspace.preconditioner import Approximation
-from roughline.halfspace.state import Contact, Field, Load, Nodes, Outcome, Residuals, Start, Vector
+from roughline.halfspace.state import (
+    Contact,
+    Field,
+    Load,
+    Method,
+    Nodes,
+    Outcome,
+    Residuals,
+    Start,
+    Vector,
+)
 
 Mask = NDArray[np.bool_]
 
@@ -50,8 +60,7 @@ def solve(
     rms_height: float,
     load: Load,
     start: Start,
-    rtol: float,
-    max_iterations: int,
+    method: Method,
 ) -> Contact:
     """Find the contact set and the pressures under one load.
 
@@ -68,15 +77,13 @@ def solve(
         What is prescribed.
     start : Start
         Where to start from.
-    rtol : float
-        Bound on every residual.
-    max_iterations : int
-        Bound on the convolutions.
+    method : Method
+        Tolerance, bound on the convolutions and precision.
     """
-    search = _Search(operator, approximation, separation, rms_height, load, start, rtol)
+    search = _Search(operator, approximation, separation, rms_height, load, start, method)
     while True:
         search.assess()
-        outcome = search.outcome(max_iterations)
+        outcome = search.outcome()
         if outcome is not None:
             return Contact(
                 search.depth,
@@ -88,7 +95,7 @@ def solve(
                 outcome,
                 search.convolutions,
             )
-        search.improve(max_iterations)
+        search.improve()
 
 
 class _Search:
@@ -102,7 +109,7 @@ class _Search:
         rms_height: float,
         load: Load,
         start: Start,
-        rtol: float,
+        method: Method,
     ) -> None:
         self.nodes, self.pressure = start.nodes, start.pressure
         self.convolutions = 0
@@ -111,9 +118,8 @@ class _Search:
         self._separation = separation
         self._rms_height = rms_height
         self._load = load
-        self._rtol = rtol
-        self._outer: Precision = "float32"
-        self._inner: Precision = "float32"
+        self._method = method
+        self._outer = self._inner = method.steps
         self._wrong, self._fewest_wrong, self._waited = separation.size, separation.size + 1, 0
         self._residual_before = np.inf
 
@@ -125,8 +131,9 @@ class _Search:
         places = Places.of(self.nodes, self._operator.shape)
         gap = self._operator.convolve(self.pressure, places, None, self._outer)
         if load.depth is not None and not self.convolutions:
-            best = _best_factor(load.depth - self._separation.flat[self.nodes], self.pressure,
-                                gap.flat[self.nodes])
+            best = _best_factor(
+                load.depth - self._separation.flat[self.nodes], self.pressure, gap.flat[self.nodes]
+            )
             self.pressure = best * self.pressure
             gap *= best
         self.convolutions += 1
@@ -144,32 +151,31 @@ class _Search:
             gap, self.nodes, self.pressure, self.force, load, self._length_scale
         )
 
-    def outcome(self, max_iterations: int) -> Outcome | None:
+    def outcome(self) -> Outcome | None:
         """Say whether the search is over, and how it ended."""
+        spent = self.convolutions >= self._method.max_iterations
+        if self._outer != self._method.certificate:
+            if not spent:
+                return None
+            self._outer = self._method.certificate
+            self.assess()
         worst = self.residuals.worst
+        if worst <= self._method.rtol:
+            return Outcome.CONVERGED
         if not np.isfinite(worst):
             return Outcome.STALLED
-        if self._outer == "float32":
-            if self.convolutions >= max_iterations:
-                self._outer = "float64"
-                self.assess()
-                worst = self.residuals.worst
-            else:
-                return None
-        if worst <= self._rtol:
-            return Outcome.CONVERGED
-        if self.convolutions >= max_iterations:
+        if spent:
             return Outcome.MAX_ITERATIONS
         if not self._wrong and worst > 0.5 * self._residual_before:
-            if self._inner == "float64":
+            if self._inner == self._method.certificate:
                 return Outcome.STALLED
-            self._inner = "float64"
+            self._inner = self._method.certificate
         self._residual_before = worst
         return None
 
-    def improve(self, max_iterations: int) -> None:
+    def improve(self) -> None:
         """Step towards the pressures of the current set, then exchange the wrong nodes."""
-        tolerance = _INNER_MARGIN * self._rtol * self._length_scale
+        tolerance = _INNER_MARGIN * self._method.rtol * self._length_scale
         one_by_one = self._waited > 2 * _PATIENCE
         on_contact = self.gap.flat[self.nodes]
         reach = np.inf if one_by_one else _WATCHED * float(np.sqrt(np.mean(on_contact**2)))
@@ -198,13 +204,16 @@ class _Search:
                 overlap = solution.watched[overlapping] - level
                 if pull @ pull + overlap @ overlap > solution.error @ solution.error:
                     break
-            if self.convolutions + solution.steps >= max_iterations or not solution.advance():
+            if (
+                self.convolutions + solution.steps >= self._method.max_iterations
+                or not solution.advance()
+            ):
                 break
         self.convolutions += solution.steps
         self.pressure = solution.pressure
         worst = max(error, -float(solution.pressure.min()) * self._approximation.own)
-        rough = worst > max(_SINGLE_ABOVE * abs(level), self._rtol * self._length_scale)
-        self._outer = "float32" if rough else "float64"
+        rough = worst > max(_SINGLE_ABOVE * abs(level), self._method.rtol * self._length_scale)
+        self._outer = self._method.steps if rough else self._method.certificate
         if one_by_one:
             _keep_last(self.nodes, pulling, watched, overlapping)
         self._wrong = int(np.count_nonzero(pulling) + np.count_nonzero(overlapping))

@@ -1,4 +1,4 @@
-"""A first guess of the contact: solved on ever finer grids, roughly, each led by the coarser one."""
+"""A first guess of the contact: solved roughly on ever finer grids, each led by the coarser."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ from roughline.halfspace import operator as operators
 from roughline.halfspace.active_set import solve
 from roughline.halfspace.operator import Operator, Places
 from roughline.halfspace.preconditioner import Approximation
-from roughline.halfspace.state import Field, Load, Start
+from roughline.halfspace.state import Field, Load, Method, Start
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
-_RTOL = 1e-2
-_MAX_ITERATIONS = 200
+_ROUGHLY = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
 def first_guess(operator: Operator, separation: Field, rms_height: float, load: Load) -> Start:
@@ -45,8 +44,7 @@ def first_guess(operator: Operator, separation: Field, rms_height: float, load: 
         rms_height,
         load,
         first_guess(coarse_operator, coarse_separation, rms_height, load),
-        _RTOL,
-        _MAX_ITERATIONS,
+        _ROUGHLY,
     )
     pressure = np.zeros(coarse_separation.shape)
     pressure.flat[contact.nodes] = contact.pressure
@@ -62,7 +60,9 @@ def first_guess(operator: Operator, separation: Field, rms_height: float, load: 
     gap /= Approximation.of(operator).own
     pressure -= gap
     nodes = np.flatnonzero(pressure > 0)
-    return Start(nodes, pressure.flat[nodes]) if nodes.size else Start(pressed, np.ones(pressed.size))
+    return (
+        Start(nodes, pressure.flat[nodes]) if nodes.size else Start(pressed, np.ones(pressed.size))
+    )
 
 
 def _coarsened(operator: Operator, shape: tuple[int, ...]) -> Operator:

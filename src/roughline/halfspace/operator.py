@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, overload
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,9 +90,22 @@ class Operator:
         return self.spectrum.astype(np.float32)
 
     @cached_property
-    def _scratch(self) -> NDArray[np.complex128]:
-        """Room for the row transforms, two rows in each complex one."""
-        return np.empty(((self.shape[0] + 1) // 2, self.periods[1]), dtype=np.complex128)
+    def _rooms(self) -> dict[Precision, tuple[Any, Any]]:
+        """Room for the row transforms; single precision takes half of double's once that exists."""
+        return {}
+
+    def _room(self, precision: Precision) -> tuple[Any, Any]:
+        """Complex rows, two rows of the grid in each, and the same memory as real numbers."""
+        if precision not in self._rooms:
+            shape = ((self.shape[0] + 1) // 2, self.periods[1])
+            if precision == "float64":
+                double = np.empty(shape, dtype=np.complex128)
+                self._rooms["float64"] = double, double.view(np.float64).reshape(*shape, 2)
+                single = double.reshape(-1).view(np.complex64)[: double.size].reshape(shape)
+            else:
+                single = np.empty(shape, dtype=np.complex64)
+            self._rooms["float32"] = single, single.view(np.float32).reshape(*shape, 2)
+        return self._rooms[precision]
 
     def displacement(self, pressure: Field) -> Field:
         """Return u = K p on the whole grid.
@@ -109,20 +122,6 @@ class Operator:
         """
         nodes = np.flatnonzero(pressure)
         return self.convolve(pressure.flat[nodes], Places.of(nodes, self.shape))
-
-    @overload
-    def convolve(
-        self,
-        pressure: Field,
-        sources: Places,
-        targets: None = None,
-        precision: Precision = "float64",
-    ) -> Field: ...
-
-    @overload
-    def convolve(
-        self, pressure: Field, sources: Places, targets: Places, precision: Precision = "float64"
-    ) -> Field: ...
 
     def convolve(
         self,
@@ -152,18 +151,13 @@ class Operator:
             Displacement. [length]
         """
         (nx, ny), (mx, my) = self.shape, self.periods
-        single = precision == "float32"
-        spectrum = self._spectrum_float32 if single else self.spectrum
-        modes = self._scratch
-        if single:
-            modes = modes.view(np.complex64).reshape(-1)[: modes.size].reshape(modes.shape)
-        real_modes = modes.view(np.float32 if single else np.float64).reshape(len(modes), my, 2)
+        spectrum = self._spectrum_float32 if precision == "float32" else self.spectrum
+        modes, real_modes = self._room(precision)
         rows_out = np.arange(nx) if targets is None else targets.rows
+        result = np.empty(nx * ny if targets is None else targets.nodes.size)
 
         def transform_rows(first: int, last: int) -> None:
-            loops.scatter_pairs(
-                pressure, sources.starts, sources.columns, first, last, real_modes
-            )
+            loops.scatter_pairs(pressure, sources.starts, sources.columns, first, last, real_modes)
             fft.fft_rows(modes[first:last], forward=True)
 
         def convolve_columns(first: int, last: int) -> None:
@@ -175,24 +169,17 @@ class Operator:
             fft.fft_columns(columns, forward=False)
             loops.store_columns(real_columns, rows_out, first, real_modes)
 
-        if targets is None:
-            field = np.empty((nx, ny))
-        else:
-            field = np.empty(targets.nodes.size)
-
         def transform_rows_back(first: int, last: int) -> None:
             fft.fft_rows(modes[first:last], forward=False)
             if targets is None:
-                loops.gather_rows(real_modes, first, last, field)
+                loops.gather_rows(real_modes, first, last, result.reshape(nx, ny))
             else:
-                loops.gather_pairs(
-                    real_modes, targets.starts, targets.columns, first, last, field
-                )
+                loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
 
         _in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS)
         _in_blocks(convolve_columns, my // 2 + 1, _BLOCK)
         _in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS)
-        return field
+        return result.reshape(nx, ny) if targets is None else result
 
 
 def _in_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:

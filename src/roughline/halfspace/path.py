@@ -13,7 +13,7 @@ from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.operator import Operator, Places
 from roughline.halfspace.patch import merged
 from roughline.halfspace.preconditioner import Approximation
-from roughline.halfspace.state import Contact, Field, Load, Outcome, Start, Vector
+from roughline.halfspace.state import Contact, Field, Load, Method, Outcome, Start, Vector
 from roughline.halfspace.tangent import Tangent, tangent
 
 # New contact relieves its surroundings, which the tangent cannot know: nodes that it would overlap
@@ -27,8 +27,7 @@ def follow(
     rms_height: float,
     control: Literal["depths", "forces"],
     values: NDArray[np.float64],
-    rtol: float,
-    max_iterations: int,
+    method: Method,
 ) -> Iterator[tuple[Contact, Tangent | None]]:
     """Solve the contact under each load in turn, for E* = 1.
 
@@ -44,10 +43,8 @@ def follow(
         What is prescribed.
     values : ndarray, shape (loads,)
         Rising depths [length] or forces [force].
-    rtol : float
-        Bound on every residual.
-    max_iterations : int
-        Bound on the convolutions of one load.
+    method : Method
+        Tolerance, bound on the convolutions and precision.
 
     Yields
     ------
@@ -62,15 +59,13 @@ def follow(
             start = first_guess(operator, separation, rms_height, load)
         else:
             start = _predicted(operator, separation, load, *before)
-        contact = solve(
-            operator, approximation, separation, rms_height, load, start, rtol, max_iterations
-        )
+        contact = solve(operator, approximation, separation, rms_height, load, start, method)
         if contact.outcome is not Outcome.CONVERGED:
             before = None
             yield contact, None
             continue
         guess = None if before is None else _carried(before[0], before[1], contact)
-        stiffness = tangent(operator, approximation, contact, guess, rtol)
+        stiffness = tangent(operator, approximation, contact, guess, method)
         before = (contact, stiffness) if stiffness.converged else None
         yield contact, stiffness
 

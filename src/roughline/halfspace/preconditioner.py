@@ -152,8 +152,10 @@ class Preconditioner:
         self._per_node = 1 / np.maximum(count, 1.0)
         energy = count**2 * approximation.between[0][0, 0]
         # nodes at random in a block of so many cells
-        energy += count * (1 - count / (sides[0] * sides[1])) * (
-            approximation.own - approximation.between[0][0, 0]
+        energy += (
+            count
+            * (1 - count / (sides[0] * sides[1]))
+            * (approximation.own - approximation.between[0][0, 0])
         )
         self._coarse = _Lattices(
             approximation.between, count.reshape(lattice), energy.reshape(lattice)

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+
+from roughline.halfspace.operator import Precision
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
@@ -19,6 +22,35 @@ class Outcome(enum.Enum):
     CONVERGED = "converged"
     STALLED = "stalled"
     MAX_ITERATIONS = "max_iterations"
+
+
+@dataclass(frozen=True)
+class Method:
+    """How a contact is solved.
+
+    Attributes
+    ----------
+    rtol : float
+        Bound on every residual.
+    max_iterations : int
+        Bound on the convolutions of one load.
+    precision : {"mixed", "float64", "float32"}
+        Of the convolutions; mixed: steps in single precision, residuals in double.
+    """
+
+    rtol: float
+    max_iterations: int
+    precision: Literal["mixed", "float64", "float32"] = "mixed"
+
+    @property
+    def steps(self) -> Precision:
+        """Precision of the steps."""
+        return "float64" if self.precision == "float64" else "float32"
+
+    @property
+    def certificate(self) -> Precision:
+        """Precision of the residuals."""
+        return "float32" if self.precision == "float32" else "float64"
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 from roughline.halfspace.operator import Operator
 from roughline.halfspace.patch import ConjugateGradients, Patch
 from roughline.halfspace.preconditioner import Approximation
-from roughline.halfspace.state import Contact, Vector
+from roughline.halfspace.state import Contact, Method, Vector
 
 # The stiffness is the energy form 1 / (w K w); conjugate gradients tell the energy of their error,
 # and stop at this part of the tolerance for all else.
@@ -49,7 +49,7 @@ def tangent(
     approximation: Approximation,
     contact: Contact,
     start: Vector | None,
-    rtol: float,
+    method: Method,
 ) -> Tangent:
     """Solve for the exact stiffness of a contact.
 
@@ -65,8 +65,8 @@ def tangent(
     start : ndarray, shape (nodes,), optional
         Guess of dp/dF, such as that of the load before; the pressures themselves if absent.
         [1 / area]
-    rtol : float
-        The stiffness is sought to a hundredth of it.
+    method : Method
+        The stiffness is sought to a hundredth of its tolerance.
     """
     cell_area = operator.cell_area
     if operator.is_periodic and contact.nodes.size == contact.gap.size:
@@ -76,12 +76,12 @@ def tangent(
     if start is None or not start.sum() > 0:
         start = contact.pressure
     pressure = start / (start.sum() * cell_area)
-    convolutions, accuracy = 0, _MARGIN * rtol
+    convolutions, accuracy = 0, _MARGIN * method.rtol
     for _ in range(_ROUNDS):
-        displacement, watched = patch.displacement(pressure, "float64")
+        displacement, watched = patch.displacement(pressure, method.certificate)
         compliance = float(pressure @ displacement) * cell_area
         solution = ConjugateGradients(
-            patch, pressure, -displacement, watched, fixed_total=True, precision="float32"
+            patch, pressure, -displacement, watched, fixed_total=True, precision=method.steps
         )
         convolutions += 1
         # compliance counts forces, energies of errors count pressures

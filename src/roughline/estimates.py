@@ -1,0 +1,109 @@
+"""What pressing a surface will cost in memory and time, and the refusal of what cannot be done."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+
+import numpy as np
+import psutil
+
+from roughline.errors import InputError
+
+# Measured (see docs/speed.md): the largest of what a path of loads held at any time, and of what
+# fields keep for each load. [bytes per point]
+_BYTES = 96
+_BYTES_OF_FIELDS = 25
+# Convolutions that a load takes, its stiffness included, on average over a path of loads.
+_CONVOLUTIONS = 50
+_PROBE = 256  # points along a side of the grid that is timed
+_SPARE = 0.95  # of the memory that is free
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Cost of pressing a surface.
+
+    Attributes
+    ----------
+    memory : int
+        Largest memory beside the surface and the interpreter. [bytes]
+    seconds : float
+        Time on this machine; within a factor of two or three. [s]
+    """
+
+    memory: int
+    seconds: float
+
+    def __str__(self) -> str:
+        return f"about {self.memory / 1e9:.2g} GB and {_spoken(self.seconds)}"
+
+
+def estimate(shape: tuple[int, int], n_loads: int, *, fields: bool = False) -> Estimate:
+    """Estimate what pressing a surface with the full model will cost.
+
+    One convolution is timed on a small grid, which takes some hundredths of a second.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Points of the surface, (nx, ny).
+    n_loads : int
+        Number of loads.
+    fields : bool, optional
+        Whether the fields of every load are kept.
+
+    Returns
+    -------
+    Estimate
+        Memory [bytes] and time [s].
+    """
+    from roughline.halfspace import operator as operators
+
+    operator = operators.free((_PROBE, _PROBE), (1.0, 1.0), 1.0)
+    pressure = np.ones(operator.shape)
+    operator.displacement(pressure)
+    start = time.perf_counter()
+    operator.displacement(pressure)
+    probe = time.perf_counter() - start
+    points = shape[0] * shape[1]
+    growth = points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
+    return Estimate(
+        memory_for(shape, n_loads if fields else 0), n_loads * _CONVOLUTIONS * growth * probe
+    )
+
+
+def memory_for(shape: tuple[int, int], kept_fields: int) -> int:
+    """Return the memory that pressing a surface takes, beside the surface. [bytes]"""
+    return shape[0] * shape[1] * (_BYTES + _BYTES_OF_FIELDS * kept_fields)
+
+
+def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
+    """Refuse work that needs more memory than is free.
+
+    Parameters
+    ----------
+    needed : int
+        Memory that the work takes. [bytes]
+    what, advice : str
+        The work, and what to do instead.
+
+    Raises
+    ------
+    InputError
+        If that is more than is free.
+    """
+    free = psutil.virtual_memory().available
+    if needed > _SPARE * free:
+        raise InputError(
+            f"{what} needs about {needed / 1e9:.3g} GB of memory, and {free / 1e9:.3g} GB is free: "
+            f"{advice}"
+        )
+
+
+def _spoken(seconds: float) -> str:
+    for size, unit in ((3600, "h"), (60, "min")):
+        if seconds >= size:
+            return f"{seconds / size:.1f} {unit}"
+    return f"{seconds:.2g} s"

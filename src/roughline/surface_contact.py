@@ -1,0 +1,211 @@
+"""The full model's curve: a surface pressed into the half-space under given loads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from roughline._version import __version__
+from roughline.curve import RESOLVED_FROM, Curve, Fields, Status
+from roughline.halfspace import operator as operators
+from roughline.halfspace.path import follow
+from roughline.halfspace.state import Contact, Method
+from roughline.loads import Loads
+from roughline.topography import Surface
+
+Field = NDArray[np.float64]
+
+# A surface that was cut out of a larger one ends where the larger goes on. Where the outer frame
+# of this width carries this share of the force, what lies beyond is missed.
+EDGE_WIDTH = 0.05
+EDGE_SHARE = 0.05
+
+
+def press_surface(
+    surface: Surface,
+    E_star: float,
+    loads: Loads,
+    method: Method,
+    *,
+    periodic: bool,
+    fields: bool,
+    progress: Callable[[int, int], None] | None,
+) -> Curve:
+    """Press a surface.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface. [length]
+    E_star : float
+        Contact modulus. [pressure]
+    loads : Loads
+        Checked loads.
+    method : Method
+        Tolerance, bound on the convolutions and precision.
+    periodic, fields, progress
+        As for :func:`roughline.press`.
+    """
+    units = _Units.of(surface, E_star, loads)
+    make_operator = operators.periodic if periodic else operators.free
+    dx, dy = surface.spacing
+    operator = make_operator(surface.shape, (dx / units.length, dy / units.length), 1.0)
+    separation = surface.heights.max() - surface.heights
+    separation /= units.height
+    path = follow(
+        operator,
+        separation,
+        surface.rms_height / units.height,
+        loads.control,
+        loads.values / (units.force if loads.control == "forces" else units.height),
+        method,
+    )
+    count = loads.values.size
+    depth, force, stiffness, area, corrected, residual, edge = np.full((7, count), np.nan)
+    status = np.empty(count, dtype=np.int8)
+    resolved = np.zeros(count, dtype=bool)
+    all_fields: list[Fields | None] = []
+    # the threads belong to the transforms: those of the linear algebra would spin beside them
+    with threadpool_limits(limits=1, user_api="blas"):
+        for i, (contact, tangent) in enumerate(path):
+            status[i] = Status[contact.outcome.name]
+            if tangent is not None and not tangent.converged:
+                status[i] = Status.NO_TANGENT
+            residual[i] = contact.residuals.worst
+            converged = status[i] == Status.CONVERGED
+            if tangent is not None and converged:
+                depth[i] = contact.depth * units.height
+                force[i] = contact.force * units.force
+                stiffness[i] = tangent.stiffness * units.force / units.height
+                touching = _touching(contact)
+                cells = int(np.count_nonzero(touching))
+                area[i] = cells / touching.size
+                corrected[i] = area[i] - _perimeter_correction(touching, periodic)
+                resolved[i] = cells >= RESOLVED_FROM
+                edge[i] = _edge_share(contact)
+            if fields:
+                all_fields.append(_fields(contact, separation, units) if converged else None)
+            if progress is not None:
+                progress(i + 1, count)
+    warnings = () if periodic else _edge_warnings(surface, edge)
+    return Curve(
+        depth=depth,
+        force=force,
+        stiffness=stiffness,
+        area_fraction=area,
+        area_fraction_corrected=corrected,
+        status=status,
+        resolved=resolved,
+        residual=residual,
+        E_star=E_star,
+        rms_height=surface.rms_height,
+        length=surface.length,
+        unit=surface.unit,
+        settings={
+            "roughline_version": __version__,
+            "model": "full",
+            "boundary": "periodic" if periodic else "free",
+            "control": loads.control,
+            "rtol": method.rtol,
+            "max_iterations": method.max_iterations,
+            "precision": method.precision,
+            **surface.settings_as_body(),
+        },
+        warnings=warnings,
+        fields=tuple(all_fields),
+    )
+
+
+@dataclass(frozen=True)
+class _Units:
+    """Units in which E* is 1, a cell has unit area and the roughness unit rms.
+
+    The problem is solved in these, so that no scale is too small or too large for it.
+    """
+
+    height: float
+    length: float
+    E_star: float
+
+    @classmethod
+    def of(cls, surface: Surface, E_star: float, loads: Loads) -> _Units:
+        height = surface.rms_height
+        if height == 0:  # a flat punch: its depth, or about so, is the only height there is
+            height = float(loads.values[-1])
+            if loads.control == "forces":
+                height /= E_star * surface.length
+        length = float(np.sqrt(surface.spacing[0]) * np.sqrt(surface.spacing[1]))
+        return cls(height, length, E_star)
+
+    @property
+    def force(self) -> float:
+        return self.E_star * self.height * self.length
+
+    @property
+    def pressure(self) -> float:
+        return self.E_star * self.height / self.length
+
+
+def _touching(contact: Contact) -> NDArray[np.bool_]:
+    touching = np.zeros(contact.gap.shape, dtype=bool)
+    touching.flat[contact.nodes] = contact.pressure > 0
+    return touching
+
+
+def _perimeter_correction(touching: NDArray[np.bool_], periodic: bool) -> float:
+    """Area fraction by which whole cells overstate a contact area with a smooth outline.
+
+    (pi - 1 + ln 2) / 24 cells for each pair of neighbours of which one touches [1]_.
+
+    References
+    ----------
+    .. [1] V. A. Yastrebov, G. Anciaux and J.-F. Molinari, "On the accurate computation of the true
+       contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
+       (2017).
+    """
+    switches = 0
+    for axis in (0, 1):
+        switches += int(np.count_nonzero(np.diff(touching, axis=axis)))
+        if periodic:
+            ends = np.take(touching, [0, -1], axis=axis)
+            switches += int(np.count_nonzero(np.diff(ends, axis=axis)))
+    return (np.pi - 1 + np.log(2)) / 24 * switches / touching.size
+
+
+def _edge_share(contact: Contact) -> float:
+    """Share of the force that the outer frame carries."""
+    nx, ny = contact.gap.shape
+    x, y = np.divmod(contact.nodes, ny)
+    within = np.minimum(np.minimum(x, nx - 1 - x) / nx, np.minimum(y, ny - 1 - y) / ny)
+    return float(contact.pressure[within < EDGE_WIDTH].sum() / contact.pressure.sum())
+
+
+def _edge_warnings(surface: Surface, edge: Field) -> tuple[str, ...]:
+    beyond = np.flatnonzero(edge > EDGE_SHARE)
+    if not surface.is_cut_out or not beyond.size:
+        return ()
+    return (
+        f"from load {beyond[0] + 1} of {edge.size} on, up to {edge[beyond].max():.0%} of the force "
+        f"is carried within {EDGE_WIDTH:.0%} of the border, where this surface was cut out of a "
+        "larger one: what lies beyond would share the load, so depth, stiffness and area are those "
+        "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or "
+        "periodic=True",
+    )
+
+
+def _fields(contact: Contact, separation: Field, units: _Units) -> Fields:
+    pressure = np.zeros(contact.gap.shape)
+    pressure.flat[contact.nodes] = contact.pressure * units.pressure
+    displacement = contact.gap - separation
+    displacement += contact.depth
+    displacement *= units.height
+    return Fields(
+        pressure=pressure,
+        displacement=displacement,
+        gap=contact.gap * units.height,
+        contact=pressure > 0,
+    )
