@@ -146,7 +146,11 @@ class _Search:
         gap -= self.depth
         self.gap = gap
         self.force = cell_area * total
-        self._length_scale = min(self._rms_height or np.inf, abs(self.depth))
+        self._length_scale = abs(self.depth)
+        if self._rms_height:
+            self._length_scale = min(self._rms_height, self._length_scale)
+        elif self._operator.is_periodic:  # even pressure on a flat surface moves nothing
+            self._length_scale = 1.0
         self.residuals = Residuals.of(
             gap, self.nodes, self.pressure, self.force, load, self._length_scale
         )

@@ -10,7 +10,7 @@ from roughline.halfspace.operator import Operator, Places
 from roughline.halfspace.preconditioner import Approximation
 from roughline.halfspace.state import Field, Load, Method, Start
 
-_COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
+_COARSEST = 256  # points along the longer side of the grid that starts from the rigid shift
 _ROUGHLY = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 

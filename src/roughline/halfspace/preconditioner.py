@@ -28,8 +28,9 @@ from roughline.halfspace.operator import Operator, Places
 Field = NDArray[np.float64]
 Indices = NDArray[np.integer] | NDArray[np.floating]
 
-_RADIUS = 2
-_BLOCK = 16  # cells along the side of a block
+_RADIUS = 2  # of the stencil, in cells where these are square
+_BLOCK = 16  # cells along the side of a block, where they are square
+_STRETCH = 4.0  # stencil and blocks follow the shape of oblong cells up to here
 _COARSEST = 32  # blocks along a side of the lattice that is solved directly
 _RIDGE = 1 + 1e-9  # on diagonals, against rounding
 _GROUP = 4  # blocks along a side of a group, which makes one block of the next lattice
@@ -48,6 +49,10 @@ class Approximation:
     taps : ndarray, shape (taps,)
         Its coefficients. All but the central one are negative and together weigh less than it, so
         the stencil cut to any set of nodes is positive definite. [pressure / length]
+    margins : tuple of int
+        Cells that the stencil reaches along x and y.
+    sides : tuple of int
+        Cells along the sides of the smallest blocks.
     own : float
         Displacement of a node by its own pressure. [length / pressure]
     between : tuple of ndarray
@@ -59,6 +64,8 @@ class Approximation:
     shape: tuple[int, int]
     offsets: NDArray[np.intp]
     taps: Field
+    margins: tuple[int, int]
+    sides: tuple[int, int]
     own: float
     between: tuple[Field, ...]
 
@@ -68,8 +75,15 @@ class Approximation:
         # even pressure displaces nothing in a periodic half-space: let it displace as the rest does
         raised = float(operator.spectrum.max()) if operator.is_periodic else 0.0
         own = _even_sum(operator, operator.spectrum, [np.zeros(1)] * 2)[0, 0] + raised
+        dx, dy = operator.spacing
+        stretch = float(np.clip(np.sqrt(dy / dx), 1 / _STRETCH, _STRETCH))
+        nx, ny = operator.shape
+        smallest = (
+            min(max(1, round(_BLOCK * stretch)), nx),
+            min(max(1, round(_BLOCK / stretch)), ny),
+        )
         between = []
-        sides = [min(_BLOCK, n) for n in operator.shape]
+        sides = smallest
         while True:
             lags = [
                 side * np.arange(-(-n // side))
@@ -78,33 +92,32 @@ class Approximation:
             between.append(_even_sum(operator, operator.spectrum, lags, sides) + raised)
             if max(between[-1].shape) <= _COARSEST:
                 break
-            sides = [_GROUP * side for side in sides]
-        offsets, taps = _stencil(operator)
-        return cls(operator.shape, offsets, taps, own, tuple(between))
+            sides = _GROUP * sides[0], _GROUP * sides[1]
+        offsets, taps = _stencil(operator, stretch)
+        margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
+        return cls(operator.shape, offsets, taps, margins, smallest, own, tuple(between))
 
     @cached_property
     def grid(self) -> Field:
         """Room for the grid and the stencil's margin; zero whenever it is not in use."""
         nx, ny = self.shape
-        return np.zeros((nx + 2 * _RADIUS) * (ny + 2 * _RADIUS))
+        return np.zeros((nx + 2 * self.margins[0]) * (ny + 2 * self.margins[1]))
 
 
-def _stencil(operator: Operator) -> tuple[NDArray[np.intp], Field]:
+def _stencil(operator: Operator, stretch: float) -> tuple[NDArray[np.intp], Field]:
     scale = operator.periods[0] * operator.periods[1]
     inverse = np.zeros_like(operator.spectrum)
     np.divide(1 / scale**2, operator.spectrum, out=inverse, where=operator.spectrum > 0)
-    reach = range(-_RADIUS, _RADIUS + 1)
-    cells = [
-        (i, j)
-        for i in reach
-        for j in reach
-        if i * i + j * j <= _RADIUS**2
-        and 2 * abs(i) < operator.periods[0]
-        and 2 * abs(j) < operator.periods[1]
+    radii = _RADIUS * stretch, _RADIUS / stretch
+    reach = [
+        np.arange(-min(int(radius), (period - 1) // 2), min(int(radius), (period - 1) // 2) + 1)
+        for radius, period in zip(radii, operator.periods, strict=True)
     ]
-    offsets = np.array(cells, dtype=np.intp)
-    lags = np.arange(_RADIUS + 1)
-    taps = _even_sum(operator, inverse, [lags, lags])[abs(offsets[:, 0]), abs(offsets[:, 1])]
+    x, y = (lag.ravel() for lag in np.meshgrid(*reach, indexing="ij"))
+    within = (x / radii[0]) ** 2 + (y / radii[1]) ** 2 <= 1
+    offsets = np.stack([x[within], y[within]], axis=1)
+    lags = [np.arange(axis.max() + 1) for axis in reach]
+    taps = _even_sum(operator, inverse, lags)[abs(offsets[:, 0]), abs(offsets[:, 1])]
     centre = (offsets == 0).all(axis=1)
     around = np.minimum(taps, 0.0)
     around *= min(1.0, 0.99 * taps[centre].item() / max(-around.sum(), 1e-300))
@@ -137,14 +150,13 @@ class Preconditioner:
     """The approximate inverse on one set of contact nodes."""
 
     def __init__(self, approximation: Approximation, places: Places) -> None:
-        ny = approximation.shape[1]
+        margins, sides = approximation.margins, approximation.sides
         rows = np.repeat(places.rows, np.diff(places.starts))
-        width = ny + 2 * _RADIUS
+        width = approximation.shape[1] + 2 * margins[1]
         self._taps = approximation.taps
         self._offsets = approximation.offsets @ np.array([width, 1])
-        self._places = (rows + _RADIUS) * width + places.columns + _RADIUS
+        self._places = (rows + margins[0]) * width + places.columns + margins[1]
         self._grid = approximation.grid
-        sides = [min(_BLOCK, n) for n in approximation.shape]
         lattice = approximation.between[0].shape
         self._lattice = lattice
         self._block = (rows // sides[0]) * lattice[1] + places.columns // sides[1]
