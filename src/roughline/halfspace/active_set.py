@@ -164,15 +164,17 @@ class _Search:
             self._outer = self._method.certificate
             self.assess()
         worst = self.residuals.worst
-        if worst <= self._method.rtol:
+        certified = worst <= self._method.rtol
+        # the stiffness hangs on single nodes: go on for those that overlap more than others err
+        if certified and (self.residuals.penetration == 0 or self._waited > _PATIENCE):
             return Outcome.CONVERGED
         if not np.isfinite(worst):
             return Outcome.STALLED
         if spent:
-            return Outcome.MAX_ITERATIONS
+            return Outcome.CONVERGED if certified else Outcome.MAX_ITERATIONS
         if not self._wrong and worst > 0.5 * self._residual_before:
             if self._inner == self._method.certificate:
-                return Outcome.STALLED
+                return Outcome.CONVERGED if certified else Outcome.STALLED
             self._inner = self._method.certificate
         self._residual_before = worst
         return None
@@ -200,7 +202,7 @@ class _Search:
             level = solution.level if fixed_total else self.depth
             error = float(np.abs(solution.error).max())
             pulling = solution.pressure < 0
-            overlapping = solution.watched < level - tolerance
+            overlapping = solution.watched < level
             if error <= tolerance or solution.steps >= _STEPS:
                 break
             if self._waited <= _PATIENCE and solution.steps:

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.halfspace.operator import Operator, Places, Precision
-from roughline.halfspace.preconditioner import Approximation, Preconditioner
+from roughline.halfspace.preconditioner import Approximation, preconditioner
 
 Vector = NDArray[np.float64]
 Nodes = NDArray[np.intp]
@@ -35,7 +35,7 @@ class Patch:
         self.operator = operator
         self.nodes = nodes
         self.places = Places.of(nodes, operator.shape)
-        self.precondition = Preconditioner(approximation, self.places)
+        self.precondition = preconditioner(approximation, self.places)
         self._targets = self.places
         if watched is not None and watched.size:
             both, order = merged(nodes, watched)

@@ -14,7 +14,7 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -30,9 +30,11 @@ Indices = NDArray[np.integer] | NDArray[np.floating]
 
 _RADIUS = 2  # of the stencil, in cells where these are square
 _BLOCK = 16  # cells along the side of a block, where they are square
+_FEW = 300  # nodes whose equations are solved directly
 _STRETCH = 4.0  # stencil and blocks follow the shape of oblong cells up to here
 _COARSEST = 32  # blocks along a side of the lattice that is solved directly
 _RIDGE = 1 + 1e-9  # on diagonals, against rounding
+_ROUNDED = 1 + 1e-6  # the same, where the kernel is in single precision
 _GROUP = 4  # blocks along a side of a group, which makes one block of the next lattice
 
 
@@ -42,8 +44,8 @@ class Approximation:
 
     Attributes
     ----------
-    shape : tuple of int
-        Points of the grid.
+    operator : Operator
+        The half-space.
     offsets : ndarray of int, shape (taps, 2)
         Cells from the centre of the stencil.
     taps : ndarray, shape (taps,)
@@ -61,7 +63,7 @@ class Approximation:
         [length / pressure]
     """
 
-    shape: tuple[int, int]
+    operator: Operator
     offsets: NDArray[np.intp]
     taps: Field
     margins: tuple[int, int]
@@ -95,12 +97,22 @@ class Approximation:
             sides = _GROUP * sides[0], _GROUP * sides[1]
         offsets, taps = _stencil(operator, stretch)
         margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
-        return cls(operator.shape, offsets, taps, margins, smallest, own, tuple(between))
+        return cls(operator, offsets, taps, margins, smallest, own, tuple(between))
+
+    @cached_property
+    def kernel(self) -> NDArray[np.float32]:
+        """Displacement by the distance in cells from unit pressure on one node."""
+        pressure = np.ones(1)
+        corner = Places.of(np.zeros(1, dtype=np.intp), self.operator.shape)
+        kernel = self.operator.convolve(pressure, corner, None, "float32")
+        if self.operator.is_periodic:
+            kernel += self.operator.spectrum.max()
+        return kernel.astype(np.float32)
 
     @cached_property
     def grid(self) -> Field:
         """Room for the grid and the stencil's margin; zero whenever it is not in use."""
-        nx, ny = self.shape
+        nx, ny = self.operator.shape
         return np.zeros((nx + 2 * self.margins[0]) * (ny + 2 * self.margins[1]))
 
 
@@ -146,13 +158,31 @@ def _even_sum(
     return result
 
 
-class Preconditioner:
-    """The approximate inverse on one set of contact nodes."""
+Preconditioner = Callable[[Field], Field]
+"""Returns the pressure change that would undo a residual, were the inverse exact."""
+
+
+def preconditioner(approximation: Approximation, places: Places) -> Preconditioner:
+    """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
+    if places.nodes.size > _FEW:
+        return _Multilevel(approximation, places)
+    rows = np.repeat(places.rows, np.diff(places.starts))
+    columns = places.columns
+    matrix = approximation.kernel[
+        abs(rows[:, np.newaxis] - rows), abs(columns[:, np.newaxis] - columns)
+    ].astype(np.float64)
+    _set_diagonal(matrix, matrix.diagonal() * _ROUNDED)
+    factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
+    return lambda residual: cho_solve(factor, residual, check_finite=False)
+
+
+class _Multilevel:
+    """The approximate inverse on many contact nodes."""
 
     def __init__(self, approximation: Approximation, places: Places) -> None:
         margins, sides = approximation.margins, approximation.sides
         rows = np.repeat(places.rows, np.diff(places.starts))
-        width = approximation.shape[1] + 2 * margins[1]
+        width = approximation.operator.shape[1] + 2 * margins[1]
         self._taps = approximation.taps
         self._offsets = approximation.offsets @ np.array([width, 1])
         self._places = (rows + margins[0]) * width + places.columns + margins[1]
