@@ -89,6 +89,7 @@ def press_surface(
                 edge[i] = _edge_share(contact)
             if fields:
                 all_fields.append(_fields(contact, separation, units) if converged else None)
+            del contact, tangent  # so that the next load finds their memory free
             if progress is not None:
                 progress(i + 1, count)
     warnings = () if periodic else _edge_warnings(surface, edge)

@@ -129,6 +129,7 @@ class _Search:
         if load.force is not None:
             self.pressure = _with_total(self.pressure, load.force / cell_area)
         places = Places.of(self.nodes, self._operator.shape)
+        self.gap = np.empty((0, 0))  # the old one is not needed while the new one is computed
         gap = self._operator.convolve(self.pressure, places, None, self._outer)
         if load.depth is not None and not self.convolutions:
             best = _best_factor(
@@ -184,10 +185,7 @@ class _Search:
         tolerance = _INNER_MARGIN * self._method.rtol * self._length_scale
         one_by_one = self._waited > 2 * _PATIENCE
         on_contact = self.gap.flat[self.nodes]
-        reach = np.inf if one_by_one else _WATCHED * float(np.sqrt(np.mean(on_contact**2)))
-        off_contact = self.gap.ravel() < reach
-        off_contact[self.nodes] = False
-        watched = np.flatnonzero(off_contact)
+        watched = self._near(np.inf if one_by_one else _WATCHED * _rms(on_contact), one_by_one)
         patch = Patch(self._operator, self._approximation, self.nodes, watched)
         fixed_total = self._load.force is not None
         solution = ConjugateGradients(
@@ -227,6 +225,19 @@ class _Search:
         self._waited = 0 if self._wrong < self._fewest_wrong else self._waited + 1
         self._fewest_wrong = min(self._wrong, self._fewest_wrong)
 
+    def _near(self, reach: float, every: bool) -> Nodes:
+        """Return the nodes off the contact with gaps below `reach`, at most as many as are on it.
+
+        With `every`, all of them.
+        """
+        near = self.gap.ravel() < reach
+        near[self.nodes] = False
+        nodes = np.flatnonzero(near)
+        if every or nodes.size <= self.nodes.size:
+            return nodes
+        gaps = self.gap.flat[nodes]
+        return nodes[gaps <= np.partition(gaps, self.nodes.size)[self.nodes.size]]
+
     def _exchange(self, pulling: Mask, added: Nodes) -> None:
         """Drop nodes that pull and add others; the highest point stays if none does."""
         if pulling.any():
@@ -245,6 +256,10 @@ def _keep_last(nodes: Nodes, pulling: Mask, watched: Nodes, overlapping: Mask) -
     last_overlapping = watched[overlapping].max(initial=-1)
     pulling &= (nodes == last_pulling) & (last_pulling > last_overlapping)
     overlapping &= (watched == last_overlapping) & (last_overlapping > last_pulling)
+
+
+def _rms(values: Vector) -> float:
+    return float(np.sqrt(np.mean(values**2)))
 
 
 def _with_total(pressure: Vector, total: float) -> Vector:

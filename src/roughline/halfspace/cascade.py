@@ -14,7 +14,13 @@ _COARSEST = 256  # points along the longer side of the grid that starts from the
 _ROUGHLY = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
-def first_guess(operator: Operator, separation: Field, rms_height: float, load: Load) -> Start:
+def first_guess(
+    operator: Operator,
+    approximation: Approximation,
+    separation: Field,
+    rms_height: float,
+    load: Load,
+) -> Start:
     """Guess which nodes come into contact, and the pressures on them.
 
     The coarse grid sees the mean separation of two by two nodes. Its pressures, the same on all
@@ -22,8 +28,8 @@ def first_guess(operator: Operator, separation: Field, rms_height: float, load: 
 
     Parameters
     ----------
-    operator : Operator
-        The half-space.
+    operator, approximation
+        The half-space and what its preconditioner knows of it.
     separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch. [length]
     rms_height : float
@@ -37,15 +43,14 @@ def first_guess(operator: Operator, separation: Field, rms_height: float, load: 
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(operator, separation, load)
     coarse_operator = _coarsened(operator, coarse_separation.shape)
-    contact = solve(
+    problem = (
         coarse_operator,
         Approximation.of(coarse_operator),
         coarse_separation,
         rms_height,
         load,
-        first_guess(coarse_operator, coarse_separation, rms_height, load),
-        _ROUGHLY,
     )
+    contact = solve(*problem, first_guess(*problem), _ROUGHLY)
     pressure = np.zeros(coarse_separation.shape)
     pressure.flat[contact.nodes] = contact.pressure
     for axis, n in enumerate(separation.shape):
@@ -57,7 +62,7 @@ def first_guess(operator: Operator, separation: Field, rms_height: float, load: 
     gap = operator.convolve(pressure.flat[pressed], places, None, "float32")
     gap += separation
     gap -= contact.depth
-    gap /= Approximation.of(operator).own
+    gap /= approximation.own
     pressure -= gap
     nodes = np.flatnonzero(pressure > 0)
     return (

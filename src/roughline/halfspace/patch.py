@@ -40,15 +40,14 @@ class Patch:
         if watched is not None and watched.size:
             both, order = merged(nodes, watched)
             self._targets = Places.of(both, operator.shape)
-            self._on_contact = np.flatnonzero(order < nodes.size)
-            self._off_contact = np.flatnonzero(order >= nodes.size)
+            self._is_contact = order < nodes.size
 
     def displacement(self, pressure: Vector, precision: Precision) -> tuple[Vector, Vector]:
         """Displacement of the nodes, and of the watched ones, under pressures on the nodes."""
         found = self.operator.convolve(pressure, self.places, self._targets, precision)
         if self._targets is self.places:
             return found, found[:0]
-        return found[self._on_contact], found[self._off_contact]
+        return found[self._is_contact], found[~self._is_contact]
 
 
 class ConjugateGradients:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import zip_longest
 from typing import Literal
 
 import numpy as np
@@ -13,12 +14,14 @@ from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.operator import Operator, Places
 from roughline.halfspace.patch import merged
 from roughline.halfspace.preconditioner import Approximation
-from roughline.halfspace.state import Contact, Field, Load, Method, Outcome, Start, Vector
+from roughline.halfspace.state import Contact, Field, Load, Method, Nodes, Outcome, Start, Vector
 from roughline.halfspace.tangent import Tangent, tangent
 
 # New contact relieves its surroundings, which the tangent cannot know: nodes that it would overlap
 # after this part of the rise are taken to come into contact.
 _BELIEVED = 0.5
+# Beyond such a rise over the force that is there, coarser grids guess better than the tangent.
+_FARTHEST = 1.0
 
 
 def follow(
@@ -52,33 +55,40 @@ def follow(
         For each load; without a tangent where the contact was not certified.
     """
     approximation = Approximation.of(operator)
-    before: tuple[Contact, Tangent] | None = None
-    for value in values.tolist():
-        load = Load(depth=value) if control == "depths" else Load(force=value)
-        if before is None:
-            start = first_guess(operator, separation, rms_height, load)
-        else:
-            start = _predicted(operator, separation, load, *before)
+    start: Start | None = None
+    guess: tuple[Nodes, Vector] | None = None
+    loads = [Load(**{control.removesuffix("s"): value}) for value in values.tolist()]
+    for load, next_load in zip_longest(loads, loads[1:]):
+        if start is None:
+            start = first_guess(operator, approximation, separation, rms_height, load)
         contact = solve(operator, approximation, separation, rms_height, load, start, method)
+        start = None
         if contact.outcome is not Outcome.CONVERGED:
-            before = None
+            guess = None
             yield contact, None
             continue
-        guess = None if before is None else _carried(before[0], before[1], contact)
-        stiffness = tangent(operator, approximation, contact, guess, method)
-        before = (contact, stiffness) if stiffness.converged else None
+        carried = None if guess is None else _carried(*guess, contact.nodes)
+        stiffness = tangent(operator, approximation, contact, carried, method)
+        guess = None
+        if stiffness.converged and next_load is not None:
+            guess = contact.nodes, stiffness.pressure_per_force
+            rise = _rise(contact, stiffness, next_load)
+            if rise < _FARTHEST * contact.force:
+                start = _predicted(operator, rise, contact, stiffness)
         yield contact, stiffness
+        del contact, stiffness  # the fields of one load are enough to hold
 
 
-def _predicted(
-    operator: Operator, separation: Field, load: Load, contact: Contact, stiffness: Tangent
-) -> Start:
-    """Follow the tangent: p + dF w, and the nodes that press or overlap then."""
+def _rise(contact: Contact, stiffness: Tangent, load: Load) -> float:
+    """Return the rise of the force to a load; along the tangent, where the depth is given."""
     if load.force is not None:
-        rise = load.force - contact.force
-    else:
-        assert load.depth is not None
-        rise = stiffness.stiffness * (load.depth - contact.depth)
+        return load.force - contact.force
+    assert load.depth is not None
+    return stiffness.stiffness * (load.depth - contact.depth)
+
+
+def _predicted(operator: Operator, rise: float, contact: Contact, stiffness: Tangent) -> Start:
+    """Follow the tangent: p + dF w, and the nodes that press or overlap then."""
     places = Places.of(contact.nodes, operator.shape)
     gap = operator.convolve(stiffness.pressure_per_force, places, None, "float32")
     gap -= 1 / stiffness.stiffness
@@ -93,11 +103,11 @@ def _predicted(
     return Start(nodes, pressure)
 
 
-def _carried(before: Contact, stiffness: Tangent, contact: Contact) -> Vector:
-    """Return dp/dF of the load before on the nodes that are still in contact, zero on others."""
-    carried = np.zeros(contact.nodes.size)
-    where = np.searchsorted(before.nodes, contact.nodes)
-    where[where == before.nodes.size] = 0
-    still = before.nodes[where] == contact.nodes
-    carried[still] = stiffness.pressure_per_force[where[still]]
+def _carried(before: Nodes, values: Vector, nodes: Nodes) -> Vector:
+    """Return values on the nodes that were there before, zero on the others."""
+    carried = np.zeros(nodes.size)
+    where = np.searchsorted(before, nodes)
+    where[where == before.size] = 0
+    still = before[where] == nodes
+    carried[still] = values[where[still]]
     return carried

@@ -110,10 +110,11 @@ class Approximation:
         return kernel.astype(np.float32)
 
     @cached_property
-    def grid(self) -> Field:
+    def grid(self) -> NDArray[np.float32]:
         """Room for the grid and the stencil's margin; zero whenever it is not in use."""
         nx, ny = self.operator.shape
-        return np.zeros((nx + 2 * self.margins[0]) * (ny + 2 * self.margins[1]))
+        room = (nx + 2 * self.margins[0]) * (ny + 2 * self.margins[1])
+        return np.zeros(room, dtype=np.float32)
 
 
 def _stencil(operator: Operator, stretch: float) -> tuple[NDArray[np.intp], Field]:
@@ -185,11 +186,13 @@ class _Multilevel:
         width = approximation.operator.shape[1] + 2 * margins[1]
         self._taps = approximation.taps
         self._offsets = approximation.offsets @ np.array([width, 1])
-        self._places = (rows + margins[0]) * width + places.columns + margins[1]
         self._grid = approximation.grid
+        index: type[np.integer] = np.int32 if self._grid.size < 2**31 else np.int64
+        self._places = ((rows + margins[0]) * width + places.columns + margins[1]).astype(index)
         lattice = approximation.between[0].shape
         self._lattice = lattice
-        self._block = (rows // sides[0]) * lattice[1] + places.columns // sides[1]
+        block = (rows // sides[0]) * lattice[1] + places.columns // sides[1]
+        self._block = block.astype(np.int32)
         count = np.bincount(self._block, minlength=lattice[0] * lattice[1]).astype(np.float64)
         self._per_node = 1 / np.maximum(count, 1.0)
         energy = count**2 * approximation.between[0][0, 0]
