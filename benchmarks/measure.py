@@ -69,7 +69,7 @@ def reduced_model(exponent, n_loads=200):
     )
     generate = seconds(lambda: spectrum.line(n, 7))
     line = spectrum.line(n, 7)
-    whole_curve = seconds(lambda: Springs.under(line.heights, line.spacing, 1.0).touch_forces)
+    whole_curve = seconds(lambda: Springs.under(line.heights, line.spacing, 1.0).under_forces(forces))
     pressing = seconds(lambda: rl.press(line, E_star=1.0, n_loads=n_loads))
     total = generate + pressing
     return (

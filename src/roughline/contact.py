@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from roughline.curve import Curve, Status
 from roughline.errors import ConvergenceError, InputError
 from roughline.estimates import memory_for, refuse_beyond_memory
+from roughline.grid_error import refuse_indivisible, with_grid_error
 from roughline.line_contact import press_line
 from roughline.loads import Wish, surface_loads
 from roughline.topography import Body, Line, Surface
@@ -25,6 +26,7 @@ def press(
     n_loads: int | None = None,
     periodic: bool = False,
     fields: bool = False,
+    grid_error: bool = False,
     rtol: float = 1e-6,
     max_iterations: int = 5000,
     precision: Literal["mixed", "float64", "float32"] = "mixed",
@@ -52,6 +54,8 @@ def press(
         the stiffness of the interface alone and is infinite in full contact.
     fields : bool, optional
         Keep pressure, displacement, gap and contact of every load.
+    grid_error : bool, optional
+        Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
     rtol : float, optional
         Bound on every residual of what is returned: gap on contact and overlap off it over the
         rms height (or over the depth, where that is smaller), tension over the mean contact
@@ -87,10 +91,10 @@ def press(
             f'precision is {precision!r}; allowed are "mixed", "float64" and "float32"'
         )
     if isinstance(body, Line):
-        if periodic or fields:
+        if periodic or fields or grid_error:
             raise InputError(
-                "periodic and fields belong to the full model; the reduced model of a Line has "
-                "no boundary and no fields: leave them out, or press a Surface"
+                "periodic, fields and grid_error belong to the full model; the reduced model of a "
+                "Line has none of these: leave them out, or press a Surface"
             )
         return press_line(body, E_star, Wish(depths, forces, n_loads))
     if not isinstance(body, Surface):
@@ -107,19 +111,24 @@ def press(
         + (f" and keeping the fields of {loads.values.size} loads" if fields else ""),
         "take a smaller piece or every other point" + (", or fields=False" if fields else ""),
     )
+    if grid_error:
+        refuse_indivisible(body)
     # compiled loops load slowly, so only here
     from roughline.halfspace.state import Method
     from roughline.surface_contact import press_surface
 
+    method = Method(rtol, int(max_iterations), precision)
     curve = press_surface(
-        body,
-        E_star,
-        loads,
-        Method(rtol, int(max_iterations), precision),
-        periodic=periodic,
-        fields=fields,
-        progress=progress,
+        body, E_star, loads, method, periodic=periodic, fields=fields, progress=progress
     )
+    if grid_error:
+        curve = with_grid_error(
+            curve,
+            body,
+            lambda coarse: press_surface(
+                coarse, E_star, loads, method, periodic=periodic, fields=False, progress=None
+            ),
+        )
     if throw and not curve.converged.all():
         raise ConvergenceError(_failure_message(curve), curve)
     return curve

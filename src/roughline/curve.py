@@ -97,6 +97,9 @@ class Curve:
         Unit of lengths ("m": forces are in newtons, stiffness in N/m).
     settings : mapping
         How it was computed: version, tolerance, boundary, and the settings of the body.
+    stiffness_error, area_fraction_error : ndarray, shape (loads,), or None
+        Estimated discretisation errors of `stiffness` and `area_fraction_corrected`, if asked
+        for.
     warnings : sequence of str
         What to know before the numbers are used; empty where there is nothing to say.
     fields : sequence of Fields
@@ -116,6 +119,8 @@ class Curve:
     length: float
     unit: str | None
     settings: Mapping[str, str | int | float]
+    stiffness_error: Real | None = None
+    area_fraction_error: Real | None = None
     warnings: Sequence[str] = ()
     fields: Sequence[Fields | None] = field(default=(), repr=False)
 
@@ -190,6 +195,18 @@ class Curve:
                 "load",
                 self.area_fraction_corrected,
                 {"units": "1", "long_name": "the same, corrected for the outline's steps"},
+            )
+        if self.stiffness_error is not None:
+            variables["stiffness_error"] = (
+                "load",
+                self.stiffness_error,
+                {"units": f"{forces}/{lengths}", "long_name": "discretisation error of stiffness"},
+            )
+        if self.area_fraction_error is not None:
+            variables["area_fraction_error"] = (
+                "load",
+                self.area_fraction_error,
+                {"units": "1", "long_name": "discretisation error of area_fraction_corrected"},
             )
         units = {"pressure": pressures, "displacement": lengths, "gap": lengths, "contact": "1"}
         found = [fields for fields in self.fields if fields is not None]

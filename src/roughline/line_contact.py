@@ -38,19 +38,19 @@ def press_line(line: Line, E_star: float, wish: Wish) -> Curve:
     springs = Springs.under(line.heights, line.spacing, E_star)
     loads = line_loads(line, springs, wish)
     if loads.control == "forces":
-        force, depth = loads.values, springs.depth(loads.values)
-        count = springs.count_under(force)
+        force, touching = loads.values, springs.under_forces(loads.values)
+        depth = touching.depth_under(force)
     else:
-        force, depth = springs.force(loads.values), loads.values
-        count = springs.count_at(depth)
+        depth, touching = loads.values, springs.at_depths(loads.values)
+        force = touching.force_at(depth)
     return Curve(
         depth=depth,
         force=force,
-        stiffness=springs.stiffness(count),
+        stiffness=touching.stiffness,
         area_fraction=None,
         area_fraction_corrected=None,
         status=np.zeros(depth.size, dtype=np.int8),
-        resolved=count >= RESOLVED_FROM,
+        resolved=touching.count >= RESOLVED_FROM,
         residual=np.zeros(depth.size),
         E_star=E_star,
         rms_height=line.rms_height,

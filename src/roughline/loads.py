@@ -51,9 +51,9 @@ def line_loads(line: Line, springs: Springs, wish: Wish) -> Loads:
         return _given_loads(wish)
     _refuse_constant(line, wish)
     few = min(RESOLVED_FROM, line.heights.size - 1)
-    touch_forces = springs.touch_forces
-    lowest = max(touch_forces[few], touch_forces[touch_forces > 0][0])
-    return _spaced_loads(wish, float(lowest), float(touch_forces[-1]))
+    highest_points = int(np.count_nonzero(springs.separations == 0))
+    lowest = springs.touch_force(max(few, highest_points))
+    return _spaced_loads(wish, lowest, springs.touch_force(line.heights.size - 1))
 
 
 def surface_loads(

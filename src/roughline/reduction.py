@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,14 +18,21 @@ from numpy.typing import NDArray
 Real = NDArray[np.float64]
 
 
+_BINS = 2**16
+_SPRINGS_PER_BIN = 16
+
+
 @dataclass(frozen=True, eq=False)
 class Springs:
-    """A rough line on springs, sorted by when they come into contact.
+    """A rough line on springs.
+
+    Springs are counted and summed in bins of separation; only the bins in which a load ends are
+    sorted. The result is that of sorting all of them.
 
     Attributes
     ----------
     separations : ndarray, shape (n,)
-        Distance of each spring at first touch, ascending from zero. [length]
+        Distance of each spring at first touch; the least is zero. [length]
     spring_stiffness : float
         E* times the spacing. [force / length]
     """
@@ -45,39 +53,117 @@ class Springs:
         E_star : float
             Stiffness per length, the contact modulus. [pressure]
         """
-        return cls(np.sort(heights.max() - heights), E_star * spacing)
+        return cls(heights.max() - heights, E_star * spacing)
 
     @cached_property
-    def _sums(self) -> Real:
-        """Sum of the first j separations, j = 0 ... n."""
-        return np.concatenate([[0.0], np.cumsum(self.separations)])
+    def _bins_per_length(self) -> float:
+        bins = min(_BINS, max(1, self.separations.size // _SPRINGS_PER_BIN))
+        deepest = float(self.separations.max())
+        return (bins - 1) / deepest if deepest > 0 else 0.0
 
     @cached_property
-    def touch_forces(self) -> Real:
-        """Force at which each spring comes into contact, ascending from zero. [force]"""
-        count = np.arange(self.separations.size)
-        forces = count * self.separations - self._sums[:-1]
-        # equal in exact arithmetic where separations repeat: rounding must not unsort them
-        return self.spring_stiffness * np.maximum.accumulate(forces)
+    def _bin(self) -> NDArray[np.uint16]:
+        """The bin of each spring."""
+        return (self.separations * self._bins_per_length).astype(np.uint16)
 
-    def count_at(self, depths: Real) -> NDArray[np.intp]:
+    @cached_property
+    def _below(self) -> tuple[NDArray[np.intp], Real]:
+        """Number of springs and sum of their separations below each bin, and in all."""
+        counts = np.bincount(self._bin)
+        sums = np.bincount(self._bin, self.separations)
+        return np.append(0, np.cumsum(counts)), np.append(0.0, np.cumsum(sums))
+
+    def at_depths(self, depths: Real) -> Touching:
         """Springs in contact at each depth."""
-        return np.searchsorted(self.separations, depths, side="left")
+        last = self._below[0].size - 2
+        bins = np.minimum(depths * self._bins_per_length, last).astype(np.intp)
+        few = self._sorted(bins)
+        return self._touching(bins, few, np.searchsorted(few.separations, depths, side="left"))
 
-    def count_under(self, forces: Real) -> NDArray[np.intp]:
+    def under_forces(self, forces: Real) -> Touching:
         """Springs in contact under each force."""
-        return np.searchsorted(self.touch_forces, forces, side="left")
+        counts, sums = self._below
+        edges = np.arange(counts.size - 1) / (self._bins_per_length or 1.0)
+        edge_forces = self.spring_stiffness * (counts[:-1] * edges - sums[:-1])
+        bins = np.searchsorted(np.maximum.accumulate(edge_forces), forces, side="right") - 1
+        few = self._sorted(bins)
+        touch_forces = few.counts * few.separations - few.sums
+        # equal in exact arithmetic where separations repeat: rounding must not unsort them
+        touch_forces = self.spring_stiffness * np.maximum.accumulate(touch_forces)
+        return self._touching(bins, few, np.searchsorted(touch_forces, forces, side="left"))
 
-    def stiffness(self, count: NDArray[np.intp]) -> Real:
-        """K = dF/dd of so many springs. [force / length]"""
-        return self.spring_stiffness * count.astype(np.float64)
+    def touch_force(self, count: int) -> float:
+        """Force at which one more spring than `count` comes into contact. [force]"""
+        nearest = np.partition(self.separations, count)[: count + 1]
+        return self.spring_stiffness * float((nearest[count] - nearest).sum())
 
-    def force(self, depths: Real) -> Real:
-        """Force at each depth. [force]"""
-        count = self.count_at(depths)
-        return self.spring_stiffness * (count * depths - self._sums[count])
+    def _sorted(self, bins: NDArray[np.intp]) -> _Sorted:
+        """Sort the springs of some bins."""
+        counts, sums = self._below
+        wanted = np.zeros(counts.size - 1, dtype=bool)
+        wanted[bins] = True
+        members = np.flatnonzero(wanted[self._bin])
+        separations, bin_of = self.separations[members], self._bin[members]
+        order = np.argsort(separations)
+        separations, bin_of = separations[order], bin_of[order]
+        # within a bin, ranks and sums go on from those of the bins below
+        first = np.searchsorted(bin_of, bin_of)
+        sums_before = np.append(0.0, np.cumsum(separations))[:-1]
+        return _Sorted(
+            bin_of,
+            separations,
+            counts[bin_of] + np.arange(bin_of.size) - first,
+            sums[bin_of] + sums_before - sums_before[first],
+        )
 
-    def depth(self, forces: Real) -> Real:
-        """Depth under each positive force. [length]"""
-        count = self.count_under(forces)
-        return (forces / self.spring_stiffness + self._sums[count]) / count
+    def _touching(self, bins: NDArray[np.intp], few: _Sorted, found: NDArray[np.intp]) -> Touching:
+        """Springs below the found ones, or below the next bin where these are of another."""
+        counts, sums = self._below
+        at = np.minimum(found, few.bin.size - 1)
+        inside = (found < few.bin.size) & (few.bin[at] == bins)
+        return Touching(
+            np.where(inside, few.counts[at], counts[bins + 1]),
+            np.where(inside, few.sums[at], sums[bins + 1]),
+            self.spring_stiffness,
+        )
+
+
+class _Sorted(NamedTuple):
+    """Springs of some bins, ascending, with number and sum of all springs below each."""
+
+    bin: NDArray[np.uint16]
+    separations: Real
+    counts: NDArray[np.intp]
+    sums: Real
+
+
+@dataclass(frozen=True, eq=False)
+class Touching:
+    """Springs in contact at given depths or under given forces.
+
+    Attributes
+    ----------
+    count : ndarray of int, shape (loads,)
+        Their number.
+    sum : ndarray, shape (loads,)
+        Sum of their separations. [length]
+    spring_stiffness : float
+        Of each. [force / length]
+    """
+
+    count: NDArray[np.intp]
+    sum: Real
+    spring_stiffness: float
+
+    @property
+    def stiffness(self) -> Real:
+        """K = dF/dd. [force / length]"""
+        return self.spring_stiffness * self.count.astype(np.float64)
+
+    def force_at(self, depths: Real) -> Real:
+        """Force at the depths. [force]"""
+        return self.spring_stiffness * (self.count * depths - self.sum)
+
+    def depth_under(self, forces: Real) -> Real:
+        """Depth under the positive forces. [length]"""
+        return (forces / self.spring_stiffness + self.sum) / self.count

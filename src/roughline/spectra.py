@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -306,13 +307,20 @@ class SelfAffine:
             "amplitudes": amplitudes,
             "seed": synthesis.described(rng, for_phases),
         }
-        moduli = np.sqrt(self._lattice_power(n, body, half=True)[1])
+        moduli = self._line_moduli(n) if body == "line" else self._moduli(n, body)
         if amplitudes == "gaussian":
-            moduli *= synthesis.rayleigh(draw(n, for_amplitudes))
-        heights = heights_of(moduli, draw(n, for_phases), n)
+            moduli = moduli * synthesis.rayleigh(draw(n, for_amplitudes))
         if self.normalisation == "rms_height":
-            heights *= self.magnitude / np.sqrt(np.mean(heights**2))
-        return heights, settings
+            moduli = moduli * (self.magnitude / synthesis.rms_of(moduli))
+        return heights_of(moduli, draw(n, for_phases), n), settings
+
+    def _moduli(self, n: int, body: Body) -> Real:
+        """Moduli of the modes that the real inverse FFT wants, up to the normalisation."""
+        return np.sqrt(self._lattice_power(n, body, half=True)[1])
+
+    @lru_cache(maxsize=8)  # noqa: B019  (an ensemble of lines wants them for every one)
+    def _line_moduli(self, n: int) -> Real:
+        return self._moduli(n, "line")
 
 
 def _check_positive(name: str, value: float) -> None:

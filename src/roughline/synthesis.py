@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline import fft
+from roughline.compiled import compiled
 from roughline.errors import InputError
 
 Real = NDArray[np.float64]
@@ -86,6 +87,22 @@ def surface_draws(n: int, rng: np.random.Generator) -> Real:
     return draws
 
 
+def rms_of(amplitudes: Real) -> float:
+    """Root-mean-square height of a line or a surface with modes of given moduli (Parseval).
+
+    Parameters
+    ----------
+    amplitudes : ndarray
+        As for :func:`line_heights` or :func:`surface_heights`. [length]
+    """
+    if amplitudes.ndim == 1:
+        return float(np.sqrt(2 * np.einsum("i,i->", amplitudes, amplitudes)))
+    half = (amplitudes.shape[0] - 1) // 2
+    plane, edge = amplitudes[:, 1:], amplitudes[1 : half + 1, 0]
+    total = np.einsum("ij,ij->", plane, plane) + np.einsum("i,i->", edge, edge)
+    return float(np.sqrt(2 * total))
+
+
 def line_heights(amplitudes: Real, draws: Real, n: int) -> Real:
     """Sum modes of given amplitudes and random phases to a periodic line.
 
@@ -97,7 +114,7 @@ def line_heights(amplitudes: Real, draws: Real, n: int) -> Real:
         Points. The mean and, for even n, the Nyquist mode are zero.
     """
     modes = np.zeros(n // 2 + 1, dtype=np.complex128)
-    _set_modes(modes[1 : amplitudes.size + 1], amplitudes, draws)
+    _set_modes(modes[1 : amplitudes.size + 1], amplitudes, draws, _TURN)
     return fft.synthesise(modes, n)
 
 
@@ -112,13 +129,29 @@ def surface_heights(amplitudes: Real, draws: Real, n: int) -> Real:
         Points along each side.
     """
     modes = np.empty(amplitudes.shape, dtype=np.complex128)
-    _set_modes(modes, amplitudes, draws)
+    _set_modes(modes.ravel(), amplitudes.ravel(), draws.ravel(), _TURN)
     half = (n - 1) // 2
     modes[n - half :, 0] = modes[half:0:-1, 0].conj()
     return fft.synthesise(modes, n)
 
 
-def _set_modes(modes: NDArray[np.complex128], amplitudes: Real, draws: Real) -> None:
-    phases = 2 * np.pi * draws
-    np.multiply(amplitudes, np.cos(phases), out=modes.real)
-    np.multiply(amplitudes, np.sin(phases), out=modes.imag)
+_STEPS = 4096  # of a turn, from which phases are reached by a small rotation
+_TURN = np.exp(2j * np.pi * np.arange(_STEPS) / _STEPS)
+
+
+@compiled
+def _set_modes(
+    modes: NDArray[np.complex128], amplitudes: Real, draws: Real, turn: NDArray[np.complex128]
+) -> None:
+    """Set modes of given moduli and phases (over 2 pi), over flat arrays.
+
+    A table of the circle, and cosine and sine of the small rest of the angle by their series, of
+    which the first term left out is below 1e-21: several times faster than cosine and sine.
+    """
+    for i in range(modes.size):
+        step = int(draws[i] * turn.size)
+        angle = 2 * np.pi * (draws[i] - step / turn.size)
+        square = angle * angle
+        cosine = 1 - square / 2 * (1 - square / 12)
+        sine = angle * (1 - square / 6 * (1 - square / 20))
+        modes[i] = amplitudes[i] * turn[step] * complex(cosine, sine)

@@ -132,6 +132,20 @@ class Surface:
         sizes = (dx * heights.shape[0], dy * heights.shape[1])
         return Surface(heights, sizes, self.unit, settings)
 
+    def coarsened(self) -> Surface:
+        """Return the surface on half as many points a side, the means over two by two.
+
+        Raises
+        ------
+        InputError
+            If a side has an odd number of points.
+        """
+        nx, ny = self.shape
+        if nx % 2 or ny % 2:
+            raise InputError(f"the surface has {nx} x {ny} points; give even numbers: crop it")
+        heights = self.heights.reshape(nx // 2, 2, ny // 2, 2).mean(axis=(1, 3))
+        return with_heights(self, heights, coarsened=nx // 2)
+
     def settings_as_body(self) -> Settings:
         """Return the settings with names that say that they are the body's."""
         return _as_body(self.settings)

@@ -111,8 +111,9 @@ def test_the_exponent_depends_on_how_realisations_are_averaged():
     for line in lines(0.8):
         springs = Springs.under(line.heights, line.spacing, 1.0)
         depth = np.maximum(line.heights.max() - level, 0.0)
-        force += springs.force(depth)
-        stiffness += springs.stiffness(springs.count_at(depth))
+        touching = springs.at_depths(depth)
+        force += touching.force_at(depth)
+        stiffness += touching.stiffness
     at_level = np.polyfit(np.log(force), np.log(stiffness), 1)[0]
     at_force = rl.fit_power_law(FORCES, stiffness_of(lines(0.8), FORCES), WINDOWS[0]).exponent
     assert at_force == pytest.approx(0.54, abs=0.03)

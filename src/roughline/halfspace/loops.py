@@ -1,29 +1,17 @@
-"""Compiled loops; they know arrays only, and hold no lock, so threads may run them side by side."""
+"""Compiled loops; they know arrays only."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, TypeVar, cast
-
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from roughline.compiled import compiled
 
 Real = NDArray[np.floating]
 Indices = NDArray[np.integer]
 
-Loop = TypeVar("Loop", bound=Callable[..., Any])
 
-
-def _compiled(loop: Loop) -> Loop:
-    """Compile on first use and keep the result on disk, where there is a disk to write to."""
-    try:
-        return cast(Loop, njit(cache=True, nogil=True)(loop))
-    except RuntimeError:  # neither the installation nor the user's cache folder can be written
-        return cast(Loop, njit(nogil=True)(loop))
-
-
-@_compiled
+@compiled
 def scatter_pairs(
     values: Real, starts: Indices, columns: Indices, first: int, last: int, pairs: Real
 ) -> None:
@@ -49,7 +37,7 @@ def scatter_pairs(
                     pairs[pair, columns[i], part] = values[i]
 
 
-@_compiled
+@compiled
 def gather_pairs(
     pairs: Real, starts: Indices, columns: Indices, first: int, last: int, values: Real
 ) -> None:
@@ -59,7 +47,7 @@ def gather_pairs(
             values[i] = pairs[row // 2, columns[i], row % 2]
 
 
-@_compiled
+@compiled
 def gather_rows(pairs: Real, first: int, last: int, field: Real) -> None:
     """Read whole rows back, cropped to the field."""
     for row in range(2 * first, min(2 * last, field.shape[0])):
@@ -67,7 +55,7 @@ def gather_rows(pairs: Real, first: int, last: int, field: Real) -> None:
             field[row, column] = pairs[row // 2, column, row % 2]
 
 
-@_compiled
+@compiled
 def load_columns(pairs: Real, rows: Indices, first: int, columns: Real) -> None:
     """Separate two real rows from each complex one, for a block of modes, and pad with zeros.
 
@@ -103,7 +91,7 @@ def load_columns(pairs: Real, rows: Indices, first: int, columns: Real) -> None:
                 b[j, 1] = half * (z[mirror, 0] - z[first + j, 0])
 
 
-@_compiled
+@compiled
 def weigh_columns(columns: Real, quarter: Real, first: int) -> None:
     """Multiply a block of modes by an even spectrum of which a quarter is given."""
     period = columns.shape[0]
@@ -115,7 +103,7 @@ def weigh_columns(columns: Real, quarter: Real, first: int) -> None:
             row[j, 1] *= weights[first + j]
 
 
-@_compiled
+@compiled
 def store_columns(columns: Real, rows: Indices, first: int, pairs: Real) -> None:
     """Join two rows into each complex one; undoes load_columns, for the rows wanted."""
     period = pairs.shape[1]
@@ -139,7 +127,7 @@ def store_columns(columns: Real, rows: Indices, first: int, pairs: Real) -> None
                 z[first + j, 1] = a[j, 1]
 
 
-@_compiled
+@compiled
 def sum_blocks(values: Real, block: Indices, sums: Real) -> None:
     """Sum the values of the nodes of each block."""
     sums[:] = 0
@@ -147,7 +135,7 @@ def sum_blocks(values: Real, block: Indices, sums: Real) -> None:
         sums[block[i]] += values[i]
 
 
-@_compiled
+@compiled
 def undo_details(
     residual: Real,
     places: Indices,
@@ -189,7 +177,7 @@ def undo_details(
         grid[places[i]] = 0.0
 
 
-@_compiled
+@compiled
 def add_blocks(values: Real, block: Indices, result: Real) -> None:
     """Add to each node the value of its block."""
     for i in range(block.size):

@@ -1,0 +1,22 @@
+"""Compiled loops: how they are compiled, and where the result is kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
+
+from numba import njit
+
+Loop = TypeVar("Loop", bound=Callable[..., Any])
+
+
+def compiled(loop: Loop) -> Loop:
+    """Compile a loop on first use; it holds no lock, so threads may run it side by side.
+
+    The machine code is kept beside the source or in the user's cache folder, so that the next
+    process finds it; where neither can be written, every process compiles for itself.
+    """
+    try:
+        return cast(Loop, njit(cache=True, nogil=True)(loop))
+    except RuntimeError:
+        return cast(Loop, njit(nogil=True)(loop))
