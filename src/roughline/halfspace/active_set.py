@@ -83,7 +83,7 @@ def solve(
     search = _Search(operator, approximation, separation, rms_height, load, start, method)
     while True:
         search.assess()
-        outcome = search.outcome()
+        outcome = search.outcome() or search.improve()
         if outcome is not None:
             return Contact(
                 search.depth,
@@ -95,7 +95,6 @@ def solve(
                 outcome,
                 search.convolutions,
             )
-        search.improve()
 
 
 class _Search:
@@ -180,13 +179,19 @@ class _Search:
         self._residual_before = worst
         return None
 
-    def improve(self) -> None:
-        """Step towards the pressures of the current set, then exchange the wrong nodes."""
+    def improve(self) -> Outcome | None:
+        """Step towards the pressures of the current set, then exchange the wrong nodes.
+
+        Returns the outcome if that cannot be done: a half-space is positive definite.
+        """
         tolerance = _INNER_MARGIN * self._method.rtol * self._length_scale
         one_by_one = self._waited > 2 * _PATIENCE
         on_contact = self.gap.flat[self.nodes]
         watched = self._near(np.inf if one_by_one else _WATCHED * _rms(on_contact), one_by_one)
-        patch = Patch(self._operator, self._approximation, self.nodes, watched)
+        try:
+            patch = Patch(self._operator, self._approximation, self.nodes, watched)
+        except np.linalg.LinAlgError:
+            return Outcome.STALLED
         fixed_total = self._load.force is not None
         solution = ConjugateGradients(
             patch,
@@ -224,6 +229,7 @@ class _Search:
         self._exchange(pulling, watched[overlapping])
         self._waited = 0 if self._wrong < self._fewest_wrong else self._waited + 1
         self._fewest_wrong = min(self._wrong, self._fewest_wrong)
+        return None
 
     def _near(self, reach: float, every: bool) -> Nodes:
         """Return the nodes off the contact with gaps below `reach`, at most as many as are on it.

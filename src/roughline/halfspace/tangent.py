@@ -94,4 +94,5 @@ def tangent(
             pass
         pressure = solution.pressure
         convolutions += solution.steps
-    return Tangent(1 / compliance, pressure, convolutions, converged=converged)
+    stiffness = 1 / compliance if compliance > 0 else np.nan
+    return Tangent(stiffness, pressure, convolutions, converged=converged and compliance > 0)

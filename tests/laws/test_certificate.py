@@ -1,0 +1,118 @@
+"""A damaged solver is not believed: what is returned as certified is a solution, or nothing is."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.halfspace import active_set
+from roughline.halfspace import operator as operators
+from roughline.halfspace.kernel import love
+from roughline.halfspace.operator import Operator
+
+SURFACE = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(24, 3)
+FORCES = [0.05, 0.5, 3.0]
+
+
+def dense_kernel():
+    x, y = (s * i.ravel() for s, i in zip(SURFACE.spacing, np.indices((24, 24)), strict=True))
+    return love(x[:, None] - x, y[:, None] - y, *SURFACE.spacing)
+
+
+def assert_true_where_certified(curve):
+    """Recompute the residuals of each certified load with the dense matrix."""
+    kernel = dense_kernel()
+    separation = (SURFACE.heights.max() - SURFACE.heights).ravel()
+    for i in np.flatnonzero(curve.converged):
+        pressure = curve.fields[i].pressure.ravel()
+        gap = kernel @ pressure + separation - curve.depth[i]
+        scale = min(1.0, curve.depth[i])
+        assert pressure.min() >= 0
+        assert np.abs(gap[pressure > 0]).max() <= 1.1e-6 * scale
+        assert gap.min() >= -1.1e-6 * scale
+        cell = SURFACE.area / SURFACE.heights.size
+        assert pressure.sum() * cell == pytest.approx(curve.force[i], rel=1e-6)
+
+
+def pressed(**options):
+    return rl.press(
+        SURFACE, E_star=1.0, forces=FORCES, fields=True, throw=False, max_iterations=300, **options
+    )
+
+
+def test_the_sound_solver_is_certified():
+    curve = pressed()
+    assert curve.converged.all()
+    assert_true_where_certified(curve)
+
+
+def test_a_kernel_of_the_wrong_sign_is_refused(monkeypatch):
+    sound = operators.free
+
+    def wrong(*arguments):
+        operator = sound(*arguments)
+        return dataclasses.replace(operator, spectrum=-operator.spectrum)
+
+    monkeypatch.setattr(operators, "free", wrong)
+    curve = pressed()
+    assert not curve.converged.any()
+    assert np.isnan(curve.stiffness).all()
+    with pytest.raises(rl.ConvergenceError, match=r"3 of 3 loads .*; worst residual"):
+        rl.press(SURFACE, E_star=1.0, forces=FORCES, max_iterations=300)
+
+
+@pytest.mark.parametrize("skipped", range(12))
+def test_a_skipped_convolution_never_certifies_a_wrong_contact(monkeypatch, skipped):
+    """The certificate is recomputed: it repairs a wrong step, or refuses."""
+    sound, calls = Operator.convolve, []
+
+    def skipping(self, pressure, sources, targets=None, precision="float64"):
+        calls.append(precision)
+        result = sound(self, pressure, sources, targets, precision)
+        # the steps' convolutions, one in twelve of them; certificates are another matter
+        skip = targets is not None and len(calls) % 12 == skipped
+        return np.zeros_like(result) if skip else result
+
+    monkeypatch.setattr(Operator, "convolve", skipping)
+    assert_true_where_certified(pressed())
+
+
+def test_steps_that_are_all_wrong_are_refused(monkeypatch):
+    sound = Operator.convolve
+
+    def wrong(self, pressure, sources, targets=None, precision="float64"):
+        result = sound(self, pressure, sources, targets, precision)
+        return result if targets is None else 3 * result[::-1]
+
+    monkeypatch.setattr(Operator, "convolve", wrong)
+    assert_true_where_certified(pressed())
+
+
+def test_a_stale_contact_set_is_refused(monkeypatch):
+    monkeypatch.setattr(active_set._Search, "_exchange", lambda self, pulling, added: None)
+    curve = pressed()
+    assert not curve.converged.any()
+    assert (curve.residual > 1e-6).all()
+
+
+def test_a_contact_set_that_only_grows_is_refused(monkeypatch):
+    sound = active_set._Search._exchange
+    monkeypatch.setattr(
+        active_set._Search,
+        "_exchange",
+        lambda self, pulling, added: sound(self, np.zeros_like(pulling), added),
+    )
+    curve = pressed()
+    assert_true_where_certified(curve)
+    assert not curve.converged.all()
+
+
+def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
+    from roughline.halfspace import patch
+
+    monkeypatch.setattr(patch, "preconditioner", lambda approximation, places: np.copy)
+    curve = pressed()
+    assert curve.converged.all()
+    assert_true_where_certified(curve)
+    assert curve.stiffness == pytest.approx(pressed().stiffness, rel=1e-6)

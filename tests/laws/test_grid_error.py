@@ -1,0 +1,56 @@
+"""The estimated discretisation error covers the true one."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.exact.indenters import PowerLawIndenter
+
+PUNCH = 1.15230  # k / (E* L) of a square punch, tests/exact
+
+
+@pytest.mark.parametrize("n", [16, 32, 64])
+def test_it_covers_the_punch(n):
+    surface = rl.Surface(np.zeros((n, n)), (1.0, 1.0))
+    curve = rl.press(surface, E_star=1.0, forces=[1.0], grid_error=True)
+    error = abs(curve.stiffness[0] - PUNCH)
+    assert error <= curve.stiffness_error[0] < 3 * error
+    assert curve.area_fraction_error[0] == 0
+
+
+@pytest.mark.parametrize("n", [64, 128, 256])
+def test_it_covers_hertz(n):
+    x = (np.arange(n) + 0.5) / n - 0.5
+    surface = rl.Surface(-(x[:, np.newaxis] ** 2 + x**2), (1.0, 1.0))
+    sphere = PowerLawIndenter(2.0, 1.0, E_star=1.0)
+    radii = np.array([0.08, 0.15, 0.25, 0.35])
+    forces = np.array([sphere.force(sphere.depth(radius)) for radius in radii])
+    curve = rl.press(surface, E_star=1.0, forces=forces, grid_error=True)
+    assert (np.abs(curve.stiffness - 2 * radii) <= curve.stiffness_error).all()
+    area = np.pi * radii**2
+    assert (np.abs(curve.area_fraction_corrected - area) <= curve.area_fraction_error).all()
+    # the perimeter correction brings the area nearer on average
+    raw, corrected = (
+        np.abs(found / area - 1).mean()
+        for found in (curve.area_fraction, curve.area_fraction_corrected)
+    )
+    assert corrected < raw
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hurst", [0.3, 0.8])
+@pytest.mark.parametrize("q_high", [None, 2 * np.pi * 24])
+def test_it_covers_a_rough_surface_refined_with_the_same_seed(hurst, q_high):
+    spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_high=q_high)
+    forces = [0.01, 0.1, 1.0]
+    curve = rl.press(spectrum.surface(128, 11), E_star=1.0, forces=forces, grid_error=True)
+    finer = rl.press(spectrum.surface(512, 11), E_star=1.0, forces=forces)
+    assert (np.abs(curve.stiffness - finer.stiffness) <= curve.stiffness_error).all()
+    difference = np.abs(curve.area_fraction_corrected - finer.area_fraction_corrected)
+    assert (difference <= curve.area_fraction_error).all()
+
+
+def test_grids_that_cannot_be_halved_twice_are_refused():
+    surface = rl.Surface(np.random.default_rng(0).normal(size=(30, 32)), (1.0, 1.0))
+    with pytest.raises(rl.InputError, match="30 x 32: crop it to multiples of 4, at least 16"):
+        rl.press(surface, E_star=1.0, forces=[1.0], grid_error=True)
