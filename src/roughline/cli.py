@@ -96,6 +96,12 @@ def press(
     ] = None,
     keep_tilt: Annotated[bool, typer.Option(help="Keep a measured surface's tilt.")] = False,
     periodic: Annotated[bool, typer.Option(help="Repeat the surface periodically.")] = False,
+    grid_error: Annotated[
+        bool, typer.Option(help="Estimate discretisation errors from coarser grids.")
+    ] = False,
+    threads: Annotated[
+        int | None, typer.Option(help="Threads [default: one for each core].")
+    ] = None,
     out: Annotated[
         Path | None, typer.Option(help="Folder for the curve (NetCDF) and figures.")
     ] = None,
@@ -105,10 +111,13 @@ def press(
     Prints depth, force, stiffness and real contact area in SI units. Depth counts from first
     touch; force is the total force. The tilt of measured surfaces is removed.
     """
+    from roughline.fft import set_threads
     from roughline.quantities import in_si
     from roughline.report.pressed import press_file
-    from roughline.report.terminal import load_progress, print_pressed
+    from roughline.report.terminal import announce, load_progress, print_pressed
 
+    if threads is not None:
+        set_threads(threads)
     with load_progress() as progress:
         result = press_file(
             file,
@@ -119,7 +128,9 @@ def press(
             unit=unit,
             keep_tilt=keep_tilt,
             periodic=periodic,
+            grid_error=grid_error,
             out=out,
+            announce=announce,
             progress=progress,
         )
     print_pressed(result)

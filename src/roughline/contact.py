@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Literal
 
 import numpy as np
@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike
 
 from roughline.curve import Curve, Status
 from roughline.errors import ConvergenceError, InputError
-from roughline.estimates import memory_for, refuse_beyond_memory
+from roughline.estimates import memory_for
 from roughline.grid_error import refuse_indivisible, with_grid_error
 from roughline.line_contact import press_line
 from roughline.loads import Wish, surface_loads
+from roughline.memory import refuse_beyond_memory
 from roughline.topography import Body, Line, Surface
 
 
@@ -25,7 +26,7 @@ def press(
     forces: ArrayLike | None = None,
     n_loads: int | None = None,
     periodic: bool = False,
-    fields: bool = False,
+    fields: bool | Sequence[int] = False,
     grid_error: bool = False,
     rtol: float = 1e-6,
     max_iterations: int = 5000,
@@ -52,8 +53,9 @@ def press(
     periodic : bool, optional
         Repeat the surface periodically. Depths then count the approach of the mean planes, k is
         the stiffness of the interface alone and is infinite in full contact.
-    fields : bool, optional
-        Keep pressure, displacement, gap and contact of every load.
+    fields : bool or sequence of int, optional
+        Keep pressure, displacement, gap and contact of every load, or of loads with these numbers
+        (from 0).
     grid_error : bool, optional
         Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
     rtol : float, optional
@@ -105,11 +107,12 @@ def press(
     loads = surface_loads(
         body, E_star, Wish(depths, forces, n_loads), periodic, rtol, single=precision == "float32"
     )
+    kept = _kept_loads(fields, loads.values.size)
     refuse_beyond_memory(
-        memory_for(body.shape, loads.values.size if fields else 0),
+        memory_for(body.shape, len(kept)),
         f"pressing {body.shape[0]} x {body.shape[1]} points"
-        + (f" and keeping the fields of {loads.values.size} loads" if fields else ""),
-        "take a smaller piece or every other point" + (", or fields=False" if fields else ""),
+        + (f" and keeping the fields of {len(kept)} loads" if kept else ""),
+        "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
     )
     if grid_error:
         refuse_indivisible(body)
@@ -119,19 +122,30 @@ def press(
 
     method = Method(rtol, int(max_iterations), precision)
     curve = press_surface(
-        body, E_star, loads, method, periodic=periodic, fields=fields, progress=progress
+        body, E_star, loads, method, periodic=periodic, kept=kept, progress=progress
     )
     if grid_error:
         curve = with_grid_error(
             curve,
             body,
             lambda coarse: press_surface(
-                coarse, E_star, loads, method, periodic=periodic, fields=False, progress=None
+                coarse, E_star, loads, method, periodic=periodic, kept=frozenset(), progress=None
             ),
         )
     if throw and not curve.converged.all():
         raise ConvergenceError(_failure_message(curve), curve)
     return curve
+
+
+def _kept_loads(fields: bool | Sequence[int], count: int) -> frozenset[int]:
+    """Numbers of the loads whose fields are kept."""
+    if isinstance(fields, bool):
+        return frozenset(range(count)) if fields else frozenset()
+    if not all(isinstance(i, int | np.integer) and 0 <= i < count for i in fields):
+        raise InputError(
+            f"fields is {fields!r}; give True, False, or numbers of loads, 0 to {count - 1}"
+        )
+    return frozenset(int(i) for i in fields)
 
 
 def _check_number(name: str, value: float, low: float, high: float, allowed: str) -> None:

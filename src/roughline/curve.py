@@ -97,6 +97,8 @@ class Curve:
         Unit of lengths ("m": forces are in newtons, stiffness in N/m).
     settings : mapping
         How it was computed: version, tolerance, boundary, and the settings of the body.
+    convolutions : ndarray of int, shape (loads,), or None
+        Convolutions that each load took, its stiffness included; None for a line.
     stiffness_error, area_fraction_error : ndarray, shape (loads,), or None
         Estimated discretisation errors of `stiffness` and `area_fraction_corrected`, if asked
         for.
@@ -119,6 +121,7 @@ class Curve:
     length: float
     unit: str | None
     settings: Mapping[str, str | int | float]
+    convolutions: NDArray[np.int64] | None = None
     stiffness_error: Real | None = None
     area_fraction_error: Real | None = None
     warnings: Sequence[str] = ()
@@ -189,6 +192,12 @@ class Curve:
                 "load",
                 self.area_fraction,
                 {"units": "1", "long_name": "real contact area over nominal area"},
+            )
+        if self.convolutions is not None:
+            variables["convolutions"] = (
+                "load",
+                self.convolutions,
+                {"units": "1", "long_name": "convolutions spent"},
             )
         if self.area_fraction_corrected is not None:
             variables["area_fraction_corrected"] = (

@@ -1,4 +1,4 @@
-"""What pressing a surface will cost in memory and time, and the refusal of what cannot be done."""
+"""What pressing a surface will cost in memory and time."""
 
 from __future__ import annotations
 
@@ -7,9 +7,6 @@ import time
 from dataclasses import dataclass
 
 import numpy as np
-import psutil
-
-from roughline.errors import InputError
 
 # Measured (see docs/speed.md): the largest of what a path of loads held at any time, and of what
 # fields keep for each load. [bytes per point]
@@ -18,7 +15,6 @@ _BYTES_OF_FIELDS = 25
 # Convolutions that a load takes, its stiffness included, on average over a path of loads.
 _CONVOLUTIONS = 50
 _PROBE = 256  # points along a side of the grid that is timed
-_SPARE = 0.95  # of the memory that is free
 
 
 @dataclass(frozen=True)
@@ -77,29 +73,6 @@ def estimate(shape: tuple[int, int], n_loads: int, *, fields: bool = False) -> E
 def memory_for(shape: tuple[int, int], kept_fields: int) -> int:
     """Return the memory that pressing a surface takes, beside the surface. [bytes]"""
     return shape[0] * shape[1] * (_BYTES + _BYTES_OF_FIELDS * kept_fields)
-
-
-def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
-    """Refuse work that needs more memory than is free.
-
-    Parameters
-    ----------
-    needed : int
-        Memory that the work takes. [bytes]
-    what, advice : str
-        The work, and what to do instead.
-
-    Raises
-    ------
-    InputError
-        If that is more than is free.
-    """
-    free = psutil.virtual_memory().available
-    if needed > _SPARE * free:
-        raise InputError(
-            f"{what} needs about {needed / 1e9:.3g} GB of memory, and {free / 1e9:.3g} GB is free: "
-            f"{advice}"
-        )
 
 
 def _spoken(seconds: float) -> str:

@@ -15,11 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.compiled import compiled
+
 Real = NDArray[np.float64]
 
 
 _BINS = 2**16
-_SPRINGS_PER_BIN = 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,20 +58,22 @@ class Springs:
 
     @cached_property
     def _bins_per_length(self) -> float:
-        bins = min(_BINS, max(1, self.separations.size // _SPRINGS_PER_BIN))
         deepest = float(self.separations.max())
-        return (bins - 1) / deepest if deepest > 0 else 0.0
+        return (_BINS - 1) / deepest if deepest > 0 else 0.0
 
     @cached_property
-    def _bin(self) -> NDArray[np.uint16]:
-        """The bin of each spring."""
-        return (self.separations * self._bins_per_length).astype(np.uint16)
+    def _binned(self) -> tuple[NDArray[np.uint16], NDArray[np.intp], Real]:
+        """The bin of each spring; number of springs and sum of separations in each bin."""
+        bins = np.empty(self.separations.size, dtype=np.uint16)
+        counts = np.zeros(_BINS, dtype=np.intp)
+        sums = np.zeros(_BINS)
+        _fill_bins(self.separations, self._bins_per_length, bins, counts, sums)
+        return bins, counts, sums
 
     @cached_property
     def _below(self) -> tuple[NDArray[np.intp], Real]:
         """Number of springs and sum of their separations below each bin, and in all."""
-        counts = np.bincount(self._bin)
-        sums = np.bincount(self._bin, self.separations)
+        _, counts, sums = self._binned
         return np.append(0, np.cumsum(counts)), np.append(0.0, np.cumsum(sums))
 
     def at_depths(self, depths: Real) -> Touching:
@@ -102,8 +105,10 @@ class Springs:
         counts, sums = self._below
         wanted = np.zeros(counts.size - 1, dtype=bool)
         wanted[bins] = True
-        members = np.flatnonzero(wanted[self._bin])
-        separations, bin_of = self.separations[members], self._bin[members]
+        wanted[0] = True  # never empty: the highest point is there
+        bins_of_all = self._binned[0]
+        members = np.flatnonzero(wanted[bins_of_all])
+        separations, bin_of = self.separations[members], bins_of_all[members]
         order = np.argsort(separations)
         separations, bin_of = separations[order], bin_of[order]
         # within a bin, ranks and sums go on from those of the bins below
@@ -167,3 +172,19 @@ class Touching:
     def depth_under(self, forces: Real) -> Real:
         """Depth under the positive forces. [length]"""
         return (forces / self.spring_stiffness + self.sum) / self.count
+
+
+@compiled
+def _fill_bins(
+    separations: Real,
+    bins_per_length: float,
+    bins: NDArray[np.uint16],
+    counts: NDArray[np.intp],
+    sums: Real,
+) -> None:
+    """Find the bin of each spring; add it to the number and the sum there."""
+    for i in range(separations.size):
+        bin_ = int(separations[i] * bins_per_length)
+        bins[i] = bin_
+        counts[bin_] += 1
+        sums[bin_] += separations[i]

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from roughline import synthesis
 from roughline.band import Band
 from roughline.errors import InputError
+from roughline.memory import refuse_beyond_memory
 from roughline.topography import Line, Settings, Surface
 
 Real = NDArray[np.float64]
@@ -26,6 +27,7 @@ Amplitudes = Literal["fixed", "gaussian"]
 Body = Literal["surface", "line"]
 Normalisation = Literal["rms_height", "C_0"]
 
+_BYTES_PER_POINT = 40  # of a surface, while it is generated
 _LARGEST: dict[Body, int] = {"surface": 2**15, "line": 2**28}
 
 
@@ -288,6 +290,10 @@ class SelfAffine:
             raise InputError(
                 f"n is {n!r}; a whole number of points from 3 to {_LARGEST[body]} is needed"
             )
+        if body == "surface":
+            refuse_beyond_memory(
+                _BYTES_PER_POINT * n**2, f"a surface of {n} x {n} points", "take a smaller n"
+            )
         if amplitudes not in ("fixed", "gaussian"):
             raise InputError(f'amplitudes is {amplitudes!r}; allowed are "fixed" and "gaussian"')
         draw, heights_of = {
@@ -310,9 +316,9 @@ class SelfAffine:
         moduli = self._line_moduli(n) if body == "line" else self._moduli(n, body)
         if amplitudes == "gaussian":
             moduli = moduli * synthesis.rayleigh(draw(n, for_amplitudes))
-        if self.normalisation == "rms_height":
-            moduli = moduli * (self.magnitude / synthesis.rms_of(moduli))
-        return heights_of(moduli, draw(n, for_phases), n), settings
+        given = self.normalisation == "rms_height"
+        scale = self.magnitude / synthesis.rms_of(moduli) if given else 1.0
+        return heights_of(moduli, draw(n, for_phases), scale, n), settings
 
     def _moduli(self, n: int, body: Body) -> Real:
         """Moduli of the modes that the real inverse FFT wants, up to the normalisation."""

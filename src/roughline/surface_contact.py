@@ -32,7 +32,7 @@ def press_surface(
     method: Method,
     *,
     periodic: bool,
-    fields: bool,
+    kept: frozenset[int],
     progress: Callable[[int, int], None] | None,
 ) -> Curve:
     """Press a surface.
@@ -47,7 +47,9 @@ def press_surface(
         Checked loads.
     method : Method
         Tolerance, bound on the convolutions and precision.
-    periodic, fields, progress
+    kept : frozenset of int
+        Loads whose fields are kept.
+    periodic, progress
         As for :func:`roughline.press`.
     """
     units = _Units.of(surface, E_star, loads)
@@ -68,6 +70,7 @@ def press_surface(
     depth, force, stiffness, area, corrected, residual, edge = np.full((7, count), np.nan)
     status = np.empty(count, dtype=np.int8)
     resolved = np.zeros(count, dtype=bool)
+    convolutions = np.zeros(count, dtype=np.int64)
     all_fields: list[Fields | None] = []
     # the threads belong to the transforms: those of the linear algebra would spin beside them
     with threadpool_limits(limits=1, user_api="blas"):
@@ -76,6 +79,7 @@ def press_surface(
             if tangent is not None and not tangent.converged:
                 status[i] = Status.NO_TANGENT
             residual[i] = contact.residuals.worst
+            convolutions[i] = contact.convolutions + (tangent.convolutions if tangent else 0)
             converged = status[i] == Status.CONVERGED
             if tangent is not None and converged:
                 depth[i] = contact.depth * units.height
@@ -87,8 +91,9 @@ def press_surface(
                 corrected[i] = area[i] - _perimeter_correction(touching, periodic)
                 resolved[i] = cells >= RESOLVED_FROM
                 edge[i] = _edge_share(contact)
-            if fields:
-                all_fields.append(_fields(contact, separation, units) if converged else None)
+            if kept:
+                keep = converged and i in kept
+                all_fields.append(_fields(contact, separation, units) if keep else None)
             del contact, tangent  # so that the next load finds their memory free
             if progress is not None:
                 progress(i + 1, count)
@@ -116,6 +121,7 @@ def press_surface(
             "precision": method.precision,
             **surface.settings_as_body(),
         },
+        convolutions=convolutions,
         warnings=warnings,
         fields=tuple(all_fields),
     )

@@ -103,33 +103,38 @@ def rms_of(amplitudes: Real) -> float:
     return float(np.sqrt(2 * total))
 
 
-def line_heights(amplitudes: Real, draws: Real, n: int) -> Real:
+def line_heights(amplitudes: Real, draws: Real, scale: float, n: int) -> Real:
     """Sum modes of given amplitudes and random phases to a periodic line.
 
     Parameters
     ----------
     amplitudes, draws : ndarray, shape ((n - 1) // 2,)
-        Moduli of the modes 0 < m < n / 2 [length] and their phases over 2 pi.
+        Moduli of the modes 0 < m < n / 2, in units of `scale`, and their phases over 2 pi.
+    scale : float
+        Unit of the amplitudes. [length]
     n : int
         Points. The mean and, for even n, the Nyquist mode are zero.
     """
     modes = np.zeros(n // 2 + 1, dtype=np.complex128)
-    _set_modes(modes[1 : amplitudes.size + 1], amplitudes, draws, _TURN)
+    _set_modes(modes[1 : amplitudes.size + 1], amplitudes, draws, scale, _TURN)
     return fft.synthesise(modes, n)
 
 
-def surface_heights(amplitudes: Real, draws: Real, n: int) -> Real:
+def surface_heights(amplitudes: Real, draws: Real, scale: float, n: int) -> Real:
     """Sum modes of given amplitudes and random phases to a periodic surface.
 
     Parameters
     ----------
     amplitudes, draws : ndarray, shape (n, n // 2 + 1)
-        Moduli of the modes [length] and their phases over 2 pi, from :func:`surface_draws`.
+        Moduli of the modes, in units of `scale`, and their phases over 2 pi, from
+        :func:`surface_draws`.
+    scale : float
+        Unit of the amplitudes. [length]
     n : int
         Points along each side.
     """
     modes = np.empty(amplitudes.shape, dtype=np.complex128)
-    _set_modes(modes.ravel(), amplitudes.ravel(), draws.ravel(), _TURN)
+    _set_modes(modes.ravel(), amplitudes.ravel(), draws.ravel(), scale, _TURN)
     half = (n - 1) // 2
     modes[n - half :, 0] = modes[half:0:-1, 0].conj()
     return fft.synthesise(modes, n)
@@ -141,7 +146,11 @@ _TURN = np.exp(2j * np.pi * np.arange(_STEPS) / _STEPS)
 
 @compiled
 def _set_modes(
-    modes: NDArray[np.complex128], amplitudes: Real, draws: Real, turn: NDArray[np.complex128]
+    modes: NDArray[np.complex128],
+    amplitudes: Real,
+    draws: Real,
+    scale: float,
+    turn: NDArray[np.complex128],
 ) -> None:
     """Set modes of given moduli and phases (over 2 pi), over flat arrays.
 
@@ -154,4 +163,4 @@ def _set_modes(
         square = angle * angle
         cosine = 1 - square / 2 * (1 - square / 12)
         sine = angle * (1 - square / 6 * (1 - square / 20))
-        modes[i] = amplitudes[i] * turn[step] * complex(cosine, sine)
+        modes[i] = scale * amplitudes[i] * turn[step] * complex(cosine, sine)

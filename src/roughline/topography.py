@@ -19,6 +19,7 @@ MEASURED = "instrument file"
 
 # Beyond this, squares of lengths leave the range of double precision.
 _LARGEST = 1e150
+_BLOCK = 2**16  # heights looked at together
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,14 +285,15 @@ def _checked_heights(heights: Any, dimensions: int) -> NDArray[np.float64]:
         raise InputError(
             f"the heights have {array.ndim} dimensions; {name} takes {dimensions}: reshape them"
         )
-    bad = array.size - int(np.count_nonzero(np.isfinite(array)))
-    if bad:
+    largest = max(array.max(), -array.min()) if array.size else 0.0  # NaN if any height is
+    if not np.isfinite(largest):
+        bad = array.size - int(np.count_nonzero(np.isfinite(array)))
         raise InputError(
             f"{bad} of {array.size} heights are NaN or infinite; all must be finite: fill or crop "
             "them first"
         )
-    if array.size and np.abs(array).max() > _LARGEST:
-        raise InputError(f"heights reach {np.abs(array).max():.3g}; at most {_LARGEST:g}: rescale")
+    if largest > _LARGEST:
+        raise InputError(f"heights reach {largest:.3g}; at most {_LARGEST:g}: rescale")
     array.flags.writeable = False
     return array
 
@@ -310,14 +312,24 @@ def _checked_sizes(name: str, sizes: Any) -> tuple[float, ...]:
 
 
 def _rms_deviation(heights: NDArray[np.float64]) -> float:
-    if np.ptp(heights) == 0:
+    lowest, highest = float(heights.min()), float(heights.max())
+    if lowest == highest:
         return 0.0  # rounding of the mean is no roughness
-    return _rms(heights - heights.mean())
+    mean = float(heights.mean())
+    return _rms(heights, mean, max(highest - mean, mean - lowest))
 
 
-def _rms(values: NDArray[np.float64]) -> float:
-    """Root of the mean square, neither overflowing nor underflowing on the way."""
-    largest = float(np.abs(values).max(initial=0.0))
+def _rms(values: NDArray[np.float64], mean: float = 0.0, largest: float | None = None) -> float:
+    """Root of the mean square deviation, neither overflowing nor underflowing on the way.
+
+    A block at a time, so that large arrays need no room of their own size.
+    """
+    if largest is None:
+        largest = float(np.abs(values).max(initial=0.0))
     if largest == 0.0:
         return 0.0
-    return float(np.sqrt(np.mean((values / largest) ** 2))) * largest
+    flat, total = values.reshape(-1), 0.0
+    for start in range(0, flat.size, _BLOCK):
+        deviations = (flat[start : start + _BLOCK] - mean) / largest
+        total += float(np.einsum("i,i->", deviations, deviations))
+    return float(np.sqrt(total / flat.size)) * largest

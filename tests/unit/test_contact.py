@@ -93,7 +93,9 @@ def test_impossible_settings_are_refused(surface, line):
         rl.press(surface, E_star=1.0, depths=[0.1], max_iterations=-3)
     with pytest.raises(rl.InputError, match="body is a ndarray; a Surface or a Line"):
         rl.press(surface.heights, E_star=1.0, depths=[0.1])
-    with pytest.raises(rl.InputError, match="periodic and fields belong to the full model"):
+    with pytest.raises(
+        rl.InputError, match="periodic, fields and grid_error belong to the full model"
+    ):
         rl.press(line, E_star=1.0, depths=[0.1], periodic=True)
 
 

@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 from roughline.contact import press
 from roughline.curve import Curve, Status
 from roughline.errors import StoreError
+from roughline.estimates import estimate
 from roughline.measured import levelled, read
 from roughline.quantities import engineering
 from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.topography import Body, Surface
 
+_LARGE = 2**20  # points from which on the cost is told
 _PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 
@@ -51,7 +53,9 @@ def press_file(
     unit: str | None,
     keep_tilt: bool,
     periodic: bool,
+    grid_error: bool = False,
     out: Path | None,
+    announce: Callable[[str], None],
     progress: Callable[[int, int], None] | None,
 ) -> Pressed:
     """Read a file, level it, press it and write the results.
@@ -70,8 +74,12 @@ def press_file(
         Whether a measured surface keeps its tilt.
     periodic : bool
         Whether the surface is repeated.
+    grid_error : bool
+        As for :func:`roughline.press`.
     out : Path or None
         Folder for curve and figures; None writes nothing.
+    announce : callable
+        Told what a large run will cost, before it starts.
     progress : callable or None
         Called with (loads done, loads in all).
     """
@@ -80,6 +88,10 @@ def press_file(
         body = levelled(body)
     if out is not None:
         _make_folder(out)  # a folder that cannot be written is said before the work, not after
+    count = next((len(given) for given in (forces, depths, range(n_loads or 0)) if given), 0)
+    if isinstance(body, Surface) and body.heights.size >= _LARGE:
+        cost = estimate(body.shape, count)
+        announce(f"{body.shape[0]} x {body.shape[1]} points, {count} loads: {cost}")
     curve = press(
         body,
         E_star=E_star,
@@ -87,7 +99,8 @@ def press_file(
         forces=forces,
         depths=depths,
         periodic=periodic,
-        fields=out is not None and isinstance(body, Surface),
+        fields=[3 * count // 4] if out is not None and isinstance(body, Surface) else False,
+        grid_error=grid_error,
         throw=False,
         progress=progress,
     )
@@ -98,12 +111,14 @@ def curve_table(curve: Curve) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of a curve in SI units; a star marks loads that the grid decides."""
     header = ["load", "depth", "force", "stiffness k"]
     if curve.area_fraction is not None:
-        header.append("contact area")
+        header += ["contact area", "corrected"]
     rows = []
     for i in range(curve.depth.size):
         mark = "" if curve.resolved[i] else " *"
         if not curve.converged[i]:
-            rows.append([str(i + 1), "-", "-", Status(curve.status[i]).reason, "-"][: len(header)])
+            rows.append(
+                [str(i + 1), "-", "-", Status(curve.status[i]).reason, "-", "-"][: len(header)]
+            )
             continue
         row = [
             f"{i + 1}{mark}",
@@ -111,8 +126,12 @@ def curve_table(curve: Curve) -> tuple[list[str], list[list[str]]]:
             engineering(curve.force[i], "N"),
             engineering(curve.stiffness[i], "N/m"),
         ]
-        if curve.area_fraction is not None:
-            row.append(f"{curve.area_fraction[i]:.3%}")
+        if curve.stiffness_error is not None:
+            row[-1] += f" ± {curve.stiffness_error[i] / curve.stiffness[i]:.1%}"
+        if curve.area_fraction is not None and curve.area_fraction_corrected is not None:
+            row += [f"{curve.area_fraction[i]:.3%}", f"{curve.area_fraction_corrected[i]:.3%}"]
+        if curve.area_fraction_error is not None:
+            row[-1] += f" ± {curve.area_fraction_error[i]:.3%}"
         rows.append(row)
     return header, rows
 
@@ -166,7 +185,7 @@ def curve_figure(curve: Curve) -> Figure:
 
 
 def contact_figure(surface: Surface, curve: Curve) -> Figure:
-    """Topography, and the real contact area at one load, three quarters up."""
+    """Topography, and the real contact area at the last load whose fields are there."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
     size_unit, (width, height) = _scaled(np.array(surface.sizes), "m")
@@ -176,7 +195,7 @@ def contact_figure(surface: Surface, curve: Curve) -> Figure:
     figure.colorbar(shown, ax=left, label=f"height [{height_unit}]", shrink=0.85)
     solved = [i for i, fields in enumerate(curve.fields) if fields is not None]
     if solved:
-        i = solved[3 * len(solved) // 4]
+        i = solved[-1]
         found = curve.fields[i]
         assert found is not None
         right.imshow(

@@ -89,8 +89,15 @@ def print_pressed(pressed: Pressed) -> None:
     console.print(table)
     if not curve.resolved[curve.converged].all():
         console.print("* fewer than ten points in contact: the grid decides, not the surface")
+    for warning in curve.warnings:
+        console.print(f"warning: {warning}", highlight=False, soft_wrap=True)
     for file in pressed.files:
         console.print(f"wrote {file}", highlight=False, soft_wrap=True)
+
+
+def announce(text: str) -> None:
+    """Print a line on standard error."""
+    Console(stderr=True).print(text, highlight=False, soft_wrap=True)
 
 
 def print_generated(body: Body, file: Path) -> None:
