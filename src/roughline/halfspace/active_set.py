@@ -111,6 +111,7 @@ class _Search:
         method: Method,
     ) -> None:
         self.nodes, self.pressure = start.nodes, start.pressure
+        self.gap = np.empty(separation.shape)
         self.convolutions = 0
         self._operator = operator
         self._approximation = approximation
@@ -128,8 +129,7 @@ class _Search:
         if load.force is not None:
             self.pressure = _with_total(self.pressure, load.force / cell_area)
         places = Places.of(self.nodes, self._operator.shape)
-        self.gap = np.empty((0, 0))  # the old one is not needed while the new one is computed
-        gap = self._operator.convolve(self.pressure, places, None, self._outer)
+        gap = self._operator.convolve(self.pressure, places, None, self._outer, out=self.gap)
         if load.depth is not None and not self.convolutions:
             best = _best_factor(
                 load.depth - self._separation.flat[self.nodes], self.pressure, gap.flat[self.nodes]
@@ -144,7 +144,6 @@ class _Search:
         else:
             self.depth = load.depth
         gap -= self.depth
-        self.gap = gap
         self.force = cell_area * total
         self._length_scale = abs(self.depth)
         if self._rms_height:

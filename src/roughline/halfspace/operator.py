@@ -129,6 +129,7 @@ class Operator:
         sources: Places,
         targets: Places | None = None,
         precision: Precision = "float64",
+        out: Field | None = None,
     ) -> Field:
         """Displacement at some places, or on the whole grid, from the pressure on some places.
 
@@ -144,6 +145,8 @@ class Operator:
             Where the pressure acts and where the displacement is wanted; None: everywhere.
         precision : {"float64", "float32"}
             Of the transforms; single precision errs by some 1e-7 of the largest displacement.
+        out : ndarray, optional
+            Where to write the result.
 
         Returns
         -------
@@ -154,7 +157,9 @@ class Operator:
         spectrum = self._spectrum_float32 if precision == "float32" else self.spectrum
         modes, real_modes = self._room(precision)
         rows_out = np.arange(nx) if targets is None else targets.rows
-        result = np.empty(nx * ny if targets is None else targets.nodes.size)
+        if out is None:
+            out = np.empty((nx, ny) if targets is None else targets.nodes.size)
+        result = out
 
         def transform_rows(first: int, last: int) -> None:
             loops.scatter_pairs(pressure, sources.starts, sources.columns, first, last, real_modes)
@@ -172,14 +177,14 @@ class Operator:
         def transform_rows_back(first: int, last: int) -> None:
             fft.fft_rows(modes[first:last], forward=False)
             if targets is None:
-                loops.gather_rows(real_modes, first, last, result.reshape(nx, ny))
+                loops.gather_rows(real_modes, first, last, result)
             else:
                 loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
 
         _in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS)
         _in_blocks(convolve_columns, my // 2 + 1, _BLOCK)
         _in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS)
-        return result.reshape(nx, ny) if targets is None else result
+        return result
 
 
 def _in_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:
