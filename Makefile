@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark clean
+.PHONY: paper paper-full test check benchmark memory robustness clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -23,6 +23,13 @@ check: $(VENV)/installed
 
 benchmark: $(VENV)/installed
 	$(BIN)/python benchmarks/measure.py
+
+memory: $(VENV)/installed
+	$(BIN)/python benchmarks/memory.py 4096
+	$(BIN)/python benchmarks/memory.py 8192
+
+robustness: $(VENV)/installed
+	$(BIN)/python benchmarks/robustness.py
 
 $(VENV)/installed: pyproject.toml requirements.lock
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "roughline needs Python 3.11 or newer; set PYTHON=...")'

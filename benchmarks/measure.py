@@ -1,14 +1,19 @@
-"""Measure both models on this machine and print a Markdown table: ``make benchmark``.
+"""Measure both models on this machine and write docs/speed-table.md: ``make benchmark``.
 
 Times of one run belong together; on another machine, or with other work beside, they differ. The
 ratios to a plain zero-padded convolution and to a plain inverse FFT of the same run travel better.
 """
 
+import argparse
+import multiprocessing
+import os
 import platform
 import statistics
 import subprocess
 import sys
 import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 
 import ducc0.fft
 import numpy as np
@@ -16,7 +21,9 @@ import numpy as np
 import roughline as rl
 from roughline import fft
 from roughline.halfspace import operator as operators
-from roughline.reduction import Springs
+
+TABLE = Path(__file__).parents[1] / "docs" / "speed-table.md"
+CORES = fft.available_cores()
 
 
 def seconds(function, repeats=5):
@@ -30,79 +37,177 @@ def seconds(function, repeats=5):
     return statistics.median(times)
 
 
-def plain_convolution(n, spectrum):
-    """Convolve on twice the grid with no pruning and no blocking."""
-    cores = fft.available_cores()
-    padded = np.zeros((2 * n, 2 * n))
-    padded[:n, :n] = 1.0
-    modes = ducc0.fft.r2c(padded, axes=(0, 1), nthreads=cores)
-    modes *= spectrum
-    return ducc0.fft.c2r(modes, axes=(0, 1), lastsize=2 * n, forward=False, nthreads=cores)
-
-
-def full_model(n, hurst, n_loads=30):
-    """Time a surface from first touch to saturation, stiffness included."""
-    surface = rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(n, 7)
-    spectrum = np.ones((2 * n, n + 1))
-    convolution = seconds(lambda: plain_convolution(n, spectrum))
-    operator = operators.free((n, n), (1 / n, 1 / n), 1.0)
-    pruned = seconds(lambda: operator.displacement(surface.heights))
-    rl.press(surface, E_star=1.0, forces=[0.01])  # compiles
+def once(function):
+    """Return what a call gives, and its wall time."""
     start = time.perf_counter()
-    curve = rl.press(surface, E_star=1.0, n_loads=n_loads)
-    wall = time.perf_counter() - start
-    per_load = wall / n_loads
-    return (
-        f"| full, {n}², H = {hurst} | {n_loads} loads | {wall:.1f} s | {per_load * 1e3:.0f} ms | "
-        f"{per_load / convolution:.0f} plain convolutions ({convolution * 1e3:.1f} ms; pruned "
-        f"{pruned * 1e3:.1f} ms) | {curve.residual.max():.0e} |"
+    return function(), time.perf_counter() - start
+
+
+def plain_convolution(n):
+    """Time a convolution on twice the grid with no pruning and no blocking."""
+    spectrum, padded = np.ones((2 * n, n + 1)), np.zeros((2 * n, 2 * n))
+
+    def convolve():
+        padded[n:, :] = 0
+        padded[:n, n:] = 0
+        modes = ducc0.fft.r2c(padded, axes=(0, 1), nthreads=CORES)
+        modes *= spectrum
+        return ducc0.fft.c2r(modes, axes=(0, 1), lastsize=2 * n, forward=False, nthreads=CORES)
+
+    return seconds(convolve)
+
+
+def our_convolution(n, precision):
+    """Time our convolution, a tenth of the nodes in contact."""
+    operator = operators.free((n, n), (1 / n, 1 / n), 1.0)
+    nodes = np.flatnonzero(np.random.default_rng(0).random((n, n)) < 0.1)
+    places, pressure = operators.Places.of(nodes, (n, n)), np.ones(nodes.size)
+    return seconds(lambda: operator.convolve(pressure, places, places, precision))
+
+
+def convolutions(say):
+    """Compare our convolution with a plain one."""
+    say("## One convolution\n")
+    say("| grid | plain, zero-padded | ours, double | ours, single |")
+    say("|---|---|---|---|")
+    for n in (512, 1024, 2048):
+        plain = plain_convolution(n)
+        double, single = (our_convolution(n, p) for p in ("float64", "float32"))
+        say(
+            f"| {n}² | {plain * 1e3:.1f} ms | {double * 1e3:.1f} ms, 1/{plain / double:.1f} | "
+            f"{single * 1e3:.1f} ms, 1/{plain / single:.1f} |"
+        )
+
+
+def paths(say, n_loads=20):
+    """Time whole paths from first touch to saturation, stiffness included, and cold loads."""
+    say(f"\n## Full model: {n_loads} loads from first touch to saturation\n")
+    say("| grid | H | per load | plain convolutions | own convolutions | last k | residual |")
+    say("|---|---|---|---|---|---|---|")
+    for n in (512, 1024, 2048):
+        plain = plain_convolution(n)
+        for hurst in (0.2, 0.5, 0.8):
+            surface = rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(n, 7)
+            curve, wall = once(lambda s=surface: rl.press(s, E_star=1.0, n_loads=n_loads))
+            say(
+                f"| {n}² | {hurst} | {wall / n_loads:.2f} s | {wall / n_loads / plain:.0f} | "
+                f"{curve.convolutions.mean():.0f}, at most {curve.convolutions.max()} | "
+                f"{curve.stiffness_bar[-1]:.2f} | {curve.residual.max():.0e} |"
+            )
+    say("\n## Full model: one cold load, H = 0.8\n")
+    say("| grid | contact | time | plain convolutions |")
+    say("|---|---|---|---|")
+    for n in (512, 1024, 2048):
+        plain = plain_convolution(n)
+        surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7)
+        curve, wall = once(lambda s=surface: rl.press(s, E_star=1.0, forces=[0.38]))
+        say(f"| {n}² | {curve.area_fraction[0]:.1%} | {wall:.2f} s | {wall / plain:.0f} |")
+
+
+def growth(say, n_loads=6):
+    """Fit how time and convolutions per load grow with the number of points."""
+    say(f"\n## Full model: growth with the grid, H = 0.8, {n_loads} loads to saturation\n")
+    say("| grid | per load | convolutions per load |")
+    say("|---|---|---|")
+    sizes, times, counts = [256, 512, 1024, 2048, 4096], [], []
+    forces = np.geomspace(0.1, 3.0, n_loads)
+    for n in sizes:
+        surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7)
+        curve, wall = once(lambda s=surface: rl.press(s, E_star=1.0, forces=forces))
+        times.append(wall / n_loads)
+        counts.append(curve.convolutions.mean())
+        say(f"| {n}² | {times[-1]:.3f} s | {counts[-1]:.0f} |")
+    points = np.log(np.square(sizes))
+    exponents = [np.polyfit(points, np.log(values), 1)[0] for values in (times, counts)]
+    say(
+        f"\nTime per load grows like N^{exponents[0]:.2f} with the number of points N, "
+        f"convolutions per load like N^{exponents[1]:.2f}."
     )
 
 
-def reduced_model(exponent, n_loads=200):
-    """Time a line: generate, and evaluate the whole curve."""
-    n = 2**exponent
-    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0)
-    modes = np.ones(n // 2 + 1, dtype=complex)
-    transform = seconds(
-        lambda: ducc0.fft.c2r(modes, lastsize=n, forward=False, nthreads=fft.available_cores())
-    )
-    generate = seconds(lambda: spectrum.line(n, 7))
+def press_lines(task):
+    """Generate and press some lines of 2^20 points on 200 loads; one worker's work."""
+    hurst, seeds = task
+    spectrum, forces = rl.SelfAffine(hurst=hurst, rms_height=1.0), np.geomspace(1e-5, 10, 200)
+    for seed in seeds:
+        rl.press(spectrum.line(2**20, seed), E_star=1.0, forces=forces)
+    return len(seeds)
+
+
+def reduced_model(say, n_lines=500):
+    """Time lines: one, and the paper's ensemble for six fractal dimensions."""
+    say("\n## Reduced model: lines of 2^20 points, 200 loads\n")
+    n, forces = 2**20, np.geomspace(1e-5, 10, 200)
+    spectrum, modes = rl.SelfAffine(hurst=0.8, rms_height=1.0), np.ones(2**19 + 1, dtype=complex)
+    numpys = seconds(lambda: np.fft.irfft(modes), 15)
+    duccs = seconds(lambda: ducc0.fft.c2r(modes, lastsize=n, forward=False, nthreads=1), 15)
+    generate = seconds(lambda: spectrum.line(n, 7), 15)
     line = spectrum.line(n, 7)
-    whole_curve = seconds(lambda: Springs.under(line.heights, line.spacing, 1.0).under_forces(forces))
-    pressing = seconds(lambda: rl.press(line, E_star=1.0, n_loads=n_loads))
-    total = generate + pressing
-    return (
-        f"| reduced, 2^{exponent} | {n_loads} loads | {total * 1e3:.0f} ms | generate "
-        f"{generate * 1e3:.0f} ms, whole curve {whole_curve * 1e3:.0f} ms, press "
-        f"{pressing * 1e3:.0f} ms | {total / transform:.0f} inverse FFTs "
-        f"({transform * 1e3:.0f} ms) | exact |"
+    press = seconds(lambda: rl.press(line, E_star=1.0, forces=forces), 15)
+    total = generate + press
+    say(
+        f"One line: generated in {generate * 1e3:.1f} ms and pressed in {press * 1e3:.1f} ms, "
+        f"together {total / duccs:.1f} times its inverse real FFT by ducc0 on one thread "
+        f"({duccs * 1e3:.1f} ms), {total / numpys:.1f} times NumPy's ({numpys * 1e3:.1f} ms)."
+    )
+    tasks = [
+        (hurst, range(start, start + 50))
+        for hurst in (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
+        for start in range(0, n_lines, 50)
+    ]
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(CORES, context) as pool:
+        done, wall = once(lambda: sum(pool.map(press_lines, tasks)))
+    say(
+        f"\n{n_lines} lines for each of six fractal dimensions: {wall:.0f} s on {CORES} cores, "
+        f"{wall / done * 1e3:.1f} ms a line."
     )
 
 
-def start_up(*arguments):
-    """Time a whole process."""
-    return seconds(lambda: subprocess.run([sys.executable, *arguments], check=True), repeats=5)
+def start_up(say):
+    """Time whole processes."""
+    say("\n## Start-up\n")
+    empty, ours, usage = (
+        seconds(lambda a=a: subprocess.run(a, check=True, stdout=subprocess.DEVNULL))
+        for a in (
+            [sys.executable, "-c", "pass"],
+            [sys.executable, "-c", "import roughline"],
+            [str(Path(sys.executable).with_name("roughline")), "--help"],
+        )
+    )
+    say(
+        f"`import roughline`: {1e3 * (ours - empty):.0f} ms above an empty interpreter; "
+        f"`roughline --help`: {usage:.2f} s as a whole."
+    )
 
 
 def main():
-    """Print the table."""
-    print(
-        f"roughline {rl.__version__}, {fft.available_cores()} cores, {platform.machine()}, "
-        f"Python {platform.python_version()}, NumPy {np.__version__}\n"
+    """Write the tables."""
+    parts = (convolutions, paths, growth, reduced_model, start_up)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--only", choices=[part.__name__ for part in parts])
+    only = parser.parse_args().only
+    lines = []
+
+    def say(line):
+        print(line, flush=True)
+        lines.append(line)
+
+    warm = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7)
+    rl.press(warm, E_star=1.0, forces=[0.01, 0.02, 0.3])  # compiles
+    say("# Speed, measured\n")
+    say(
+        f"Written by `make benchmark`: roughline {rl.__version__}, {CORES} cores, "
+        f"{platform.machine()}, Python {platform.python_version()}, NumPy {np.__version__}.\n"
     )
-    print("| model | loads | wall | per load | in units of this run | residual |")
-    print("|---|---|---|---|---|---|")
-    for n in (128, 256, 512):
-        for hurst in (0.2, 0.8):
-            print(full_model(n, hurst), flush=True)
-    print(full_model(1024, 0.8), flush=True)
-    for exponent in (16, 20):
-        print(reduced_model(exponent), flush=True)
-    empty = start_up("-c", "pass")
-    ours = start_up("-c", "import roughline")
-    print(f"\n`import roughline`: {1e3 * (ours - empty):.0f} ms above an empty interpreter")
+    for part in parts:
+        if only in (None, part.__name__):
+            part(say)
+    if only is None:
+        TABLE.write_text("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":
+    # the threads of the linear algebra would spin beside the transforms that are timed
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     main()

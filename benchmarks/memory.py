@@ -23,10 +23,11 @@ def main():
     start = time.perf_counter()
     curve = rl.press(surface, E_star=1.0, forces=[0.03, 0.3, 3.0])
     wall = time.perf_counter() - start
+    before, after = (held - interpreter for held in (generated, peak()))
     print(
-        f"| {n}² | {(peak() - interpreter) / n**2:.0f} B a point ({(generated - interpreter) / n**2:.0f} "
-        f"by the generation) | {peak() / 1e9:.2f} GB | {wall / 3:.1f} s a load | "
-        f"{curve.stiffness_bar[-1]:.3f} | {curve.residual.max():.0e} |"
+        f"| {n}² | {after / n**2:.0f} B a point ({before / n**2:.0f} by the generation) | "
+        f"{peak() / 1e9:.2f} GB | {wall / 3:.1f} s a load | {curve.stiffness_bar[-1]:.3f} | "
+        f"{curve.residual.max():.0e} |"
     )
 
 

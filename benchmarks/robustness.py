@@ -32,7 +32,7 @@ def timed(problem):
 def main():
     """Solve the problems and print a table by kind."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--problems", type=int, default=2500)
+    parser.add_argument("--problems", type=int, default=3000)
     parser.add_argument("--seed", type=int, default=0)
     arguments = parser.parse_args()
     rows, wrong = [], []

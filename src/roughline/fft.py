@@ -99,3 +99,10 @@ def synthesise(half_spectrum: Complex, n: int) -> Real:
     """Sum a Hermitian spectrum, stored for q >= 0 on the last axis, to real values."""
     axes = tuple(range(half_spectrum.ndim))
     return ducc0.fft.c2r(half_spectrum, axes=axes, lastsize=n, forward=False, nthreads=1)
+
+
+def synthesise_line(line: Real) -> None:
+    """Sum a Hermitian spectrum, stored as mean, real, imaginary, ..., to real values in place."""
+    ducc0.fft.r2r_fftpack(
+        line, axes=(0,), real2hermitian=False, forward=False, out=line, nthreads=1
+    )

@@ -51,7 +51,7 @@ def line_loads(line: Line, springs: Springs, wish: Wish) -> Loads:
         return _given_loads(wish)
     _refuse_constant(line, wish)
     few = min(RESOLVED_FROM, line.heights.size - 1)
-    highest_points = int(np.count_nonzero(springs.separations == 0))
+    highest_points = int(np.count_nonzero(line.heights == line.heights.max()))
     lowest = springs.touch_force(max(few, highest_points))
     return _spaced_loads(wish, lowest, springs.touch_force(line.heights.size - 1))
 

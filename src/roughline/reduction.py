@@ -32,13 +32,13 @@ class Springs:
 
     Attributes
     ----------
-    separations : ndarray, shape (n,)
-        Distance of each spring at first touch; the least is zero. [length]
+    heights : ndarray, shape (n,)
+        Heights; the highest spring touches first. [length]
     spring_stiffness : float
         E* times the spacing. [force / length]
     """
 
-    separations: Real
+    heights: Real
     spring_stiffness: float
 
     @classmethod
@@ -54,20 +54,29 @@ class Springs:
         E_star : float
             Stiffness per length, the contact modulus. [pressure]
         """
-        return cls(heights.max() - heights, E_star * spacing)
+        return cls(heights, E_star * spacing)
+
+    @cached_property
+    def _highest(self) -> float:
+        return float(self.heights.max())
+
+    @property
+    def separations(self) -> Real:
+        """Distance of each spring at first touch; the least is zero. [length]"""
+        return self._highest - self.heights
 
     @cached_property
     def _bins_per_length(self) -> float:
-        deepest = float(self.separations.max())
+        deepest = self._highest - float(self.heights.min())
         return (_BINS - 1) / deepest if deepest > 0 else 0.0
 
     @cached_property
     def _binned(self) -> tuple[NDArray[np.uint16], NDArray[np.intp], Real]:
         """The bin of each spring; number of springs and sum of separations in each bin."""
-        bins = np.empty(self.separations.size, dtype=np.uint16)
+        bins = np.empty(self.heights.size, dtype=np.uint16)
         counts = np.zeros(_BINS, dtype=np.intp)
         sums = np.zeros(_BINS)
-        _fill_bins(self.separations, self._bins_per_length, bins, counts, sums)
+        _fill_bins(self.heights, self._highest, self._bins_per_length, bins, counts, sums)
         return bins, counts, sums
 
     @cached_property
@@ -108,7 +117,7 @@ class Springs:
         wanted[0] = True  # never empty: the highest point is there
         bins_of_all = self._binned[0]
         members = np.flatnonzero(wanted[bins_of_all])
-        separations, bin_of = self.separations[members], bins_of_all[members]
+        separations, bin_of = self._highest - self.heights[members], bins_of_all[members]
         order = np.argsort(separations)
         separations, bin_of = separations[order], bin_of[order]
         # within a bin, ranks and sums go on from those of the bins below
@@ -176,15 +185,17 @@ class Touching:
 
 @compiled
 def _fill_bins(
-    separations: Real,
+    heights: Real,
+    highest: float,
     bins_per_length: float,
     bins: NDArray[np.uint16],
     counts: NDArray[np.intp],
     sums: Real,
 ) -> None:
     """Find the bin of each spring; add it to the number and the sum there."""
-    for i in range(separations.size):
-        bin_ = int(separations[i] * bins_per_length)
+    for i in range(heights.size):
+        separation = highest - heights[i]
+        bin_ = int(separation * bins_per_length)
         bins[i] = bin_
         counts[bin_] += 1
-        sums[bin_] += separations[i]
+        sums[bin_] += separation

@@ -318,7 +318,7 @@ class SelfAffine:
             moduli = moduli * synthesis.rayleigh(draw(n, for_amplitudes))
         given = self.normalisation == "rms_height"
         scale = self.magnitude / synthesis.rms_of(moduli) if given else 1.0
-        return heights_of(moduli, draw(n, for_phases), scale, n), settings
+        return heights_of(moduli, for_phases, scale, n), settings
 
     def _moduli(self, n: int, body: Body) -> Real:
         """Moduli of the modes that the real inverse FFT wants, up to the normalisation."""

@@ -103,38 +103,45 @@ def rms_of(amplitudes: Real) -> float:
     return float(np.sqrt(2 * total))
 
 
-def line_heights(amplitudes: Real, draws: Real, scale: float, n: int) -> Real:
+def line_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: int) -> Real:
     """Sum modes of given amplitudes and random phases to a periodic line.
 
     Parameters
     ----------
-    amplitudes, draws : ndarray, shape ((n - 1) // 2,)
-        Moduli of the modes 0 < m < n / 2, in units of `scale`, and their phases over 2 pi.
+    amplitudes : ndarray, shape ((n - 1) // 2,)
+        Moduli of the modes 0 < m < n / 2, in units of `scale`.
+    rng : numpy.random.Generator
+        Draws the phases over 2 pi, as :func:`line_draws` does.
     scale : float
         Unit of the amplitudes. [length]
     n : int
         Points. The mean and, for even n, the Nyquist mode are zero.
     """
-    modes = np.zeros(n // 2 + 1, dtype=np.complex128)
-    _set_modes(modes[1 : amplitudes.size + 1], amplitudes, draws, scale, _TURN)
-    return fft.synthesise(modes, n)
+    # the one array holds draws, modes and heights in turn: fresh memory costs more than the FFT
+    heights = np.empty(n)
+    draws = heights[n - amplitudes.size :]
+    rng.random(out=draws)
+    _set_line_modes(heights, amplitudes, draws, scale, _TURN)
+    fft.synthesise_line(heights)
+    return heights
 
 
-def surface_heights(amplitudes: Real, draws: Real, scale: float, n: int) -> Real:
+def surface_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: int) -> Real:
     """Sum modes of given amplitudes and random phases to a periodic surface.
 
     Parameters
     ----------
-    amplitudes, draws : ndarray, shape (n, n // 2 + 1)
-        Moduli of the modes, in units of `scale`, and their phases over 2 pi, from
-        :func:`surface_draws`.
+    amplitudes : ndarray, shape (n, n // 2 + 1)
+        Moduli of the modes, in units of `scale`.
+    rng : numpy.random.Generator
+        Draws the phases over 2 pi, as :func:`surface_draws` does.
     scale : float
         Unit of the amplitudes. [length]
     n : int
         Points along each side.
     """
     modes = np.empty(amplitudes.shape, dtype=np.complex128)
-    _set_modes(modes.ravel(), amplitudes.ravel(), draws.ravel(), scale, _TURN)
+    _set_modes(modes.ravel(), amplitudes.ravel(), surface_draws(n, rng).ravel(), scale, _TURN)
     half = (n - 1) // 2
     modes[n - half :, 0] = modes[half:0:-1, 0].conj()
     return fft.synthesise(modes, n)
@@ -145,6 +152,21 @@ _TURN = np.exp(2j * np.pi * np.arange(_STEPS) / _STEPS)
 
 
 @compiled
+def _phase(draw: float, turn: NDArray[np.complex128]) -> complex:
+    """Return exp(2 pi i draw), several times faster than cosine and sine.
+
+    A table of the circle, and cosine and sine of the small rest of the angle by their series, of
+    which the first term left out is below 1e-19.
+    """
+    step = int(draw * turn.size)
+    angle = 2 * np.pi * (draw - step / turn.size)
+    square = angle * angle
+    cosine = 1 - square / 2 * (1 - square / 12)
+    sine = angle * (1 - square / 6 * (1 - square / 20))
+    return turn[step] * complex(cosine, sine)
+
+
+@compiled
 def _set_modes(
     modes: NDArray[np.complex128],
     amplitudes: Real,
@@ -152,15 +174,23 @@ def _set_modes(
     scale: float,
     turn: NDArray[np.complex128],
 ) -> None:
-    """Set modes of given moduli and phases (over 2 pi), over flat arrays.
-
-    A table of the circle, and cosine and sine of the small rest of the angle by their series, of
-    which the first term left out is below 1e-21: several times faster than cosine and sine.
-    """
+    """Set modes of given moduli and phases (over 2 pi), over flat arrays."""
     for i in range(modes.size):
-        step = int(draws[i] * turn.size)
-        angle = 2 * np.pi * (draws[i] - step / turn.size)
-        square = angle * angle
-        cosine = 1 - square / 2 * (1 - square / 12)
-        sine = angle * (1 - square / 6 * (1 - square / 20))
-        modes[i] = scale * amplitudes[i] * turn[step] * complex(cosine, sine)
+        modes[i] = scale * amplitudes[i] * _phase(draws[i], turn)
+
+
+@compiled
+def _set_line_modes(
+    line: Real, amplitudes: Real, draws: Real, scale: float, turn: NDArray[np.complex128]
+) -> None:
+    """Set the modes of a line as the real transform wants them: mean, then real and imaginary.
+
+    `draws` may be the end of `line`: each is read before it is overwritten.
+    """
+    line[0] = 0.0
+    for i in range(amplitudes.size):
+        mode = scale * amplitudes[i] * _phase(draws[i], turn)
+        line[2 * i + 1] = mode.real
+        line[2 * i + 2] = mode.imag
+    if line.size % 2 == 0:
+        line[line.size - 1] = 0.0

@@ -89,3 +89,29 @@ def test_on_a_plateau_all_springs_come_at_once():
     assert curve.stiffness.tolist() == [3, 3, 4]
     assert curve.force == pytest.approx([3e-9, 3.0, 5.0])
     assert rl.press(line, E_star=1.0, forces=[3.0, 5.0]).depth == pytest.approx([1.0, 1.5])
+
+
+@pytest.mark.parametrize("decimals", [None, 3])  # rounded: thousands of heights repeat
+def test_a_long_line_equals_the_sort_of_all_its_springs(decimals):
+    line = rl.SelfAffine(hurst=0.6, rms_height=1.0).line(2**18, 5)
+    heights = line.heights if decimals is None else np.round(line.heights, decimals)
+    line = rl.Line(heights, length=2.0)
+    separations = np.sort(heights.max() - heights)
+    sums = np.append(0.0, np.cumsum(separations))
+    spring = 3.0 * line.spacing
+    depths = np.geomspace(1e-4, 1.5 * separations[-1], 300)
+    count = np.searchsorted(separations, depths, side="left")
+    force = spring * (count * depths - sums[count])
+    curve = rl.press(line, E_star=3.0, depths=depths)
+    assert (curve.stiffness == spring * count).all()
+    assert curve.force == pytest.approx(force, rel=ROUNDING)
+    back = rl.press(line, E_star=3.0, forces=force)
+    assert back.depth == pytest.approx(depths, rel=1e-10)
+    assert back.stiffness == pytest.approx(curve.stiffness, rel=1e-12)
+
+
+def test_one_spring_and_all_of_them():
+    line = rl.Line(np.array([0.0, 1.0, 0.25]), length=3.0)
+    curve = rl.press(line, E_star=1.0, forces=[0.5, 1e3])
+    assert curve.depth == pytest.approx([0.5, (1e3 + 1.75) / 3])
+    assert (curve.stiffness == [1.0, 3.0]).all()
