@@ -130,7 +130,7 @@ import roughline.report.paper as paper
 original = paper.paper_plan
 def slow_but_small(scale, seed):
     plan = original(scale, seed)
-    full = replace(plan.full, n=96, realisations=5)
+    full = replace(plan.full, n=128, realisations=12)
     reduced = replace(plan.reduced, n=2**14, realisations=20)
     return replace(plan, full=full, reduced=reduced, gallery=replace(plan.gallery, n=48))
 if __name__ == "__main__":

@@ -1,0 +1,69 @@
+"""What each lever of the full model is worth: a path of loads with one of them taken away."""
+
+import sys
+import time
+from contextlib import contextmanager
+
+import numpy as np
+
+import roughline as rl
+from roughline.halfspace import active_set, cascade, path, preconditioner, tangent
+
+
+@contextmanager
+def without(module, name, value):
+    """Replace a part for a while."""
+    sound = getattr(module, name)
+    setattr(module, name, value)
+    try:
+        yield
+    finally:
+        setattr(module, name, sound)
+
+
+def stencil_only(self, residual):
+    """Apply the stencil to the residual itself, with no lattices."""
+    result, sums = np.empty_like(residual), np.empty_like(self._per_node)
+    preconditioner.loops.undo_details(
+        residual, self._places, self._block, 0 * sums, self._grid, self._offsets, self._taps,
+        result, sums,
+    )  # fmt: skip
+    return result
+
+
+def measured(surface, n_loads, **options):
+    """Return seconds and convolutions for each load of a path."""
+    start = time.perf_counter()
+    curve = rl.press(surface, E_star=1.0, n_loads=n_loads, **options)
+    return (time.perf_counter() - start) / n_loads, curve.convolutions.mean()
+
+
+def main():
+    """Print the table."""
+    n, n_loads = int(sys.argv[1]) if len(sys.argv) > 1 else 1024, 20
+    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7)
+    rl.press(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7), E_star=1.0, n_loads=3)
+    levers = {
+        "nothing": without(path, "_BELIEVED", path._BELIEVED),
+        "lattices of the preconditioner": without(
+            preconditioner._Multilevel, "__call__", stencil_only
+        ),
+        "direct solution of few nodes": without(preconditioner, "_FEW", 0),
+        "energy of the tangent's error as its measure (1e-12 instead)": without(
+            tangent, "_MARGIN", 1e-6
+        ),
+        "half belief in the tangent's overlaps": without(path, "_BELIEVED", 1.0),
+        "prediction along the tangent (coarse grids every time)": without(path, "_FARTHEST", 0.0),
+        "coarse grids (rigid shift for the first load)": without(cascade, "_COARSEST", 10**6),
+    }
+    print(f"{n}², H = 0.8, {n_loads} loads\n\n| without | per load | convolutions |\n|---|---|---|")
+    for name, lever in levers.items():
+        with lever:
+            wall, count = measured(surface, n_loads)
+        print(f"| {name} | {wall:.2f} s | {count:.0f} |", flush=True)
+    wall, count = measured(surface, n_loads, precision="float64")
+    print(f"| single precision for the steps | {wall:.2f} s | {count:.0f} |")
+
+
+if __name__ == "__main__":
+    main()
