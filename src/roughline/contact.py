@@ -109,7 +109,7 @@ def press(
     )
     kept = _kept_loads(fields, loads.values.size)
     refuse_beyond_memory(
-        memory_for(body.shape, len(kept)),
+        memory_for(body.shape, periodic, len(kept)),
         f"pressing {body.shape[0]} x {body.shape[1]} points"
         + (f" and keeping the fields of {len(kept)} loads" if kept else ""),
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),

@@ -8,9 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Measured (see docs/speed.md): the largest of what a path of loads held at any time, and of what
-# fields keep for each load. [bytes per point]
+# Measured (see docs/speed.md): the most that a path of loads held at any time, and what fields keep
+# for each load. Periodic surfaces reach nearly full contact, where all nodes have vectors; free ones
+# are taken up to saturation, and near full contact hold a quarter more. [bytes per point]
 _BYTES = 96
+_BYTES_PERIODIC = 170
 _BYTES_OF_FIELDS = 25
 # Convolutions that a load takes, its stiffness included, on average over a path of loads.
 _CONVOLUTIONS = 50
@@ -36,7 +38,9 @@ class Estimate:
         return f"about {self.memory / 1e9:.2g} GB and {_spoken(self.seconds)}"
 
 
-def estimate(shape: tuple[int, int], n_loads: int, *, fields: bool = False) -> Estimate:
+def estimate(
+    shape: tuple[int, int], n_loads: int, *, periodic: bool = False, fields: bool = False
+) -> Estimate:
     """Estimate what pressing a surface with the full model will cost.
 
     One convolution is timed on a small grid, which takes some hundredths of a second.
@@ -47,6 +51,8 @@ def estimate(shape: tuple[int, int], n_loads: int, *, fields: bool = False) -> E
         Points of the surface, (nx, ny).
     n_loads : int
         Number of loads.
+    periodic : bool, optional
+        Whether the surface is repeated.
     fields : bool, optional
         Whether the fields of every load are kept.
 
@@ -57,7 +63,8 @@ def estimate(shape: tuple[int, int], n_loads: int, *, fields: bool = False) -> E
     """
     from roughline.halfspace import operator as operators
 
-    operator = operators.free((_PROBE, _PROBE), (1.0, 1.0), 1.0)
+    make_operator = operators.periodic if periodic else operators.free
+    operator = make_operator((_PROBE, _PROBE), (1.0, 1.0), 1.0)
     pressure = np.ones(operator.shape)
     operator.displacement(pressure)
     start = time.perf_counter()
@@ -66,13 +73,15 @@ def estimate(shape: tuple[int, int], n_loads: int, *, fields: bool = False) -> E
     points = shape[0] * shape[1]
     growth = points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
     return Estimate(
-        memory_for(shape, n_loads if fields else 0), n_loads * _CONVOLUTIONS * growth * probe
+        memory_for(shape, periodic, n_loads if fields else 0),
+        n_loads * _CONVOLUTIONS * growth * probe,
     )
 
 
-def memory_for(shape: tuple[int, int], kept_fields: int) -> int:
+def memory_for(shape: tuple[int, int], periodic: bool, kept_fields: int) -> int:
     """Return the memory that pressing a surface takes, beside the surface. [bytes]"""
-    return shape[0] * shape[1] * (_BYTES + _BYTES_OF_FIELDS * kept_fields)
+    bytes_ = _BYTES_PERIODIC if periodic else _BYTES
+    return shape[0] * shape[1] * (bytes_ + _BYTES_OF_FIELDS * kept_fields)
 
 
 def _spoken(seconds: float) -> str:

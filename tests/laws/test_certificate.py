@@ -116,3 +116,15 @@ def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
     assert curve.converged.all()
     assert_true_where_certified(curve)
     assert curve.stiffness == pytest.approx(pressed().stiffness, rel=1e-6)
+
+
+@pytest.mark.parametrize("load", [{"forces": [0.5]}, {"depths": [1.0]}])
+def test_nodes_exchanged_one_by_one_reach_the_same_contact(monkeypatch, load):
+    surface = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(12, 3)
+    together = rl.press(surface, E_star=1.0, **load)
+    monkeypatch.setattr(active_set, "_PATIENCE", -1)
+    alone = rl.press(surface, E_star=1.0, **load)
+    assert alone.converged.all()
+    assert alone.convolutions[0] > together.convolutions[0]
+    assert alone.area_fraction == together.area_fraction
+    assert alone.stiffness == pytest.approx(together.stiffness, rel=1e-7)

@@ -222,12 +222,12 @@ class _Search:
         worst = max(error, -float(solution.pressure.min()) * self._approximation.own)
         rough = worst > max(_SINGLE_ABOVE * abs(level), self._method.rtol * self._length_scale)
         self._outer = self._method.steps if rough else self._method.certificate
-        if one_by_one:
-            _keep_last(self.nodes, pulling, watched, overlapping)
         self._wrong = int(np.count_nonzero(pulling) + np.count_nonzero(overlapping))
-        self._exchange(pulling, watched[overlapping])
         self._waited = 0 if self._wrong < self._fewest_wrong else self._waited + 1
         self._fewest_wrong = min(self._wrong, self._fewest_wrong)
+        if one_by_one:
+            _keep_last(self.nodes, pulling, watched, overlapping)
+        self._exchange(pulling, watched[overlapping])
         return None
 
     def _near(self, reach: float, every: bool) -> Nodes:

@@ -90,7 +90,7 @@ def press_file(
         _make_folder(out)  # a folder that cannot be written is said before the work, not after
     count = next((len(given) for given in (forces, depths, range(n_loads or 0)) if given), 0)
     if isinstance(body, Surface) and body.heights.size >= _LARGE:
-        cost = estimate(body.shape, count)
+        cost = estimate(body.shape, count, periodic=periodic)
         announce(f"{body.shape[0]} x {body.shape[1]} points, {count} loads: {cost}")
     curve = press(
         body,
