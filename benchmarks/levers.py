@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import numpy as np
 
 import roughline as rl
-from roughline.halfspace import active_set, cascade, path, preconditioner, tangent
+from roughline.halfspace import cascade, path, preconditioner, tangent
 
 
 @contextmanager

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 # Measured (see docs/speed.md): the most that a path of loads held at any time, and what fields keep
-# for each load. Periodic surfaces reach nearly full contact, where all nodes have vectors; free ones
-# are taken up to saturation, and near full contact hold a quarter more. [bytes per point]
+# for each load. Periodic surfaces reach nearly full contact, where all nodes have vectors; free
+# ones are taken up to saturation, and near full contact hold a quarter more. [bytes per point]
 _BYTES = 96
 _BYTES_PERIODIC = 170
 _BYTES_OF_FIELDS = 25
