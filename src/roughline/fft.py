@@ -75,6 +75,10 @@ def _pool(workers: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(workers, thread_name_prefix="roughline")
 
 
+if hasattr(os, "register_at_fork"):  # a forked process has none of its parent's threads
+    os.register_at_fork(after_in_child=_pool.cache_clear)
+
+
 def good_size(n: int) -> int:
     """Return the smallest even length of at least `n` that transforms fast."""
     return 2 * ducc0.fft.good_size((n + 1) // 2)
@@ -92,7 +96,7 @@ def fft_columns(columns: Complex, *, forward: bool) -> None:
 
 def cosine_spectrum(quarter: Real) -> None:
     """Turn an even, periodic array, given as its quarter, into its spectrum in place (DCT-I)."""
-    ducc0.fft.dct(quarter, type=1, out=quarter, nthreads=_threads)
+    ducc0.fft.dct(quarter, type=1, out=quarter, nthreads=1)
 
 
 def synthesise(half_spectrum: Complex, n: int) -> Real:

@@ -1,5 +1,8 @@
 """What a run will cost, what is refused before it starts, and what a result warns of."""
 
+import multiprocessing
+import os
+
 import numpy as np
 import pytest
 
@@ -56,6 +59,19 @@ def test_the_number_of_threads_does_not_change_a_bit():
     for curve in curves:
         assert (curve.stiffness == curves[0].stiffness).all()
         assert (curve.depth == curves[0].depth).all()
+
+
+def stiffness_of(seed: int) -> float:
+    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, seed)
+    return float(rl.press(surface, E_star=1.0, forces=[0.1]).stiffness[0])
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_forked_processes_have_threads_of_their_own():
+    here = [stiffness_of(seed) for seed in range(2)]  # starts this process's threads
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        assert pool.map_async(stiffness_of, range(2)).get(timeout=60) == here
 
 
 def test_precisions_agree_to_their_tolerance():
