@@ -14,8 +14,8 @@ import numpy as np
 _BYTES = 96
 _BYTES_PERIODIC = 170
 _BYTES_OF_FIELDS = 25
-# Convolutions of whole fields that a load is worth, its stiffness included, on average over a path of
-# loads: it takes some 35, of which most are in single precision and leave rows out.
+# Convolutions of whole fields that a load is worth, its stiffness included, on average over a path:
+# it takes some 35, of which most are in single precision and leave rows out.
 _CONVOLUTIONS = 20
 _PROBE = 512  # points along a side of the grid that is timed
 
