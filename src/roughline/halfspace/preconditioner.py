@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
 from roughline.halfspace import loops
+from roughline.halfspace.lattices import GROUP, Lattices, set_diagonal
 from roughline.halfspace.operator import Operator, Places
 
 Field = NDArray[np.float64]
@@ -33,9 +34,7 @@ _BLOCK = 16  # cells along the side of a block, where they are square
 _FEW = 300  # nodes whose equations are solved directly
 _STRETCH = 4.0  # stencil and blocks follow the shape of oblong cells up to here
 _COARSEST = 32  # blocks along a side of the lattice that is solved directly
-_RIDGE = 1 + 1e-9  # on diagonals, against rounding
-_ROUNDED = 1 + 1e-6  # the same, where the kernel is in single precision
-_GROUP = 4  # blocks along a side of a group, which makes one block of the next lattice
+_ROUNDED = 1 + 1e-6  # on the diagonal, where the kernel is in single precision
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +93,7 @@ class Approximation:
             between.append(_even_sum(operator, operator.spectrum, lags, sides) + raised)
             if max(between[-1].shape) <= _COARSEST:
                 break
-            sides = _GROUP * sides[0], _GROUP * sides[1]
+            sides = GROUP * sides[0], GROUP * sides[1]
         offsets, taps = _stencil(operator, stretch)
         margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
         return cls(operator, offsets, taps, margins, smallest, own, tuple(between))
@@ -172,7 +171,7 @@ def preconditioner(approximation: Approximation, places: Places) -> Precondition
     matrix = approximation.kernel[
         abs(rows[:, np.newaxis] - rows), abs(columns[:, np.newaxis] - columns)
     ].astype(np.float64)
-    _set_diagonal(matrix, matrix.diagonal() * _ROUNDED)
+    set_diagonal(matrix, matrix.diagonal() * _ROUNDED)
     factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
     return lambda residual: cho_solve(factor, residual, check_finite=False)
 
@@ -202,7 +201,7 @@ class _Multilevel:
             * (1 - count / (sides[0] * sides[1]))
             * (approximation.own - approximation.between[0][0, 0])
         )
-        self._coarse = _Lattices(
+        self._coarse = Lattices(
             approximation.between, count.reshape(lattice), energy.reshape(lattice)
         )
 
@@ -226,90 +225,3 @@ class _Multilevel:
         means -= sums_of_result * self._per_node
         loops.add_blocks(means, self._block, result)
         return result
-
-
-class _Lattices:
-    """Equations for even pressures on blocks, on a lattice of blocks and ever coarser ones.
-
-    The energies are those of the averaged kernel, and at least these on the diagonal, so all
-    matrices are positive definite.
-    """
-
-    def __init__(self, between: tuple[Field, ...], count: Field, energy: Field) -> None:
-        self._groups: list[_Groups] = []
-        for kernel in between[:-1]:
-            self._groups.append(_Groups(kernel, count, energy))
-            count, energy = self._groups[-1].count, self._groups[-1].energy
-        self._occupied = np.flatnonzero(count)
-        x, y = np.divmod(self._occupied, count.shape[1])
-        matrix = between[-1][abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
-        weights = count.ravel()[self._occupied]
-        matrix *= weights[:, np.newaxis] * weights
-        _set_diagonal(matrix, energy.ravel()[self._occupied])
-        self._factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
-        self._shape = count.shape
-
-    def __call__(self, sums: Field) -> Field:
-        """Return the pressure on the nodes of each block from the sum of their residuals."""
-        levels = []
-        for groups in self._groups:
-            levels.append(groups.details(sums))
-            sums = groups.sums(sums)
-        pressure = np.zeros(self._shape)
-        pressure.flat[self._occupied] = cho_solve(
-            self._factor, sums.ravel()[self._occupied], check_finite=False
-        )
-        for details in reversed(levels):
-            nx, ny = details.shape
-            pressure = np.repeat(np.repeat(pressure, _GROUP, axis=0), _GROUP, axis=1)[:nx, :ny]
-            pressure = pressure + details
-        return pressure
-
-
-class _Groups:
-    """Groups of the blocks of a lattice, in each of which pressures sum to zero."""
-
-    def __init__(self, kernel: Field, count: Field, energy: Field) -> None:
-        self._shape = count.shape
-        self._lattice = tuple(-(-n // _GROUP) for n in count.shape)
-        counts, energies = self._grouped(count), self._grouped(energy)
-        near = np.zeros((_GROUP, _GROUP))
-        near[: kernel.shape[0], : kernel.shape[1]] = kernel[:_GROUP, :_GROUP]
-        x, y = np.divmod(np.arange(_GROUP**2), _GROUP)
-        matrices = counts[:, :, np.newaxis] * counts[:, np.newaxis, :]
-        matrices *= near[abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
-        _set_diagonal(matrices, energies)
-        self.count = counts.sum(axis=1).reshape(self._lattice)
-        self.energy = matrices.sum(axis=(1, 2)).reshape(self._lattice)
-        _set_diagonal(matrices, np.where(counts == 0, 1.0, energies))  # any number will do
-        self._inverses = np.linalg.inv(matrices)
-        even = np.einsum("gij,gj->gi", self._inverses, counts)
-        total = np.maximum(np.einsum("gi,gi->g", even, counts), 1e-300)
-        even /= np.sqrt(total)[:, np.newaxis]
-        self._inverses -= even[:, :, np.newaxis] * even[:, np.newaxis, :]
-
-    def _grouped(self, values: Field) -> Field:
-        """Rearrange a lattice to groups, zero where they reach beyond it."""
-        padding = [(0, m * _GROUP - n) for m, n in zip(self._lattice, self._shape, strict=True)]
-        padded = np.pad(values, padding)
-        split = padded.reshape(self._lattice[0], _GROUP, self._lattice[1], _GROUP)
-        return split.transpose(0, 2, 1, 3).reshape(-1, _GROUP**2)
-
-    def sums(self, values: Field) -> Field:
-        """Sum over each group."""
-        return self._grouped(values).sum(axis=1).reshape(self._lattice)
-
-    def details(self, sums: Field) -> Field:
-        """Return the pressures that sum to zero in each group."""
-        pressure = np.einsum("gij,gj->gi", self._inverses, self._grouped(sums))
-        (mx, my), (nx, ny) = self._lattice, self._shape
-        split = pressure.reshape(mx, my, _GROUP, _GROUP).transpose(0, 2, 1, 3)
-        return split.reshape(mx * _GROUP, my * _GROUP)[:nx, :ny]
-
-
-def _set_diagonal(matrices: Field, energies: Field) -> None:
-    """Set the last two axes' diagonal to the energies, or to what is there where that is more."""
-    diagonal = np.arange(matrices.shape[-1])
-    matrices[..., diagonal, diagonal] = _RIDGE * np.maximum(
-        matrices[..., diagonal, diagonal], energies
-    )

@@ -1,0 +1,101 @@
+"""Equations for what is even over blocks of contact nodes, on ever coarser lattices of blocks."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+Field = NDArray[np.float64]
+
+GROUP = 4
+"""Blocks along a side of a group, which makes one block of the next lattice."""
+
+_RIDGE = 1 + 1e-9  # on diagonals, against rounding
+
+
+class Lattices:
+    """Equations for even pressures on blocks, on a lattice of blocks and ever coarser ones.
+
+    The energies are those of the averaged kernel, and at least these on the diagonal, so all
+    matrices are positive definite.
+    """
+
+    def __init__(self, between: tuple[Field, ...], count: Field, energy: Field) -> None:
+        self._groups: list[_Groups] = []
+        for kernel in between[:-1]:
+            self._groups.append(_Groups(kernel, count, energy))
+            count, energy = self._groups[-1].count, self._groups[-1].energy
+        self._occupied = np.flatnonzero(count)
+        x, y = np.divmod(self._occupied, count.shape[1])
+        matrix = between[-1][abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
+        weights = count.ravel()[self._occupied]
+        matrix *= weights[:, np.newaxis] * weights
+        set_diagonal(matrix, energy.ravel()[self._occupied])
+        self._factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
+        self._shape = count.shape
+
+    def __call__(self, sums: Field) -> Field:
+        """Return the pressure on the nodes of each block from the sum of their residuals."""
+        levels = []
+        for groups in self._groups:
+            levels.append(groups.details(sums))
+            sums = groups.sums(sums)
+        pressure = np.zeros(self._shape)
+        pressure.flat[self._occupied] = cho_solve(
+            self._factor, sums.ravel()[self._occupied], check_finite=False
+        )
+        for details in reversed(levels):
+            nx, ny = details.shape
+            pressure = np.repeat(np.repeat(pressure, GROUP, axis=0), GROUP, axis=1)[:nx, :ny]
+            pressure = pressure + details
+        return pressure
+
+
+class _Groups:
+    """Groups of the blocks of a lattice, in each of which pressures sum to zero."""
+
+    def __init__(self, kernel: Field, count: Field, energy: Field) -> None:
+        self._shape = count.shape
+        self._lattice = tuple(-(-n // GROUP) for n in count.shape)
+        counts, energies = self._grouped(count), self._grouped(energy)
+        near = np.zeros((GROUP, GROUP))
+        near[: kernel.shape[0], : kernel.shape[1]] = kernel[:GROUP, :GROUP]
+        x, y = np.divmod(np.arange(GROUP**2), GROUP)
+        matrices = counts[:, :, np.newaxis] * counts[:, np.newaxis, :]
+        matrices *= near[abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
+        set_diagonal(matrices, energies)
+        self.count = counts.sum(axis=1).reshape(self._lattice)
+        self.energy = matrices.sum(axis=(1, 2)).reshape(self._lattice)
+        set_diagonal(matrices, np.where(counts == 0, 1.0, energies))  # any number will do
+        self._inverses = np.linalg.inv(matrices)
+        even = np.einsum("gij,gj->gi", self._inverses, counts)
+        total = np.maximum(np.einsum("gi,gi->g", even, counts), 1e-300)
+        even /= np.sqrt(total)[:, np.newaxis]
+        self._inverses -= even[:, :, np.newaxis] * even[:, np.newaxis, :]
+
+    def _grouped(self, values: Field) -> Field:
+        """Rearrange a lattice to groups, zero where they reach beyond it."""
+        padding = [(0, m * GROUP - n) for m, n in zip(self._lattice, self._shape, strict=True)]
+        padded = np.pad(values, padding)
+        split = padded.reshape(self._lattice[0], GROUP, self._lattice[1], GROUP)
+        return split.transpose(0, 2, 1, 3).reshape(-1, GROUP**2)
+
+    def sums(self, values: Field) -> Field:
+        """Sum over each group."""
+        return self._grouped(values).sum(axis=1).reshape(self._lattice)
+
+    def details(self, sums: Field) -> Field:
+        """Return the pressures that sum to zero in each group."""
+        pressure = np.einsum("gij,gj->gi", self._inverses, self._grouped(sums))
+        (mx, my), (nx, ny) = self._lattice, self._shape
+        split = pressure.reshape(mx, my, GROUP, GROUP).transpose(0, 2, 1, 3)
+        return split.reshape(mx * GROUP, my * GROUP)[:nx, :ny]
+
+
+def set_diagonal(matrices: Field, energies: Field) -> None:
+    """Set the last two axes' diagonal to the energies, or to what is there where that is more."""
+    diagonal = np.arange(matrices.shape[-1])
+    matrices[..., diagonal, diagonal] = _RIDGE * np.maximum(
+        matrices[..., diagonal, diagonal], energies
+    )
