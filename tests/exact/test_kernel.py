@@ -65,8 +65,8 @@ def test_the_convolution_equals_the_dense_matrix(shape, spacing):
             Places.of(targets, shape),
             precision,
         )
-        scale = np.abs(matrix @ np.abs(pressure.ravel())).max()
-        assert np.abs(found - expected).max(initial=0) < tolerance * scale
+        scale = np.abs(expected).max(initial=0)
+        assert np.abs(found - expected).max(initial=0) <= tolerance * scale
 
 
 @pytest.mark.parametrize("shape", [(2, 2), (7, 9), (8, 6), (5, 12)])

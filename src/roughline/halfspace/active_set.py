@@ -23,16 +23,15 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.halfspace.operator import Operator, Places
+from roughline.halfspace.operator import Places
 from roughline.halfspace.patch import ConjugateGradients, Patch, merged
-from roughline.halfspace.preconditioner import Approximation
 from roughline.halfspace.state import (
     Contact,
-    Field,
     Load,
     Method,
     Nodes,
     Outcome,
+    Problem,
     Residuals,
     Start,
     Vector,
@@ -53,26 +52,13 @@ _PATIENCE = 8
 _WATCHED = 2.0
 
 
-def solve(
-    operator: Operator,
-    approximation: Approximation,
-    separation: Field,
-    rms_height: float,
-    load: Load,
-    start: Start,
-    method: Method,
-) -> Contact:
+def solve(problem: Problem, load: Load, start: Start, method: Method) -> Contact:
     """Find the contact set and the pressures under one load.
 
     Parameters
     ----------
-    operator, approximation
-        The half-space and what its preconditioner knows of it.
-    separation : ndarray, shape (nx, ny)
-        Distance of the bodies at first touch, zero at the highest point. [length]
-    rms_height : float
-        Gaps are compared with this, or with the depth where that is smaller; zero for a flat
-        punch, where it is the depth. [length]
+    problem : Problem
+        The body and the half-space.
     load : Load
         What is prescribed.
     start : Start
@@ -80,7 +66,7 @@ def solve(
     method : Method
         Tolerance, bound on the convolutions and precision.
     """
-    search = _Search(operator, approximation, separation, rms_height, load, start, method)
+    search = _Search(problem, load, start, method)
     while True:
         search.assess()
         outcome = search.outcome() or search.improve()
@@ -100,27 +86,16 @@ def solve(
 class _Search:
     """The current set and pressures, and what is wrong with them."""
 
-    def __init__(
-        self,
-        operator: Operator,
-        approximation: Approximation,
-        separation: Field,
-        rms_height: float,
-        load: Load,
-        start: Start,
-        method: Method,
-    ) -> None:
+    def __init__(self, problem: Problem, load: Load, start: Start, method: Method) -> None:
         self.nodes, self.pressure = start.nodes, start.pressure
-        self.gap = np.empty(separation.shape)
+        self.gap = np.empty(problem.separation.shape)
         self.convolutions = 0
-        self._operator = operator
-        self._approximation = approximation
-        self._separation = separation
-        self._rms_height = rms_height
+        self._operator, self._approximation = problem.operator, problem.approximation
+        self._separation, self._rms_height = problem.separation, problem.rms_height
         self._load = load
         self._method = method
         self._outer = self._inner = method.steps
-        self._wrong, self._fewest_wrong, self._waited = separation.size, separation.size + 1, 0
+        self._wrong, self._fewest_wrong, self._waited = self.gap.size, self.gap.size + 1, 0
         self._residual_before = np.inf
 
     def assess(self) -> None:

@@ -7,20 +7,13 @@ import numpy as np
 from roughline.halfspace import operator as operators
 from roughline.halfspace.active_set import solve
 from roughline.halfspace.operator import Operator, Places
-from roughline.halfspace.preconditioner import Approximation
-from roughline.halfspace.state import Field, Load, Method, Start
+from roughline.halfspace.state import Field, Load, Method, Problem, Start
 
 _COARSEST = 256  # points along the longer side of the grid that starts from the rigid shift
 _ROUGHLY = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
-def first_guess(
-    operator: Operator,
-    approximation: Approximation,
-    separation: Field,
-    rms_height: float,
-    load: Load,
-) -> Start:
+def first_guess(problem: Problem, load: Load) -> Start:
     """Guess which nodes come into contact, and the pressures on them.
 
     The coarse grid sees the mean separation of two by two nodes. Its pressures, the same on all
@@ -28,29 +21,20 @@ def first_guess(
 
     Parameters
     ----------
-    operator, approximation
-        The half-space and what its preconditioner knows of it.
-    separation : ndarray, shape (nx, ny)
-        Distance of the bodies at first touch. [length]
-    rms_height : float
-        Gaps are compared with this, or with the depth where that is smaller. [length]
+    problem : Problem
+        The body and the half-space.
     load : Load
         What is prescribed.
     """
+    operator, separation = problem.operator, problem.separation
     if max(separation.shape) <= _COARSEST:
         return _rigid_guess(operator, separation, load)
     coarse_separation = _halved(separation)
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(operator, separation, load)
     coarse_operator = _coarsened(operator, coarse_separation.shape)
-    problem = (
-        coarse_operator,
-        Approximation.of(coarse_operator),
-        coarse_separation,
-        rms_height,
-        load,
-    )
-    contact = solve(*problem, first_guess(*problem), _ROUGHLY)
+    coarse = Problem.of(coarse_operator, coarse_separation, problem.rms_height)
+    contact = solve(coarse, load, first_guess(coarse, load), _ROUGHLY)
     pressure = np.zeros(coarse_separation.shape)
     pressure.flat[contact.nodes] = contact.pressure
     for axis, n in enumerate(separation.shape):
@@ -62,7 +46,7 @@ def first_guess(
     gap = operator.convolve(pressure.flat[pressed], places, None, "float32")
     gap += separation
     gap -= contact.depth
-    gap /= approximation.own
+    gap /= problem.approximation.own
     pressure -= gap
     nodes = np.flatnonzero(pressure > 0)
     return (

@@ -13,8 +13,17 @@ from roughline.halfspace.active_set import solve
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.operator import Operator, Places
 from roughline.halfspace.patch import merged
-from roughline.halfspace.preconditioner import Approximation
-from roughline.halfspace.state import Contact, Field, Load, Method, Nodes, Outcome, Start, Vector
+from roughline.halfspace.state import (
+    Contact,
+    Field,
+    Load,
+    Method,
+    Nodes,
+    Outcome,
+    Problem,
+    Start,
+    Vector,
+)
 from roughline.halfspace.tangent import Tangent, tangent
 
 # New contact relieves its surroundings, which the tangent cannot know: nodes that it would overlap
@@ -54,21 +63,21 @@ def follow(
     tuple of Contact and Tangent
         For each load; without a tangent where the contact was not certified.
     """
-    approximation = Approximation.of(operator)
+    problem = Problem.of(operator, separation, rms_height)
     start: Start | None = None
     guess: tuple[Nodes, Vector] | None = None
     loads = [Load(**{control.removesuffix("s"): value}) for value in values.tolist()]
     for load, next_load in zip_longest(loads, loads[1:]):
         if start is None:
-            start = first_guess(operator, approximation, separation, rms_height, load)
-        contact = solve(operator, approximation, separation, rms_height, load, start, method)
+            start = first_guess(problem, load)
+        contact = solve(problem, load, start, method)
         start = None
         if contact.outcome is not Outcome.CONVERGED:
             guess = None
             yield contact, None
             continue
         carried = None if guess is None else _carried(*guess, contact.nodes)
-        stiffness = tangent(operator, approximation, contact, carried, method)
+        stiffness = tangent(problem, contact, carried, method)
         guess = None
         if stiffness.converged and next_load is not None:
             guess = contact.nodes, stiffness.pressure_per_force

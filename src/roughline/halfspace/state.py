@@ -9,7 +9,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.halfspace.operator import Precision
+from roughline.halfspace.operator import Operator, Precision
+from roughline.halfspace.preconditioner import Approximation
 
 Field = NDArray[np.float64]
 Vector = NDArray[np.float64]
@@ -22,6 +23,34 @@ class Outcome(enum.Enum):
     CONVERGED = "converged"
     STALLED = "stalled"
     MAX_ITERATIONS = "max_iterations"
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A body over a half-space, before any load.
+
+    Attributes
+    ----------
+    operator : Operator
+        The half-space.
+    approximation : Approximation
+        What its preconditioner knows of it.
+    separation : ndarray, shape (nx, ny)
+        Distance of the bodies at first touch, zero at the highest point. [length]
+    rms_height : float
+        Gaps are compared with this, or with the depth where that is smaller; zero for a flat
+        punch, where it is the depth. [length]
+    """
+
+    operator: Operator
+    approximation: Approximation
+    separation: Field
+    rms_height: float
+
+    @classmethod
+    def of(cls, operator: Operator, separation: Field, rms_height: float) -> Problem:
+        """Put a body over a half-space."""
+        return cls(operator, Approximation.of(operator), separation, rms_height)
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.halfspace.operator import Operator
 from roughline.halfspace.patch import ConjugateGradients, Patch
-from roughline.halfspace.preconditioner import Approximation
-from roughline.halfspace.state import Contact, Method, Vector
+from roughline.halfspace.state import Contact, Method, Problem, Vector
 
 # The stiffness is the energy form 1 / (w K w); conjugate gradients tell the energy of their error,
 # and stop at this part of the tolerance for all else.
@@ -45,8 +43,7 @@ class Tangent:
 
 
 def tangent(
-    operator: Operator,
-    approximation: Approximation,
+    problem: Problem,
     contact: Contact,
     start: Vector | None,
     method: Method,
@@ -58,8 +55,8 @@ def tangent(
 
     Parameters
     ----------
-    operator, approximation
-        The half-space and what its preconditioner knows of it.
+    problem : Problem
+        The body and the half-space.
     contact : Contact
         The contact whose set of nodes is held fixed.
     start : ndarray, shape (nodes,), optional
@@ -68,11 +65,12 @@ def tangent(
     method : Method
         The stiffness is sought to a hundredth of its tolerance.
     """
+    operator = problem.operator
     cell_area = operator.cell_area
     if operator.is_periodic and contact.nodes.size == contact.gap.size:
         even = np.full(contact.nodes.size, 1 / (contact.nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
-    patch = Patch(operator, approximation, contact.nodes)
+    patch = Patch(operator, problem.approximation, contact.nodes)
     if start is None or not start.sum() > 0:
         start = contact.pressure
     pressure = start / (start.sum() * cell_area)
