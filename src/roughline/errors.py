@@ -24,6 +24,10 @@ class StoreError(RoughlineError):
     """A folder or a store of results cannot be used as asked."""
 
 
+class ClusterError(RoughlineError):
+    """A cluster of workers cannot be reached or used, or was lost."""
+
+
 class ConvergenceError(RoughlineError):
     """A load was not solved to the tolerance.
 

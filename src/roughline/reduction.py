@@ -20,7 +20,7 @@ from roughline.compiled import compiled
 Real = NDArray[np.float64]
 
 
-_BINS = 2**16
+_MOST_BINS = 2**16  # numbers of a bin have 16 bits; more would not fit into a core's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,17 +65,21 @@ class Springs:
         """Distance of each spring at first touch; the least is zero. [length]"""
         return self._highest - self.heights
 
+    @property
+    def _bin_count(self) -> int:
+        return min(self.heights.size, _MOST_BINS)
+
     @cached_property
     def _bins_per_length(self) -> float:
         deepest = self._highest - float(self.heights.min())
-        return (_BINS - 1) / deepest if deepest > 0 else 0.0
+        return (self._bin_count - 1) / deepest if deepest > 0 else 0.0
 
     @cached_property
     def _binned(self) -> tuple[NDArray[np.uint16], NDArray[np.intp], Real]:
         """The bin of each spring; number of springs and sum of separations in each bin."""
         bins = np.empty(self.heights.size, dtype=np.uint16)
-        counts = np.zeros(_BINS, dtype=np.intp)
-        sums = np.zeros(_BINS)
+        counts = np.zeros(self._bin_count, dtype=np.intp)
+        sums = np.zeros(self._bin_count)
         _fill_bins(self.heights, self._highest, self._bins_per_length, bins, counts, sums)
         return bins, counts, sums
 

@@ -1,145 +1,296 @@
-"""Computing a plan: the batches that a store lacks, on all cores, each written when it is done."""
+"""Computing a plan: the batches that a store lacks, on a Dask cluster, each written when done."""
 
 from __future__ import annotations
 
-import multiprocessing
-import signal
-from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
-
-import numpy as np
-from numpy.typing import NDArray
+import json
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError
+from contextlib import AbstractContextManager, suppress
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from functools import partial
+from pathlib import Path
+from typing import Any
 
 from roughline import fft
-from roughline.campaign.plan import Case, Gallery, Plan
-from roughline.campaign.store import Store
-from roughline.contact import press
-from roughline.curve import Curve
-from roughline.errors import RoughlineError
-from roughline.spectra import SelfAffine
+from roughline._version import __version__
+from roughline.campaign import cluster as clusters
+from roughline.campaign.batch import (
+    Batch,
+    Outcome,
+    VersionError,
+    evaluate,
+    evaluate_gallery,
+)
+from roughline.campaign.cost import cost_of, refuse_beyond_disk, workers_that_fit
+from roughline.campaign.plan import Plan
+from roughline.campaign.store import Writer, writing
+from roughline.errors import ClusterError, InputError
 
-Progress = Callable[[str, int, int], None]
-Results = dict[str, NDArray[np.generic]]
+Progress = Callable[[str, int, int, int], None]
+"""Called with (ensemble, cases done, cases failed, cases in all)."""
+
+_AHEAD = 4  # batches that are sent out for each core, so that none waits for work
+_GLANCE = 5.0  # how often the cluster is looked at while nothing arrives [s]
+_PATIENCE = 60.0  # without any worker [s]
+
+
+@dataclass
+class Summary:
+    """What a run did.
+
+    Attributes
+    ----------
+    done, failed : Counter
+        Cases by ensemble, in this run.
+    core_seconds : Counter
+        Time of the workers by ensemble. [s]
+    reasons : Counter
+        Why cases failed, equal reasons together.
+    """
+
+    done: Counter[str] = field(default_factory=Counter)
+    failed: Counter[str] = field(default_factory=Counter)
+    core_seconds: Counter[str] = field(default_factory=Counter)
+    reasons: Counter[str] = field(default_factory=Counter)
 
 
 def run(
-    plan: Plan, store: Store, workers: int | None = None, progress: Progress | None = None
-) -> None:
-    """Compute what the store lacks of a plan.
+    plan: Plan,
+    store: str | Path,
+    *,
+    scheduler: str | None = None,
+    workers: int | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    announce: Callable[[str], None] | None = None,
+) -> Summary:
+    """Compute what a store lacks of a plan.
 
     Interrupting keeps every batch that was finished; a further call goes on from there. Results
-    do not depend on the number of workers, nor on the order.
+    do not depend on the number of workers, on threads, or on the order. A case that fails is
+    recorded with its reason, stops no other, and is tried again by the next call.
 
     Parameters
     ----------
     plan : Plan
         What to compute.
-    store : Store
-        Where results go.
+    store : str or Path
+        Folder for the results; made, or enlarged, if needed.
+    scheduler : str, optional
+        Address of a Dask scheduler, such as "tcp://10.0.0.1:8786"; default: a cluster on this
+        machine.
     workers : int, optional
-        Processes; default: one for each core.
+        Processes on this machine; default: one for each core, as far as memory allows.
+    threads : int, optional
+        Threads for each case; default: the cores of this machine shared out among the workers,
+        1 with a scheduler.
     progress : callable, optional
-        Called with (stage, batches done, batches in all); once at the start of each stage too.
+        Called with (ensemble, cases done, cases failed, cases in all), at the start too.
+    announce : callable, optional
+        Called with lines worth reading: what there is to do, and the dashboard's address.
+
+    Returns
+    -------
+    Summary
+        What this call did.
+
+    Raises
+    ------
+    InputError
+        If workers, threads or memory do not suffice or do not fit together.
+    StoreError
+        If the store cannot be used or written.
+    ClusterError
+        If the cluster cannot be used, or is lost.
     """
-    report = progress or (lambda stage, done, total: None)
-    workers = workers or fft.available_cores()
-    report("gallery", int(store.has_gallery()), 1)
-    if not store.has_gallery():
-        store.put_gallery(_gallery(plan.gallery))
-        report("gallery", 1, 1)
-    for ensemble in (plan.reduced, plan.full):
-        missing = store.missing(ensemble)
-        total = len(ensemble.cases())
-        report(ensemble.model, total - len(missing), total)
-        if missing:
-            _run_cases(missing, total, store, workers, report)
+    report = progress or (lambda name, done, failed, total: None)
+    say = announce or (lambda text: None)
+    _check(scheduler, workers, threads)
+    if scheduler is None:
+        clusters.refuse_unguarded_script()
+    with writing(store, plan) as writer:
+        batches = {ensemble.name: writer.missing(ensemble) for ensemble in plan.ensembles}
+        missing = {name: sum(len(b.cells) for b in found) for name, found in batches.items()}
+        draws = plan.gallery is not None and not writer.has_gallery
+        if not (draws or any(missing.values())):
+            _tell_all(plan, missing, report)
+            return Summary()
+        cost = cost_of(plan, missing)
+        refuse_beyond_disk(cost, Path(store))
+        cores = fft.available_cores()
+        if scheduler is None:
+            workers = workers_that_fit(max(cost.memory, 1), workers)
+            threads = threads or max(1, cores // workers)
+            if threads * workers > cores:
+                raise InputError(
+                    f"{workers} workers with {threads} threads each are more than the {cores} "
+                    "cores of this machine: take fewer of one"
+                )
+        say(f"{plan.name}: {cost.described(workers or 1)}")
+        cluster: AbstractContextManager[clusters.Cluster] = (
+            clusters.remote(scheduler) if scheduler else clusters.local(workers or 1)
+        )
+        with cluster as at_work:
+            say(f"dashboard: {at_work.dashboard}")
+            _tell_all(plan, missing, report)
+            campaign = _Campaign(plan, writer, at_work, threads or 1, missing, report)
+            started = time.time()
+            try:
+                campaign.work(batches, draws)
+            finally:
+                _log(Path(store), started, campaign, threads or 1)
+        return campaign.summary
 
 
-def evaluate(case: Case) -> Results:
-    """Generate and press the bodies of one batch; arrays over (realisation, load) or (realisation).
+class _Campaign:
+    """One run: batches go out as workers take them, and are written as they come back."""
 
-    Everything is dimensionless: stiffness over E* L, depth over h.
-    """
-    ensemble = case.ensemble
-    spectrum = SelfAffine(
-        fractal_dimension=ensemble.fractal_dimensions[case.dimension_index], rms_height=1.0
+    def __init__(
+        self,
+        plan: Plan,
+        writer: Writer,
+        cluster: clusters.Cluster,
+        threads: int,
+        missing: dict[str, int],
+        report: Progress,
+    ) -> None:
+        self.plan, self.writer, self.cluster = plan, writer, cluster
+        self.threads, self.missing, self.report = threads, missing, report
+        self.summary = Summary()
+        self.pending: dict[Any, Batch | None] = {}
+        self.cores = cluster.cores()
+        self.looked = self.last_with_workers = time.monotonic()
+
+    def work(self, batches: dict[str, list[Batch]], draws: bool) -> None:
+        """Compute and write all batches, and the gallery if it is wanted."""
+        waiting = iter([batch for found in batches.values() for batch in found])
+        if draws:
+            gallery = partial(evaluate_gallery, self.plan.gallery)
+            self.pending[self._submit(gallery)] = None
+        try:
+            self._send(waiting)
+            while self.pending:
+                for future in self._finished():
+                    self._take(future)
+                self._send(waiting)
+        finally:
+            with suppress(Exception):  # a cluster that is gone has nothing to cancel
+                self.cluster.client.cancel(list(self.pending), force=True)
+
+    def _send(self, waiting: Iterator[Batch]) -> None:
+        while len(self.pending) < _AHEAD * max(self.cores, 1):
+            batch = next(waiting, None)
+            if batch is None:
+                return
+            self.pending[self._submit(partial(evaluate, batch))] = batch
+
+    def _submit(self, work: Callable[..., object]) -> Any:
+        return self.cluster.client.submit(work, self.threads, __version__, pure=False)
+
+    def _finished(self) -> list[Any]:
+        """Wait until something has finished; raise if the cluster is lost."""
+        from distributed import wait
+
+        while True:
+            with suppress(TimeoutError, CancelledError):  # both are looked at below
+                wait(list(self.pending), timeout=_GLANCE, return_when="FIRST_COMPLETED")
+            finished = [future for future in self.pending if future.status != "pending"]
+            if any(future.status in ("cancelled", "lost") for future in finished):
+                raise ClusterError(
+                    "the Dask scheduler is gone; what is done is kept: start it again, and run the "
+                    "same command"
+                )
+            self._look()
+            if finished:
+                return finished
+
+    def _look(self) -> None:
+        """Count the cores of the cluster now and then: it may grow, shrink, and vanish."""
+        now = time.monotonic()
+        if now - self.looked < _GLANCE:
+            return
+        self.looked, self.cores = now, self.cluster.cores()
+        if self.cores:
+            self.last_with_workers = now
+        elif now - self.last_with_workers > _PATIENCE:
+            raise ClusterError(
+                f"there has been no worker for {_PATIENCE:g} s; what is done is kept: start "
+                "workers, and run the same command"
+            )
+
+    def _take(self, future: Any) -> None:
+        """Write what a worker sent back, or record why it did not."""
+        batch = self.pending.pop(future)
+        error = future.exception() if future.status == "error" else None
+        if isinstance(error, VersionError | ImportError):
+            raise ClusterError(f"{error}; install version {__version__} on every worker")
+        if batch is None:
+            if error is not None:
+                raise error
+            assert self.plan.gallery is not None
+            self.writer.put_gallery(self.plan.gallery, future.result())
+            return
+        outcome = _failed(batch, error) if error is not None else future.result()
+        future.release()
+        self.writer.put(batch, outcome)
+        name, failed = batch.ensemble.name, len(outcome.failures)
+        summary = self.summary
+        summary.done[name] += len(batch.cells) - failed
+        summary.failed[name] += failed
+        summary.core_seconds[name] += outcome.seconds * self.threads
+        summary.reasons.update(outcome.failures.values())
+        total = batch.ensemble.cases
+        done = total - self.missing[name] + summary.done[name]
+        self.report(name, done, summary.failed[name], total)
+
+
+def _failed(batch: Batch, error: BaseException) -> Outcome:
+    """Outcome of a batch that came to nothing."""
+    killed = type(error).__name__ == "KilledWorker"
+    why = (
+        "its worker died again and again, perhaps for want of memory"
+        if killed
+        else f"{type(error).__name__}: {error}".splitlines()[0]
     )
-    forces = np.array(ensemble.force_bars)
-    curves: list[Curve] = []
-    slopes: list[float] = []
-    for realisation in case.realisations:
-        seed = ensemble.seed_of(realisation)
-        if ensemble.model == "reduced":
-            line = spectrum.line(ensemble.n, seed)
-            curves.append(press(line, E_star=1.0, forces=forces))
-            slopes.append(line.rms_slope)
-        else:
-            surface = spectrum.surface(ensemble.n, seed)
-            curves.append(press(surface, E_star=1.0, forces=forces, throw=False))
-            slopes.append(surface.rms_slope)
-    results: Results = {
-        "stiffness": np.array([curve.stiffness for curve in curves]),
-        "depth": np.array([curve.depth for curve in curves]),
-        "status": np.array([curve.status for curve in curves]),
-        "resolved": np.array([curve.resolved for curve in curves], dtype=np.int8),
-        "rms_slope": np.array(slopes),
+    return Outcome({}, dict.fromkeys(batch.cells, why))
+
+
+def _check(scheduler: str | None, workers: int | None, threads: int | None) -> None:
+    for name, value in (("workers", workers), ("threads", threads)):
+        if value is not None and value < 1:
+            raise InputError(f"{name} is {value}; at least 1 is needed")
+    if scheduler is not None and workers is not None:
+        raise InputError(
+            "workers and a scheduler are given; the workers of a cluster are started there: leave "
+            "one out"
+        )
+
+
+def _tell_all(plan: Plan, missing: dict[str, int], report: Progress) -> None:
+    for ensemble in plan.ensembles:
+        report(ensemble.name, ensemble.cases - missing[ensemble.name], 0, ensemble.cases)
+
+
+def _log(store: Path, started: float, campaign: _Campaign, threads: int) -> None:
+    """Add a line to the log beside the store: results do not depend on it, so it is not inside."""
+    summary = campaign.summary
+    entry = {
+        "started": datetime.fromtimestamp(started, UTC).isoformat(timespec="seconds"),
+        "seconds": round(time.time() - started, 1),
+        "cores": campaign.cores,
+        "threads": threads,
+        "roughline_version": __version__,
+        "done": dict(summary.done),
+        "failed": dict(+summary.failed),
+        "core_seconds": {name: round(value, 1) for name, value in summary.core_seconds.items()},
     }
-    if ensemble.model == "full":
-        results["area_fraction"] = np.array([curve.area_fraction for curve in curves])
-    return results
+    with suppress(OSError), log_of(store).open("a", encoding="utf-8") as file:
+        file.write(json.dumps(entry) + "\n")
 
 
-def _run_cases(cases: list[Case], total: int, store: Store, workers: int, report: Progress) -> None:
-    context = multiprocessing.get_context("spawn")
-    not_ours = set(multiprocessing.active_children())
-    done = total - len(cases)
-    pool = ProcessPoolExecutor(workers, context, initializer=_start_worker)
-    try:
-        pending: dict[Future[Results], Case] = {pool.submit(evaluate, case): case for case in cases}
-        while pending:
-            finished, _ = wait(pending, return_when=FIRST_COMPLETED)
-            for future in finished:
-                case = pending.pop(future)
-                store.put(case, future.result())
-                done += 1
-                report(case.ensemble.model, done, total)
-    except BaseException as error:
-        pool.shutdown(wait=False, cancel_futures=True)
-        # a batch may take minutes: whoever interrupts is not made to wait for it
-        for process in set(multiprocessing.active_children()) - not_ours:
-            process.terminate()
-        if isinstance(error, BrokenProcessPool):
-            raise RoughlineError(
-                "a worker process died, perhaps for want of memory; what is done is kept: run "
-                "again, with fewer workers"
-            ) from error
-        raise
-    pool.shutdown()
-
-
-def _start_worker() -> None:
-    """One thread for each worker, and an interrupt is the parent's business."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    fft.set_threads(1)
-
-
-def _gallery(gallery: Gallery) -> Results:
-    """Press one surface for each fractal dimension; keep what the figures show."""
-    fields: dict[str, list[NDArray[np.generic]]] = {
-        name: [] for name in ("heights", "contact", "displacement", "line_heights")
-    }
-    depths: list[float] = []
-    for fractal_dimension in gallery.fractal_dimensions:
-        spectrum = SelfAffine(fractal_dimension=fractal_dimension, rms_height=1.0)
-        surface = spectrum.surface(gallery.n, gallery.seed)
-        line = spectrum.line(gallery.n_line, gallery.seed)
-        curve = press(surface, E_star=1.0, forces=[gallery.force_bar], fields=True)
-        found = curve.fields[0]
-        assert found is not None
-        fields["heights"].append(surface.heights)
-        fields["contact"].append(found.contact)
-        fields["displacement"].append(found.displacement)
-        fields["line_heights"].append(line.heights)
-        depths.append(float(press(line, E_star=1.0, forces=[gallery.force_bar]).depth[0]))
-    return {**{k: np.array(v) for k, v in fields.items()}, "line_depth": np.array(depths)}
+def log_of(store: Path) -> Path:
+    """Return the file that says when and for how long was worked on a store."""
+    return store.with_name(f"{store.name}.log")

@@ -1,0 +1,170 @@
+"""The unit of work: bodies that one worker generates and presses, and that are stored together."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline import fft
+from roughline._version import __version__
+from roughline.campaign.plan import Ensemble, Gallery
+from roughline.contact import press
+from roughline.errors import RoughlineError
+from roughline.spectra import SelfAffine
+
+Results = dict[str, NDArray[np.generic]]
+Cell = tuple[int, int]
+"""Index of the fractal dimension in the store, and the realisation."""
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Cases of one ensemble that lie in one chunk of the store.
+
+    Attributes
+    ----------
+    ensemble : Ensemble
+        What they belong to.
+    cells : tuple of (int, int)
+        Where they lie: index of the fractal dimension in the store, and realisation.
+    fractal_dimensions : tuple of float
+        Of each.
+    """
+
+    ensemble: Ensemble
+    cells: tuple[Cell, ...]
+    fractal_dimensions: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a batch.
+
+    Attributes
+    ----------
+    results : dict of ndarray
+        Every variable over (case, load) or (case); cases that failed hold fill values.
+    failures : dict
+        Reasons, by the cell of the case.
+    seconds : float
+        Time that it took. [s]
+    """
+
+    results: Results
+    failures: dict[Cell, str]
+    seconds: float = 0.0
+
+
+VARIABLES: dict[str, tuple[str, float, str]] = {
+    # name: (dtype, fill value, meaning); no fill value is one that a finished case can have
+    "stiffness": ("f8", np.nan, "raw stiffness k / (E* L)"),
+    "depth": ("f8", np.nan, "depth since touch / h"),
+    "area_fraction": ("f8", np.nan, "real over nominal contact area, cells in contact"),
+    "area_fraction_corrected": ("f8", np.nan, "the same, corrected for the outline's steps"),
+    "status": ("i1", -1, "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"),
+    "resolved": ("i1", -1, "1 where at least 10 springs or cells are in contact, -1 not done"),
+    "rms_slope": ("f8", np.nan, "rms slope L / h of the grid, forward differences"),
+}
+PER_BODY = ("rms_slope",)
+_OF_SURFACES = ("area_fraction", "area_fraction_corrected")
+
+
+def variables_of(ensemble: Ensemble) -> list[str]:
+    """Names of what is kept of an ensemble; areas of lines predict nothing."""
+    return [name for name in VARIABLES if ensemble.model == "full" or name not in _OF_SURFACES]
+
+
+class VersionError(RoughlineError):
+    """A worker has another version of roughline."""
+
+
+def check_version(wanted: str) -> None:
+    """Raise if this process has another version than the one that asks."""
+    if wanted != __version__:
+        raise VersionError(f"a worker has roughline {__version__}, this is {wanted}")
+
+
+def evaluate(batch: Batch, threads: int, version: str) -> Outcome:
+    """Generate and press the bodies of a batch, each for itself: one that fails stops no other.
+
+    Everything is dimensionless: stiffness over E* L, depth over h.
+
+    Parameters
+    ----------
+    batch : Batch
+        The bodies.
+    threads : int
+        Threads for each.
+    version : str
+        Version of roughline of whoever asks.
+
+    Raises
+    ------
+    VersionError
+        If this process has another version.
+    """
+    check_version(version)
+    fft.set_threads(min(threads, fft.available_cores()))
+    start = time.perf_counter()
+    ensemble = batch.ensemble
+    loads = len(ensemble.force_bars)
+    results: Results = {}
+    for name in variables_of(ensemble):
+        dtype, fill, _ = VARIABLES[name]
+        shape = (len(batch.cells),) if name in PER_BODY else (len(batch.cells), loads)
+        results[name] = np.full(shape, fill, dtype=dtype)
+    failures: dict[Cell, str] = {}
+    for i, (cell, dimension) in enumerate(
+        zip(batch.cells, batch.fractal_dimensions, strict=True)
+    ):
+        try:
+            case = evaluate_case(ensemble, dimension, cell[1])
+        except Exception as error:  # whatever it is, the others go on, and the store says it
+            failures[cell] = f"{type(error).__name__}: {error}".splitlines()[0]
+            continue
+        for name, values in case.items():
+            results[name][i] = values
+    return Outcome(results, failures, time.perf_counter() - start)
+
+
+def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int) -> Results:
+    """Generate and press one body; every variable over the loads, or alone."""
+    spectrum = ensemble.spectrum(fractal_dimension)
+    seed = ensemble.seed_of(realisation)
+    forces = np.array(ensemble.force_bars)
+    if ensemble.model == "reduced":
+        line = spectrum.line(ensemble.n, seed)
+        curve, slope = press(line, E_star=1.0, forces=forces), line.rms_slope
+    else:
+        surface = spectrum.surface(ensemble.n, seed)
+        periodic = ensemble.boundary == "periodic"
+        curve = press(surface, E_star=1.0, forces=forces, periodic=periodic, throw=False)
+        slope = surface.rms_slope
+    values = {name: getattr(curve, name) for name in variables_of(ensemble) if name != "rms_slope"}
+    return {**values, "rms_slope": np.array(slope)}
+
+
+def evaluate_gallery(gallery: Gallery, threads: int, version: str) -> Results:
+    """Press one surface for each fractal dimension; keep what the figures show."""
+    check_version(version)
+    fft.set_threads(min(threads, fft.available_cores()))
+    fields: dict[str, list[NDArray[np.generic]]] = {
+        name: [] for name in ("heights", "contact", "displacement", "line_heights")
+    }
+    depths: list[float] = []
+    for fractal_dimension in gallery.fractal_dimensions:
+        spectrum = SelfAffine(fractal_dimension=fractal_dimension, rms_height=1.0)
+        surface = spectrum.surface(gallery.n, gallery.seed)
+        line = spectrum.line(gallery.n_line, gallery.seed)
+        curve = press(surface, E_star=1.0, forces=[gallery.force_bar], fields=True)
+        found = curve.fields[0]
+        assert found is not None
+        fields["heights"].append(surface.heights)
+        fields["contact"].append(found.contact)
+        fields["displacement"].append(found.displacement)
+        fields["line_heights"].append(line.heights)
+        depths.append(float(press(line, E_star=1.0, forces=[gallery.force_bar]).depth[0]))
+    return {**{k: np.array(v) for k, v in fields.items()}, "line_depth": np.array(depths)}

@@ -1,0 +1,147 @@
+"""Workers: a Dask cluster on this machine, or one that is there already."""
+
+from __future__ import annotations
+
+import logging
+import multiprocessing
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from roughline._version import __version__
+from roughline.campaign.batch import check_version
+from roughline.errors import ClusterError, InputError
+
+_PATIENCE = 30.0  # for a scheduler to answer and a first worker to appear [s]
+_IMPORTED = 77  # exit code of a process that found itself importing its parent's script
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """A cluster at work.
+
+    Attributes
+    ----------
+    client : distributed.Client
+        The way to it.
+    dashboard : str
+        Address of the page that shows what it does.
+    """
+
+    client: Any
+    dashboard: str
+
+    def cores(self) -> int:
+        """Return how many cases can be computed at a time now."""
+        return sum(self.client.ncores().values())
+
+
+@contextmanager
+def local(workers: int) -> Iterator[Cluster]:
+    """Start workers on this machine, one case each at a time; they end with the context.
+
+    Raises
+    ------
+    ClusterError
+        If they do not start.
+    """
+    from distributed import Client, LocalCluster  # here because it loads slowly
+
+    with _quiet():
+        try:
+            cluster = LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                processes=True,
+                memory_limit=0,  # cases that do not fit are refused before
+                dashboard_address="127.0.0.1:0",
+                silence_logs=logging.CRITICAL,
+            )
+        except (OSError, RuntimeError, TimeoutError) as error:
+            raise ClusterError(f"workers on this machine do not start ({error})") from error
+        with cluster, Client(cluster) as client:
+            yield Cluster(client, client.dashboard_link)
+
+
+@contextmanager
+def remote(address: str) -> Iterator[Cluster]:
+    """Connect to the scheduler of a cluster.
+
+    Raises
+    ------
+    ClusterError
+        If it does not answer, has no workers, or its workers have another version of roughline.
+    """
+    from distributed import Client
+
+    with _quiet():
+        try:
+            client = Client(address, timeout=_PATIENCE / 3)
+        except (OSError, ValueError, TypeError) as error:
+            raise ClusterError(
+                f"no Dask scheduler answers at {address}; start one with `dask scheduler`, or "
+                "leave the address out to compute on this machine"
+            ) from error
+        with client:
+            try:
+                client.wait_for_workers(1, timeout=_PATIENCE)
+            except (OSError, TimeoutError) as error:
+                raise ClusterError(
+                    f"the scheduler at {address} has no workers; start some with "
+                    f"`dask worker {address}`"
+                ) from error
+            _check_versions(client)
+            yield Cluster(client, client.dashboard_link)
+
+
+def _check_versions(client: Any) -> None:
+    for worker, answer in client.run(check_version, __version__, on_error="return").items():
+        if isinstance(answer, ImportError):
+            raise ClusterError(
+                f"the worker at {worker} has no roughline; install version {__version__} there"
+            )
+        if isinstance(answer, Exception):
+            raise ClusterError(f"{worker}: {answer}; install version {__version__} there")
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep the cluster's log of joining and leaving workers off the terminal."""
+    logger = logging.getLogger("distributed")
+    level = logger.level
+    logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
+
+
+def refuse_unguarded_script() -> None:
+    """Refuse a script that starts a campaign whenever it is imported, as each worker would do.
+
+    One process imports it on trial. In there, this function is reached again, and ends it.
+
+    Raises
+    ------
+    InputError
+        If that happened.
+    """
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        sys.exit(_IMPORTED)
+    main = sys.modules["__main__"]
+    if getattr(main, "__spec__", None) is not None or not hasattr(main, "__file__"):
+        return  # a module run with -m, a notebook, a prompt
+    trial = multiprocessing.get_context("spawn").Process(target=_nothing)
+    trial.start()
+    trial.join()
+    if trial.exitcode == _IMPORTED:
+        raise InputError(
+            "this script starts the campaign again whenever a worker imports it: put what it does "
+            "under `if __name__ == \"__main__\":`"
+        )
+
+
+def _nothing() -> None:
+    pass

@@ -1,0 +1,173 @@
+"""What a campaign will cost in time, memory and disk, and how its cases are put into batches."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from roughline import estimates, fft
+from roughline.campaign.batch import PER_BODY, VARIABLES, evaluate_case, variables_of
+from roughline.campaign.plan import Ensemble, Plan
+from roughline.errors import InputError, StoreError
+
+_BATCH_SECONDS = 0.5  # sending, receiving and writing a batch takes some ten milliseconds
+_MOST_PER_CHUNK = 2**20  # values of one variable, so that one chunk is some megabytes
+_GENERATION_BYTES = 40  # per point of a surface, while it is generated
+_LINE_BYTES = 60  # per point, all in all
+_WORKER_BYTES = 300_000_000  # of the interpreter and its libraries
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Cost of computing some cases.
+
+    Attributes
+    ----------
+    cases : int
+        Bodies.
+    core_seconds : float
+        Time on one core of this machine, within a factor of two or three. [s]
+    memory : int
+        Largest memory of one worker. [bytes]
+    disk : int
+        Size of the results, before compression. [bytes]
+    """
+
+    cases: int
+    core_seconds: float
+    memory: int
+    disk: int
+
+    def described(self, workers: int) -> str:
+        """Say it, for a number of workers."""
+        return (
+            f"{self.cases} cases to compute; about {_spoken(self.core_seconds / workers)} with "
+            f"{workers} worker{'s' if workers > 1 else ''}, {self.memory / 1e9:.2g} GB of memory "
+            f"each, up to {self.disk / 1e6:.2g} MB of disk"
+        )
+
+
+def chunk_shape(ensemble: Ensemble) -> tuple[int, int]:
+    """Return how many fractal dimensions and realisations make a batch, and a chunk of the store.
+
+    Enough for half a second on a nominal core; it depends on the plan alone, so that equal plans
+    give equal stores on all machines.
+    """
+    loads = len(ensemble.force_bars)
+    most = max(1, min(round(_BATCH_SECONDS / _nominal(ensemble)), _MOST_PER_CHUNK // loads))
+    realisations = min(most, ensemble.realisations)
+    return min(most // realisations, len(ensemble.fractal_dimensions)), realisations
+
+
+def cost_of(plan: Plan, missing: dict[str, int]) -> Cost:
+    """Estimate the cost of what is missing; one small problem of each kind is timed.
+
+    Parameters
+    ----------
+    plan : Plan
+        The campaign.
+    missing : dict
+        Number of missing cases by name of the ensemble.
+    """
+    seconds, memory, disk = 0.0, 0, 0
+    for ensemble in plan.ensembles:
+        count = missing[ensemble.name]
+        if count:
+            seconds += count * _timed(ensemble)
+            memory = max(memory, memory_of(ensemble))
+            disk += count * _bytes_per_case(ensemble)
+    return Cost(sum(missing.values()), seconds, memory, disk)
+
+
+def memory_of(ensemble: Ensemble) -> int:
+    """Return the memory of a worker with one case of an ensemble. [bytes]"""
+    if ensemble.model == "reduced":
+        return _WORKER_BYTES + _LINE_BYTES * ensemble.n
+    shape = (ensemble.n, ensemble.n)
+    pressing = estimates.memory_for(shape, ensemble.boundary == "periodic", 0)
+    heights = 8 * ensemble.n**2
+    return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
+
+
+def refuse_beyond_disk(cost: Cost, store: Path) -> None:
+    """Refuse a campaign whose results the disk cannot hold.
+
+    Raises
+    ------
+    StoreError
+        If the results are larger than what is free.
+    """
+    folder = store.absolute()
+    while not folder.exists():
+        folder = folder.parent
+    free = shutil.disk_usage(folder).free
+    if cost.disk > free:
+        raise StoreError(
+            f"{cost.cases} cases need up to {cost.disk / 1e9:.3g} GB of disk, and "
+            f"{free / 1e9:.3g} GB is free in {folder}: make room, or take fewer cases or loads"
+        )
+
+
+def _nominal(ensemble: Ensemble) -> float:
+    """Time of a case on a nominal core. [s]"""
+    if ensemble.model == "reduced":
+        return 2e-4 + 2e-8 * ensemble.n
+    return len(ensemble.force_bars) * (1e-3 + 5e-7 * ensemble.n**2)
+
+
+def _timed(ensemble: Ensemble) -> float:
+    """Time of a case on one core of this machine. [s]"""
+    before = fft.threads()
+    fft.set_threads(1)
+    try:
+        if ensemble.model == "full":
+            shape = (ensemble.n, ensemble.n)
+            periodic = ensemble.boundary == "periodic"
+            return estimates.estimate(shape, len(ensemble.force_bars), periodic=periodic).seconds
+        small = replace(
+            ensemble, n=min(ensemble.n, 2**18), roll_off_ratio=1.0, cutoff_ratio=None
+        )
+        evaluate_case(small, small.fractal_dimensions[0], 0)  # compiles
+        start = time.perf_counter()
+        evaluate_case(small, small.fractal_dimensions[0], 0)
+        return (time.perf_counter() - start) * ensemble.n / small.n
+    finally:
+        fft.set_threads(before)
+
+
+def _bytes_per_case(ensemble: Ensemble) -> int:
+    loads = len(ensemble.force_bars)
+    sizes = {name: int(VARIABLES[name][0][1:]) for name in variables_of(ensemble)}
+    return sum(size * (1 if name in PER_BODY else loads) for name, size in sizes.items()) + 1
+
+
+def _spoken(seconds: float) -> str:
+    """Say a time in the unit that suits it."""
+    for size, unit in ((86400, "days"), (3600, "h"), (60, "min")):
+        if seconds >= 1.5 * size:
+            return f"{seconds / size:.1f} {unit}"
+    return f"{math.ceil(seconds)} s"
+
+
+def workers_that_fit(memory: int, wanted: int | None) -> int:
+    """Return how many workers this machine's cores and memory allow.
+
+    Raises
+    ------
+    InputError
+        If the memory does not suffice for one, or for as many as are wanted.
+    """
+    import psutil
+
+    free = psutil.virtual_memory().available
+    fitting = int(0.95 * free // memory)
+    if fitting < (wanted or 1):
+        raise InputError(
+            f"{wanted or 1} workers need about {(wanted or 1) * memory / 1e9:.3g} GB of memory for "
+            f"the largest case, and {free / 1e9:.3g} GB is free: take "
+            + ("fewer workers" if fitting else "fewer points")
+        )
+    return wanted or min(fitting, fft.available_cores())
