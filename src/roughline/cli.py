@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
@@ -23,11 +25,29 @@ app = typer.Typer(
 )
 
 
+campaign_app = typer.Typer(
+    help="Ensembles of random bodies, on this machine or a Dask cluster.", no_args_is_help=True
+)
+app.add_typer(campaign_app, name="campaign")
+
+
+class ExportFormat(StrEnum):
+    """Which files to write."""
+
+    netcdf = "netcdf"
+    csv = "csv"
+
+
 class Scale(StrEnum):
     """How large the paper's study is to be."""
 
     quick = "quick"
     full = "full"
+
+
+_WORKERS = typer.Option(min=1, help="Processes on this machine [default: one for each core].")
+_SCHEDULER = typer.Option(help="Address of a Dask scheduler, such as tcp://10.0.0.1:8786.")
+_STORE = typer.Argument(help="A store, or the plan beside which it lies.")
 
 
 def _print_version(wanted: bool) -> None:
@@ -57,24 +77,91 @@ def paper(
         "roughline-paper"
     ),
     seed: Annotated[int, typer.Option(min=0, help="Root of all random seeds.")] = 2012,
-    workers: Annotated[
-        int | None, typer.Option(min=1, help="Processes [default: one for each core].")
-    ] = None,
+    workers: Annotated[int | None, _WORKERS] = None,
+    scheduler: Annotated[str | None, _SCHEDULER] = None,
 ) -> None:
     """Recompute the paper: both models, its figures, and a report with a verdict on each claim.
 
     Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
     """
     from roughline.report.paper import recompute
-    from roughline.report.terminal import study_progress
+    from roughline.report.terminal import announce, campaign_progress
 
-    try:
-        with study_progress() as progress:
-            page = recompute(scale.value, out, seed, workers, progress)
-    except KeyboardInterrupt:
-        typer.echo(f"interrupted; what is done is kept in {out}: run again to go on", err=True)
-        raise typer.Exit(130) from None
+    with _interruptible(out), campaign_progress() as progress:
+        page = recompute(
+            scale.value,
+            out,
+            seed,
+            workers=workers,
+            scheduler=scheduler,
+            progress=progress,
+            announce=announce,
+        )
     typer.echo(f"report: {page}")
+
+
+@campaign_app.command("run")
+def campaign_run(
+    plan: Annotated[Path, typer.Argument(help="A plan in TOML.")],
+    store: Annotated[
+        Path | None, typer.Option(help="Folder for the results [default: the plan's name.zarr].")
+    ] = None,
+    scheduler: Annotated[str | None, _SCHEDULER] = None,
+    workers: Annotated[int | None, _WORKERS] = None,
+    threads: Annotated[
+        int | None, typer.Option(help="Threads for each case [default: cores over workers].")
+    ] = None,
+) -> None:
+    """Compute what a plan asks for, or what is left of it.
+
+    Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
+    A plan with more realisations or fractal dimensions adds to the same store. Cases that failed
+    are recorded with their reasons, stop no others, and are tried again by the next run.
+    """
+    from roughline.campaign import read_plan, run
+    from roughline.report.terminal import announce, campaign_progress, print_summary
+
+    where = store or plan.with_suffix(".zarr")
+    with _interruptible(where), campaign_progress() as progress:
+        summary = run(
+            read_plan(plan),
+            where,
+            scheduler=scheduler,
+            workers=workers,
+            threads=threads,
+            progress=progress,
+            announce=announce,
+        )
+    print_summary(summary, where)
+    if sum(summary.failed.values()):
+        raise typer.Exit(1)
+
+
+@campaign_app.command("status")
+def campaign_status(store: Annotated[Path, _STORE]) -> None:
+    """Say what is done of a campaign, and why cases failed."""
+    from roughline.campaign import Store
+    from roughline.report.terminal import print_status
+
+    print_status(Store(_store_of(store)))
+
+
+@campaign_app.command("export")
+def campaign_export(
+    store: Annotated[Path, _STORE],
+    out: Annotated[Path, typer.Option(help="Folder for the files.")],
+    formats: Annotated[
+        list[ExportFormat] | None,
+        typer.Option("--format", help="netcdf or csv; may be repeated [default: both]."),
+    ] = None,
+) -> None:
+    """Write every ensemble to NetCDF and CSV, with a table of means and their intervals."""
+    from roughline.campaign import Store
+    from roughline.campaign.export import export
+    from roughline.report.terminal import print_files
+
+    chosen = [item.value for item in formats or ExportFormat]
+    print_files(export(Store(_store_of(store)), out, chosen))
 
 
 @app.command()
@@ -178,6 +265,20 @@ def generate(
     body = replace(make(n, seed, "gaussian" if gaussian else "fixed"), unit="m")
     write(body, out)
     print_generated(body, out)
+
+
+def _store_of(path: Path) -> Path:
+    return path.with_suffix(".zarr") if path.suffix == ".toml" else path
+
+
+@contextmanager
+def _interruptible(place: Path) -> Iterator[None]:
+    """End with exit code 130 and a word on what is kept, when interrupted."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo(f"interrupted; what is done is kept in {place}: run again to go on", err=True)
+        raise typer.Exit(130) from None
 
 
 def main() -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from roughline import bootstrap
+from roughline.averages import Averaging
 from roughline.errors import InputError
 
 Real = NDArray[np.float64]
@@ -36,6 +37,8 @@ class PowerLaw:
     interval_from : str
         "resampled realisations" (percentile bootstrap), or "regression" (Student's t) for a
         single curve.
+    averaging : {"arithmetic", "geometric"}
+        Mean over realisations that was fitted.
     """
 
     exponent: float
@@ -47,6 +50,7 @@ class PowerLaw:
     realisations: int
     confidence: float
     interval_from: str
+    averaging: Averaging = "arithmetic"
 
     def __call__(self, force_bar: Value) -> Value:
         """Evaluate the law."""
@@ -59,11 +63,12 @@ def fit_power_law(
     window: tuple[float, float],
     confidence: float = 0.95,
     rng: int = 0,
+    averaging: Averaging = "arithmetic",
 ) -> PowerLaw:
     """Fit a power law by least squares of the logarithms inside a window.
 
-    Of several realisations the arithmetic mean at fixed force is fitted, and the intervals come
-    from resampling the realisations. Of a single curve they come from the scatter about the line,
+    Of several realisations the mean at fixed force is fitted, and the intervals come from
+    resampling the realisations. Of a single curve they come from the scatter about the line,
     which says how straight the curve is rather than how far another surface would differ.
 
     Parameters
@@ -78,6 +83,8 @@ def fit_power_law(
         Level of the intervals.
     rng : int, optional
         Seed of the resampling.
+    averaging : {"arithmetic", "geometric"}, optional
+        Which mean over realisations is fitted.
 
     Raises
     ------
@@ -112,13 +119,11 @@ def fit_power_law(
             "finite numbers (loads that did not converge are NaN): leave their loads or "
             "realisations out"
         )
-    slope, offset = _line(log_force, np.log(stiffness.mean(axis=0)))
+    slope, offset = _line(log_force, _log_mean(stiffness, averaging))
     if stiffness.shape[0] > 1:
-        slope_interval, offset_interval = bootstrap.interval(
-            stiffness,
-            lambda mean: np.array(_line(log_force, np.log(mean))),
-            confidence,
-            rng,
+        resamples = _resampled_log_means(stiffness, averaging, rng)
+        slope_interval, offset_interval = bootstrap.percentile_interval(
+            np.array(_line(log_force, resamples)).T, confidence
         ).T
     else:
         slope_interval, offset_interval = _regression_intervals(
@@ -134,7 +139,83 @@ def fit_power_law(
         realisations=stiffness.shape[0],
         confidence=confidence,
         interval_from="resampled realisations" if stiffness.shape[0] > 1 else "regression",
+        averaging=averaging,
     )
+
+
+def find_window(
+    force_bar: ArrayLike,
+    stiffness_bar: ArrayLike,
+    confidence: float = 0.95,
+    rng: int = 0,
+    averaging: Averaging = "arithmetic",
+) -> tuple[float, float] | None:
+    """Find the longest range of loads in which a power law is not rejected.
+
+    In each range of at least five loads, polynomials of second and third degree, orthogonal to
+    the line, are fitted to the logarithms of the mean; the power law is rejected where the
+    interval of either coefficient, from resampled realisations, leaves out zero. The larger the
+    ensemble, the smaller the curvature that is noticed, and the shorter the range.
+
+    Parameters
+    ----------
+    force_bar : array_like, shape (loads,)
+        Rising dimensionless forces.
+    stiffness_bar : array_like, shape (realisations, loads)
+        Dimensionless stiffness, positive and finite, of at least two realisations.
+    confidence, rng, averaging
+        As for :func:`fit_power_law`; the two tests share the level.
+
+    Returns
+    -------
+    tuple of float or None
+        Smallest and largest load; None if no range of five loads passes.
+
+    Raises
+    ------
+    InputError
+        If the shapes do not fit, or a value is not positive and finite.
+    """
+    force = np.asarray(force_bar, dtype=np.float64)
+    stiffness = np.asarray(stiffness_bar, dtype=np.float64)
+    if stiffness.ndim != 2 or stiffness.shape[0] < 2 or stiffness.shape[1:] != force.shape:
+        raise InputError(
+            f"force_bar has shape {force.shape} and stiffness_bar {stiffness.shape}; (loads,) and "
+            "(realisations, loads) with two realisations or more are needed"
+        )
+    if not (np.isfinite(stiffness) & (stiffness > 0)).all():
+        raise InputError("stiffness_bar must be positive and finite: leave other loads out")
+    log_force = np.log(force)
+    resamples = _resampled_log_means(stiffness, averaging, rng)
+    each = 1 - (1 - confidence) / 2  # Bonferroni: two tests
+    for points in range(force.size, 4, -1):
+        lengths = log_force[points - 1 :] - log_force[: force.size - points + 1]
+        for first in np.argsort(-lengths, kind="stable"):
+            inside = slice(first, first + points)
+            bends = resamples[:, inside] @ _bends(log_force[inside])
+            low, high = bootstrap.percentile_interval(bends, each)
+            if ((low <= 0) & (high >= 0)).all():
+                return float(force[first]), float(force[first + points - 1])
+    return None
+
+
+def _bends(x: Real) -> Real:
+    """Orthonormal polynomials of second and third degree over x, as columns."""
+    scaled = 2 * (x - x[0]) / (x[-1] - x[0]) - 1
+    basis, _ = np.linalg.qr(np.vander(scaled, 4, increasing=True))
+    return basis[:, 2:]
+
+
+def _log_mean(stiffness: Real, averaging: Averaging) -> Real:
+    if averaging == "geometric":
+        return np.log(stiffness).mean(axis=0)
+    return np.log(stiffness.mean(axis=0))
+
+
+def _resampled_log_means(stiffness: Real, averaging: Averaging, rng: int) -> Real:
+    if averaging == "geometric":
+        return bootstrap.resampled_means(np.log(stiffness), rng)
+    return np.log(bootstrap.resampled_means(stiffness, rng))
 
 
 def scaling_exponent(fractal_dimension: Value) -> Value:

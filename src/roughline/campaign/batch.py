@@ -67,8 +67,9 @@ VARIABLES: dict[str, tuple[str, float, str]] = {
     "status": ("i1", -1, "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"),
     "resolved": ("i1", -1, "1 where at least 10 springs or cells are in contact, -1 not done"),
     "rms_slope": ("f8", np.nan, "rms slope L / h of the grid, forward differences"),
+    "highest": ("f8", np.nan, "highest point above the mean / h"),
 }
-PER_BODY = ("rms_slope",)
+PER_BODY = ("rms_slope", "highest")
 _OF_SURFACES = ("area_fraction", "area_fraction_corrected")
 
 
@@ -117,9 +118,7 @@ def evaluate(batch: Batch, threads: int, version: str) -> Outcome:
         shape = (len(batch.cells),) if name in PER_BODY else (len(batch.cells), loads)
         results[name] = np.full(shape, fill, dtype=dtype)
     failures: dict[Cell, str] = {}
-    for i, (cell, dimension) in enumerate(
-        zip(batch.cells, batch.fractal_dimensions, strict=True)
-    ):
+    for i, (cell, dimension) in enumerate(zip(batch.cells, batch.fractal_dimensions, strict=True)):
         try:
             case = evaluate_case(ensemble, dimension, cell[1])
         except Exception as error:  # whatever it is, the others go on, and the store says it
@@ -134,17 +133,20 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
     """Generate and press one body; every variable over the loads, or alone."""
     spectrum = ensemble.spectrum(fractal_dimension)
     seed = ensemble.seed_of(realisation)
-    forces = np.array(ensemble.force_bars)
-    if ensemble.model == "reduced":
-        line = spectrum.line(ensemble.n, seed)
-        curve, slope = press(line, E_star=1.0, forces=forces), line.rms_slope
-    else:
-        surface = spectrum.surface(ensemble.n, seed)
-        periodic = ensemble.boundary == "periodic"
-        curve = press(surface, E_star=1.0, forces=forces, periodic=periodic, throw=False)
-        slope = surface.rms_slope
-    values = {name: getattr(curve, name) for name in variables_of(ensemble) if name != "rms_slope"}
-    return {**values, "rms_slope": np.array(slope)}
+    make = spectrum.line if ensemble.model == "reduced" else spectrum.surface
+    body = make(ensemble.n, seed)
+    curve = press(
+        body,
+        E_star=1.0,
+        forces=np.array(ensemble.force_bars),
+        periodic=ensemble.boundary == "periodic",
+        throw=False,
+    )
+    of_body = {"rms_slope": body.rms_slope, "highest": body.heights.max() - body.heights.mean()}
+    return {
+        name: np.asarray(of_body[name] if name in of_body else getattr(curve, name))
+        for name in variables_of(ensemble)
+    }
 
 
 def evaluate_gallery(gallery: Gallery, threads: int, version: str) -> Results:

@@ -139,7 +139,7 @@ def refuse_unguarded_script() -> None:
     if trial.exitcode == _IMPORTED:
         raise InputError(
             "this script starts the campaign again whenever a worker imports it: put what it does "
-            "under `if __name__ == \"__main__\":`"
+            'under `if __name__ == "__main__":`'
         )
 
 

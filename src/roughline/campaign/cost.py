@@ -127,9 +127,7 @@ def _timed(ensemble: Ensemble) -> float:
             shape = (ensemble.n, ensemble.n)
             periodic = ensemble.boundary == "periodic"
             return estimates.estimate(shape, len(ensemble.force_bars), periodic=periodic).seconds
-        small = replace(
-            ensemble, n=min(ensemble.n, 2**18), roll_off_ratio=1.0, cutoff_ratio=None
-        )
+        small = replace(ensemble, n=min(ensemble.n, 2**18), roll_off_ratio=1.0, cutoff_ratio=None)
         evaluate_case(small, small.fractal_dimensions[0], 0)  # compiles
         start = time.perf_counter()
         evaluate_case(small, small.fractal_dimensions[0], 0)

@@ -45,7 +45,7 @@ class Summary:
     ----------
     done, failed : Counter
         Cases by ensemble, in this run.
-    core_seconds : Counter
+    core_seconds : dict
         Time of the workers by ensemble. [s]
     reasons : Counter
         Why cases failed, equal reasons together.
@@ -53,7 +53,7 @@ class Summary:
 
     done: Counter[str] = field(default_factory=Counter)
     failed: Counter[str] = field(default_factory=Counter)
-    core_seconds: Counter[str] = field(default_factory=Counter)
+    core_seconds: dict[str, float] = field(default_factory=dict)
     reasons: Counter[str] = field(default_factory=Counter)
 
 
@@ -167,9 +167,8 @@ class _Campaign:
     def work(self, batches: dict[str, list[Batch]], draws: bool) -> None:
         """Compute and write all batches, and the gallery if it is wanted."""
         waiting = iter([batch for found in batches.values() for batch in found])
-        if draws:
-            gallery = partial(evaluate_gallery, self.plan.gallery)
-            self.pending[self._submit(gallery)] = None
+        if draws and self.plan.gallery is not None:
+            self.pending[self._submit(partial(evaluate_gallery, self.plan.gallery))] = None
         try:
             self._send(waiting)
             while self.pending:
@@ -240,7 +239,8 @@ class _Campaign:
         summary = self.summary
         summary.done[name] += len(batch.cells) - failed
         summary.failed[name] += failed
-        summary.core_seconds[name] += outcome.seconds * self.threads
+        spent = summary.core_seconds.get(name, 0.0)
+        summary.core_seconds[name] = spent + outcome.seconds * self.threads
         summary.reasons.update(outcome.failures.values())
         total = batch.ensemble.cases
         done = total - self.missing[name] + summary.done[name]

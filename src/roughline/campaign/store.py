@@ -8,6 +8,7 @@ damaged later are found and emptied before a campaign goes on, and their cases c
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from itertools import product
@@ -68,7 +69,7 @@ class Store:
         if not self.path.is_dir():
             raise StoreError(f"{path} does not exist; a store made by a campaign is needed")
         try:
-            self._root: Any = zarr.open_group(self.path, mode="r+")
+            self._root: Any = zarr.open_group(self.path, mode="r+", use_consolidated=False)
             marks = dict(self._root.attrs)
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise _damaged_or_foreign(self.path) from error
@@ -135,17 +136,20 @@ class Writer(Store):
     def __init__(self, path: Path, plan: Plan) -> None:
         super().__init__(path)
         self.plan = plan
-        for ensemble in plan.ensembles:
-            self._prepare(ensemble)
-            _mend(self._root[ensemble.name])
-        if self.has_gallery and not self._gallery_is_whole(plan.gallery):
-            self._root.attrs["gallery_done"] = False
+        try:
+            for ensemble in plan.ensembles:
+                self._prepare(ensemble)
+                _mend(self._root[ensemble.name])
+            if self.has_gallery and not self._gallery_is_whole(plan.gallery):
+                self._root.attrs["gallery_done"] = False
+        except (ValueError, KeyError, TypeError) as error:
+            raise _damaged_or_foreign(path) from error
 
     def missing(self, ensemble: Ensemble) -> list[Batch]:
         """List what is not done, a batch for each chunk; cases that failed are tried again."""
         group = self._root[ensemble.name]
         status = group["case_status"][:]
-        stored = [float(value) for value in group["fractal_dimension"][:]]
+        stored = group.attrs["fractal_dimensions"]
         rows = [stored.index(dimension) for dimension in ensemble.fractal_dimensions]
         high, wide = group["case_status"].chunks
         chunks: dict[tuple[int, int], list[tuple[int, int]]] = {}
@@ -193,6 +197,14 @@ class Writer(Store):
         except OSError as error:
             raise _unwritable(self.path, error) from error
 
+    def consolidate(self) -> None:
+        """Gather the metadata of all groups in one place, where xarray looks first."""
+        import zarr
+
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
+            zarr.consolidate_metadata(self.path)
+
     def _note(self, group: Any, batch: Batch, failures: dict[tuple[int, int], str]) -> None:
         before = dict(group.attrs["failures"])
         named = {
@@ -208,7 +220,12 @@ class Writer(Store):
         """Make the group of an ensemble, or enlarge it; nothing that is there changes."""
         wanted = json.loads(json.dumps(ensemble.identity()))
         if ensemble.name not in self._root:
-            attributes = {**wanted, "failures": {}, **_descriptions(ensemble)}
+            attributes = {
+                **wanted,
+                **_descriptions(ensemble),
+                "fractal_dimensions": [],
+                "failures": {},
+            }
             self._root.create_group(ensemble.name, attributes=attributes)
         group = self._root[ensemble.name]
         found = {key: group.attrs.get(key) for key in wanted}
@@ -219,13 +236,12 @@ class Writer(Store):
                 f"{_short(found[key])}, the plan's is {_short(wanted[key])}; rename the ensemble, "
                 "or choose another folder"
             )
-        stored = group["fractal_dimension"][:] if "fractal_dimension" in group else np.empty(0)
-        # what an interrupted enlargement left without a name holds no results
-        known = [float(value) for value in stored if np.isfinite(value)]
-        known += [value for value in ensemble.fractal_dimensions if value not in known]
-        realisations = max(
-            ensemble.realisations, group["realisation"].shape[0] if "realisation" in group else 0
-        )
+        before = list(group.attrs["fractal_dimensions"])
+        known = before + [value for value in ensemble.fractal_dimensions if value not in before]
+        if known != before:
+            group.attrs["fractal_dimensions"] = known
+        there = group["case_status"].shape[1] if "case_status" in group else 0
+        realisations = max(ensemble.realisations, there)
         shape = (len(known), realisations, len(ensemble.force_bars))
         chunks = (*chunk_shape(ensemble), len(ensemble.force_bars))
         for name in variables_of(ensemble):
@@ -240,7 +256,8 @@ class Writer(Store):
             array = _array(
                 group, name, value.shape, (2**16,), value.dtype, fill, _COORDINATES[name]
             )
-            if not np.array_equal(_read(array), value):
+            found_value = _read(array)
+            if found_value is None or not np.array_equal(found_value, value):
                 array[:] = value
 
     def _gallery_is_whole(self, gallery: Gallery | None) -> bool:
@@ -293,7 +310,9 @@ def writing(path: str | Path, plan: Plan) -> Iterator[Writer]:
         if not path.exists() or (path.is_dir() and not any(path.iterdir())):
             marks = {"roughline_store": FORMAT, "roughline_version": __version__}
             zarr.create_group(path, attributes=marks)
-        yield Writer(path, plan)
+        writer = Writer(path, plan)
+        yield writer
+        writer.consolidate()
     except OSError as error:
         raise _unwritable(path, error) from error
     finally:
@@ -424,8 +443,10 @@ def _short(value: Any) -> str:
 
 
 def _damaged_or_foreign(path: Path) -> StoreError:
-    what = "is damaged (its zarr.json cannot be read)" if (path / "zarr.json").exists() else (
-        "is no store of roughline"
+    what = (
+        "is damaged (its zarr.json cannot be read)"
+        if (path / "zarr.json").exists()
+        else ("is no store of roughline")
     )
     return StoreError(f"{path} {what}; choose another folder for the campaign")
 

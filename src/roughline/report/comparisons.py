@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
 
 from roughline import scaling
+from roughline.averages import relative_difference
 from roughline.report.style import (
     FORCE_LABEL,
     MARKERS,
@@ -18,9 +21,13 @@ from roughline.report.style import (
     new_figure,
 )
 from roughline.report.summary import WINDOW_AGREEMENT, WINDOW_AREA, DimensionSummary
+from roughline.trust import TrustMap
 
 if TYPE_CHECKING:
     import xarray
+
+CONVERGENCE_DIMENSIONS = (2.0, 2.4, 2.8)
+LINE_STYLES = (":", "-.", "--", "-")
 
 
 def area_law(full: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
@@ -33,7 +40,7 @@ def area_law(full: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
     for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
         one = full.sel(fractal_dimension=dimension)
         area = np.nanmean(one.area_fraction.values, axis=0)
-        certain = one.resolved.values.all(axis=0)
+        certain = (one.resolved.values == 1).all(axis=0)
         force = one.force_bar.values
         left.loglog(
             force[certain], area[certain], color=colour, marker=marker, label=f"{dimension:.1f}"
@@ -62,53 +69,100 @@ def area_law(full: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
     return figure
 
 
-def models_compared(reduced: xarray.Dataset, full: xarray.Dataset) -> Figure:
-    """Raw stiffness of both models, and their ratio."""
+def models_compared(matched: xarray.Dataset, full: xarray.Dataset) -> Figure:
+    """Raw stiffness of both models with the same waves, and their relative difference."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
     dimensions = full.fractal_dimension.values
+    force = full.force_bar.values
     for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
-        one_1d, one_3d = (data.sel(fractal_dimension=dimension) for data in (reduced, full))
-        force = one_3d.force_bar.values
-        mean_1d = np.nanmean(one_1d.stiffness.values, axis=0)
-        mean_3d = np.nanmean(one_3d.stiffness.values, axis=0)
-        visible = one_1d.force_bar.values >= force[0]
-        certain = one_3d.resolved.values.all(axis=0)
-        left.loglog(one_1d.force_bar[visible], mean_1d[visible], color=colour, linewidth=1)
-        left.loglog(
-            force[certain],
-            mean_3d[certain],
-            color=colour,
-            marker=marker,
-            linestyle="",
-            label=f"{dimension:.1f}",
+        stiffness_1d, stiffness_3d = (
+            data.sel(fractal_dimension=dimension).stiffness.values for data in (matched, full)
         )
-        left.loglog(
-            force[~certain],
-            mean_3d[~certain],
-            color=colour,
-            marker=marker,
-            linestyle="",
-            fillstyle="none",
+        certain = (full.sel(fractal_dimension=dimension).resolved.values == 1).all(axis=0)
+        look = {"color": colour, "marker": marker}
+        left.loglog(force, np.nanmean(stiffness_1d, axis=0), color=colour, linewidth=1)
+        for shown, fill in ((certain, "full"), (~certain, "none")):
+            left.loglog(
+                force[shown],
+                np.nanmean(stiffness_3d, axis=0)[shown],
+                linestyle="",
+                fillstyle=fill,
+                label=f"{dimension:.1f}" if fill == "full" else None,
+                **look,
+            )
+        difference, low, high = relative_difference(stiffness_3d, stiffness_1d, paired=False)
+        right.fill_between(
+            force[certain], low[certain], high[certain], color=colour, alpha=0.2, linewidth=0
         )
-        at_force = np.exp(np.interp(np.log(force), np.log(one_1d.force_bar), np.log(mean_1d)))
-        error = np.nanstd(one_3d.stiffness.values, axis=0, ddof=1) / np.sqrt(
-            one_3d.sizes["realisation"]
-        )
-        right.errorbar(
-            force[certain],
-            (mean_3d / at_force)[certain],
-            yerr=(error / at_force)[certain],
-            color=colour,
-            marker=marker,
-            linewidth=1,
-            elinewidth=0.6,
-        )
+        right.plot(force[certain], difference[certain], linewidth=1, **look)
     left.set(xlabel=FORCE_LABEL, ylabel=r"raw stiffness $k\,/\,(E^* L)$")
     left.annotate("lines 1D, marks 3D", (0.04, 0.92), xycoords="axes fraction", fontsize=7.5)
     legend_dimensions(left, dimensions)
     right.axvspan(*WINDOW_AGREEMENT, **SHADE)
-    right.axhline(1, color="k", linewidth=0.7)
-    right.axhline(scaling.EXACT_PUNCH, color="0.4", linewidth=0.8, linestyle=":")
-    right.set(xscale="log", xlabel=FORCE_LABEL, ylabel="raw stiffness, 3D over 1D")
+    right.axhline(0, color="k", linewidth=0.7)
+    right.axhline(scaling.EXACT_PUNCH - 1, color="0.4", linewidth=0.8, linestyle=":")
+    right.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    right.set(xscale="log", xlabel=FORCE_LABEL, ylabel="raw stiffness, 3D over 1D, less 1")
+    return figure
+
+
+def grid_convergence(grids: dict[int, xarray.Dataset]) -> Figure:
+    """Stiffness and area of the same surfaces on several grids, relative to the finest."""
+    figure = new_figure(PAGE, 3.0)
+    axes = figure.subplots(1, 2)
+    for panel, name in zip(axes, ("stiffness", "area_fraction_corrected"), strict=True):
+        for dimension, colour in zip(CONVERGENCE_DIMENSIONS, colours(3), strict=True):
+            found = {
+                n: data.sel(fractal_dimension=dimension)
+                for n, data in sorted(grids.items())
+                if dimension in data.fractal_dimension.values
+            }
+            finest = max(found)
+            for (n, data), style in zip(found.items(), LINE_STYLES, strict=False):
+                if n == finest:
+                    continue
+                reference = found[finest]
+                shared = np.intersect1d(data.force_bar, reference.force_bar)
+                one, best = (
+                    part.sel(force_bar=shared)[name].isel(realisation=0).values
+                    for part in (data, reference)
+                )
+                sure = data.sel(force_bar=shared).resolved.isel(realisation=0).values == 1
+                panel.semilogx(
+                    shared[sure],
+                    (one / best - 1)[sure],
+                    color=colour,
+                    linestyle=style,
+                    label=f"{dimension:.1f}, {n}² to {finest}²",
+                )
+        panel.axhline(0, color="k", linewidth=0.7)
+        panel.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+        panel.set(xlabel=FORCE_LABEL)
+    axes[0].set(ylabel="stiffness, relative to the finest grid")
+    axes[1].set(ylabel="real area, relative to the finest grid")
+    axes[0].legend(title="$D_f$, grid", fontsize=6, ncols=2)
+    return figure
+
+
+def trust_map(trust: TrustMap) -> Figure:
+    """Relative difference of the two models over load and fractal dimension, for each roll-off."""
+    count = trust.roll_off_ratios.size
+    figure = new_figure(PAGE, 2.7)
+    panels = figure.subplots(1, count, sharey=True)
+    levels = np.array([-0.75, -0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0])
+    norm = BoundaryNorm(levels, 256, extend="both")
+    for i, (panel, roll_off) in enumerate(zip(panels, trust.roll_off_ratios, strict=True)):
+        values, doubt = trust.difference[i], ~trust.resolved[i]
+        shown = panel.pcolormesh(
+            trust.force_bars, trust.fractal_dimensions, values, cmap="RdBu_r", norm=norm
+        )
+        hidden = np.ma.masked_where(~doubt, np.ones(values.shape))
+        panel.pcolor(
+            trust.force_bars, trust.fractal_dimensions, hidden, hatch="////", alpha=0, linewidth=0
+        )
+        panel.set(xscale="log", title=f"$q_r/q_0$ = {roll_off:g}", xlabel=r"$\bar F$")
+    panels[0].set(ylabel="fractal dimension $D_f$")
+    bar = figure.colorbar(shown, ax=panels, label="3D over 1D, less 1", ticks=levels)
+    bar.ax.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
     return figure

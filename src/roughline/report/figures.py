@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from roughline import scaling
-from roughline.power_law import PowerLaw, linear_exponent, scaling_exponent
+from roughline.power_law import linear_exponent, scaling_exponent
 from roughline.report.style import (
     COLUMN,
     FORCE_LABEL,
@@ -131,9 +131,7 @@ def figure_4(full: xarray.Dataset) -> Figure:
     return figure
 
 
-def figure_5(
-    laws_1d: list[PowerLaw], dimensions_1d: Real, summaries: list[DimensionSummary]
-) -> Figure:
+def figure_5(exponents: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
     """Exponent over fractal dimension: both models and the two predictions."""
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()
@@ -141,14 +139,19 @@ def figure_5(
     dark, light = colours(2)
     axes.plot(fine, scaling_exponent(fine), "k--", linewidth=1, label=r"$1/(4 - D_f)$")
     axes.plot(fine, linear_exponent(fine), "k:", linewidth=1.2, label=r"$0.2567\,D_f$")
-    intervals = np.array([law.exponent_interval for law in laws_1d]).T
-    axes.fill_between(dimensions_1d, *intervals, color=light, alpha=0.45, linewidth=0)
-    axes.plot(
-        dimensions_1d,
-        [law.exponent for law in laws_1d],
-        color=light,
-        label=f"1D, {_window(WINDOW_REDUCED)}",
-    )
+    for i, style in zip(range(exponents.sizes["window"]), ("-", "--", ":"), strict=True):
+        one = exponents.isel(window=i)
+        span = (float(one.window_low), float(one.window_high))
+        axes.fill_between(
+            one.fractal_dimension, one.low, one.high, color=light, alpha=0.45, linewidth=0
+        )
+        axes.plot(
+            one.fractal_dimension,
+            one.exponent,
+            color=light,
+            linestyle=style,
+            label=f"1D, {_window(span)}",
+        )
     alpha = np.array([s.full.exponent for s in summaries])
     low, high = np.array([s.full.exponent_interval for s in summaries]).T
     axes.errorbar(
@@ -179,7 +182,7 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
         mean = np.nanmean(stiffness, axis=0)
         error = np.nanstd(stiffness, axis=0, ddof=1) / np.sqrt(stiffness.shape[0])
         force = one.force_bar.values
-        certain = one.resolved.values.all(axis=0)
+        certain = (one.resolved.values == 1).all(axis=0)
         every = max(1, force.size // 24)
         axes.fill_between(force, mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
         axes.loglog(
@@ -221,5 +224,10 @@ def _as_fraction(value: float) -> str:
 
 
 def _window(window: Window) -> str:
-    low, high = (f"10^{{{np.log10(edge):.0f}}}" for edge in window)
+    low, high = (_power_of_ten(edge) for edge in window)
     return rf"$\bar F = {low}$ to ${high}$"
+
+
+def _power_of_ten(value: float) -> str:
+    exponent = np.log10(value)
+    return f"10^{{{exponent:.0f}}}" if abs(exponent - round(exponent)) < 1e-6 else f"{value:g}"

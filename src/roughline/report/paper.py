@@ -1,4 +1,4 @@
-"""The paper recomputed: figures, data and one page, from the store of a study."""
+"""The paper recomputed: figures, data and one page, from the results of a study."""
 
 from __future__ import annotations
 
@@ -9,23 +9,36 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from roughline._version import __version__
-from roughline.campaign.plan import Plan, Scale, paper_plan
+from roughline.campaign.paper import LINES, MATCHED, SURFACES, Scale, paper_plan
 from roughline.campaign.run import Progress, run
 from roughline.campaign.store import Store
 from roughline.errors import StoreError
 from roughline.report import comparisons, figures
 from roughline.report.claims import Claim, judge
 from roughline.report.page import Picture, Section, Table, render
+from roughline.report.results import PaperResults
+from roughline.report.sensitivity import (
+    WINDOWS_FULL,
+    WINDOWS_REDUCED,
+    Sensitivity,
+    sensitivity,
+)
 from roughline.report.style import save, styled
 from roughline.report.summary import (
     WINDOW_AREA,
     WINDOW_FULL,
     WINDOW_REDUCED,
     DimensionSummary,
-    exponents,
+    Window,
+    exponents_of,
     summarise,
 )
-from roughline.report.tables import constant_table, exponent_table, write_data
+from roughline.report.tables import (
+    constant_table,
+    exponent_table,
+    sensitivity_table,
+    write_data,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -71,15 +84,28 @@ _CAPTIONS = {
     ),
     "models_compared": (
         "Both models",
-        "Left: raw stiffness k / (E* L); open marks where fewer than ten cells touch. Right: their "
-        "ratio with the standard error of the 3D mean. Near saturation the models must differ, by "
-        "the factor 1.1523 (dotted).",
+        "Left: raw stiffness k / (E* L); open marks where fewer than ten cells touch. The lines "
+        "have the waves of the surfaces and no shorter ones. Right: relative difference of the "
+        "means with 95 % intervals. Near saturation the models must differ, by 15.2 % (dotted).",
+    ),
+    "grid_convergence": (
+        "The influence of the grid",
+        "One surface for each fractal dimension, computed on several grids: every grid carries all "
+        "waves down to its own spacing, so a finer one shows more roughness as well as less error. "
+        "Heights are scaled to rms 1 on each grid.",
     ),
 }
 
 
 def recompute(
-    scale: Scale, out: Path, seed: int, workers: int | None = None, progress: Progress | None = None
+    scale: Scale,
+    out: Path,
+    seed: int,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | None = None,
+    announce: Callable[[str], None] | None = None,
 ) -> Path:
     """Run the paper's study, or what is left of it, and write its report.
 
@@ -91,10 +117,8 @@ def recompute(
         Folder for results and report. One that holds part of the same study is gone on with.
     seed : int
         Root of all seeds.
-    workers : int, optional
-        Processes; default: one for each core.
-    progress : callable, optional
-        Called with (stage, batches done, batches in all).
+    workers, scheduler, progress, announce
+        As for :func:`roughline.campaign.run`.
 
     Returns
     -------
@@ -105,27 +129,37 @@ def recompute(
     ------
     StoreError
         If the folder cannot be written, or holds another study.
+    ClusterError
+        If the cluster cannot be used.
     """
     plan = paper_plan(scale, seed)
-    store = Store(out / "results.zarr", plan)
-    run(plan, store, workers, progress)
+    place = out / "results.zarr"
+    run(plan, place, workers=workers, scheduler=scheduler, progress=progress, announce=announce)
+    store = Store(place)
+    results = PaperResults(
+        name=f"at the {scale} scale",
+        command=f"roughline paper --scale {scale} --seed {seed}",
+        reduced=store.dataset(LINES),
+        full=store.dataset(SURFACES),
+        matched=store.dataset(MATCHED),
+        exponents=exponents_of(store.dataset(LINES), WINDOWS_REDUCED),
+        gallery=store.gallery(),
+    )
     try:
-        return write_report(plan, store, out)
+        return write_report(results, out)
     except OSError as error:
         raise StoreError(
             f"cannot write the report to {out} ({error}); the results are kept"
         ) from error
 
 
-def write_report(plan: Plan, store: Store, out: Path) -> Path:
+def write_report(results: PaperResults, out: Path) -> Path:
     """Write figures, data and ``report.html`` of a finished study.
 
     Parameters
     ----------
-    plan : Plan
+    results : PaperResults
         The study.
-    store : Store
-        Its results, complete.
     out : Path
         Folder for everything; made if it does not exist.
 
@@ -134,49 +168,59 @@ def write_report(plan: Plan, store: Store, out: Path) -> Path:
     Path
         The page.
     """
-    reduced, full, gallery = store.dataset(plan.reduced), store.dataset(plan.full), store.gallery()
-    summaries = summarise(reduced, full)
-    claims = judge(summaries, reduced, full)
-    laws_1d = exponents(reduced, WINDOW_REDUCED)
-    dimensions = full.fractal_dimension.values
-    drawings: dict[str, Callable[[], Figure]] = {
-        "figure_1": lambda: figures.figure_1(gallery),
-        "figure_2": lambda: figures.figure_2(gallery),
-        "figure_3": lambda: figures.figure_3(reduced, dimensions),
-        "figure_4": lambda: figures.figure_4(full),
-        "figure_5": lambda: figures.figure_5(laws_1d, reduced.fractal_dimension.values, summaries),
-        "area_law": lambda: comparisons.area_law(full, summaries),
-        "models_compared": lambda: comparisons.models_compared(reduced, full),
-    }
-    (out / "figures").mkdir(parents=True, exist_ok=True)
-    pictures = []
-    with styled():
-        for file_name, draw in drawings.items():
-            png, _ = save(draw(), out / "figures", file_name)
-            name, caption = _CAPTIONS[file_name]
-            pictures.append(Picture(png, name, caption.format(force_bar=plan.gallery.force_bar)))
-    write_data(out / "data", reduced, full, gallery, summaries, claims)
+    title, lead, sections = compose(results, out)
     page = out / "report.html"
-    sections = _sections(plan, reduced, full, summaries, claims, pictures)
-    lead = (
-        f"Normal contact of fractal rough surfaces in two models, recomputed with roughline "
-        f"{__version__} at the {plan.scale} scale."
-    )
-    page.write_text(
-        render("The paper, recomputed: reduction method and 3D boundary elements", lead, sections),
-        encoding="utf-8",
-    )
+    page.write_text(render(title, lead, sections), encoding="utf-8")
     return page
 
 
+def compose(results: PaperResults, out: Path) -> tuple[str, str, list[Section]]:
+    """Draw the figures and write the data of a study; title, lead and sections of its page."""
+    summaries = summarise(results)
+    claims = judge(summaries, results)
+    pictures = _draw(results, summaries, out / "figures")
+    write_data(out / "data", results, summaries, claims)
+    lead = (
+        f"Normal contact of fractal rough surfaces in two models, recomputed with roughline "
+        f"{__version__} {results.name}."
+    )
+    title = "The paper, recomputed: reduction method and 3D boundary elements"
+    return title, lead, _sections(results, summaries, claims, pictures)
+
+
+def _draw(results: PaperResults, summaries: list[DimensionSummary], folder: Path) -> list[Picture]:
+    reduced, full, gallery = results.reduced, results.full, results.gallery
+    drawings: dict[str, Callable[[], Figure]] = {}
+    if gallery is not None:
+        drawings["figure_1"] = lambda: figures.figure_1(gallery)
+        drawings["figure_2"] = lambda: figures.figure_2(gallery)
+    drawings |= {
+        "figure_3": lambda: figures.figure_3(reduced, full.fractal_dimension.values),
+        "figure_4": lambda: figures.figure_4(full),
+        "figure_5": lambda: figures.figure_5(results.exponents, summaries),
+        "area_law": lambda: comparisons.area_law(full, summaries),
+        "models_compared": lambda: comparisons.models_compared(results.matched, full),
+    }
+    if results.grids:
+        drawings["grid_convergence"] = lambda: comparisons.grid_convergence(results.grids)
+    folder.mkdir(parents=True, exist_ok=True)
+    force_bar = gallery.attrs["force_bar"] if gallery is not None else 0.0
+    pictures = []
+    with styled():
+        for file_name, draw in drawings.items():
+            png, _ = save(draw(), folder, file_name)
+            name, caption = _CAPTIONS[file_name]
+            pictures.append(Picture(png, name, caption.format(force_bar=force_bar)))
+    return pictures
+
+
 def _sections(
-    plan: Plan,
-    reduced: xarray.Dataset,
-    full: xarray.Dataset,
+    results: PaperResults,
     summaries: list[DimensionSummary],
     claims: list[Claim],
     pictures: list[Picture],
 ) -> list[Section]:
+    reduced, full = results.reduced, results.full
     return [
         Section(
             "The paper's claims",
@@ -204,6 +248,21 @@ def _sections(
             ],
             tables=[exponent_table(summaries), constant_table(summaries)],
         ),
+        Section(
+            "How much α depends on the window and on the averaging",
+            [
+                "Exponents by least squares of the logarithms: of the arithmetic mean of k at "
+                "fixed force, of its geometric mean, and of the means of k and of F at fixed "
+                "level of the rigid plane, where the highest realisations dominate. The automatic "
+                "window is the longest in which a power law is not rejected: neither a parabola "
+                "nor a cubic improves on it beyond the scatter of resampled realisations; loads "
+                "with fewer than ten springs or cells in some realisation are not in it."
+            ],
+            tables=[
+                sensitivity_table("1D", _by_dimension(reduced, full, WINDOWS_REDUCED)),
+                sensitivity_table("3D", _by_dimension(full, full, WINDOWS_FULL)),
+            ],
+        ),
         Section("Figures", pictures=pictures),
         Section(
             "What was computed, and how",
@@ -215,9 +274,9 @@ def _sections(
                 "2π/L to the grid (no roll-off), C_1D = π q C_2D; phases are random, moduli fixed; "
                 "heights are scaled to rms 1 in both models.",
             ],
-            tables=[_settings_table(plan)],
+            tables=[_settings_table(results)],
             note=(
-                f"To repeat: roughline paper --scale {plan.scale} (version {__version__}). "
+                f"To repeat: {results.command} (version {__version__}). "
                 "The numbers behind every figure are in the folder data, as NetCDF and CSV."
             ),
         ),
@@ -237,20 +296,33 @@ def _completeness(
     )
 
 
-def _settings_table(plan: Plan) -> Table:
+def _by_dimension(
+    data: xarray.Dataset, full: xarray.Dataset, windows: tuple[Window, ...]
+) -> list[Sensitivity]:
+    return [
+        sensitivity(data.sel(fractal_dimension=dimension), windows)
+        for dimension in full.fractal_dimension.values
+    ]
+
+
+def _settings_table(results: PaperResults) -> Table:
+    named = [
+        ("reduced, 1D", results.reduced),
+        ("reduced, with the waves of the surfaces", results.matched),
+        ("full, 3D", results.full),
+    ]
+    named += [(f"full, {n}²", data) for n, data in sorted(results.grids.items())]
     rows = []
-    for name, ensemble in (("reduced, 1D", plan.reduced), ("full, 3D", plan.full)):
-        points = f"{ensemble.n}" if ensemble.model == "reduced" else f"{ensemble.n} × {ensemble.n}"
-        dimensions = ensemble.fractal_dimensions
+    for name, data in named:
+        n, dimensions, forces = data.attrs["n"], data.fractal_dimension.values, data.force_bar
         rows.append(
             (
                 name,
-                f"{len(dimensions)}, from {dimensions[0]:g} to {dimensions[-1]:g}",
-                f"{ensemble.realisations}",
-                points,
-                f"{len(ensemble.force_bars)}, F̄ = {ensemble.force_bars[0]:g} to "
-                f"{ensemble.force_bars[-1]:g}",
-                f"SeedSequence({ensemble.seed}, spawn_key=(i,))",
+                f"{dimensions.size}, from {dimensions[0]:g} to {dimensions[-1]:g}",
+                f"{data.sizes['realisation']}",
+                f"{n}" if data.attrs["model"] == "reduced" else f"{n} × {n}",
+                f"{forces.size}, F̄ = {forces.values[0]:g} to {forces.values[-1]:g}",
+                f"SeedSequence({data.attrs['seed']}, spawn_key=(i,))",
             )
         )
     header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from roughline import bootstrap, scaling
 from roughline.errors import InputError
 from roughline.power_law import PowerLaw, fit_power_law
+from roughline.report.results import PaperResults
 
 if TYPE_CHECKING:
     import xarray
@@ -54,7 +56,8 @@ class DimensionSummary:
     reduced_elsewhere : tuple of PowerLaw
         The reduced model's law in other windows.
     agreement : Estimate
-        Full over reduced raw stiffness at fixed F̄, geometric mean over the window.
+        Full over reduced raw stiffness at fixed F̄, geometric mean over the window; both models
+        have the same waves.
     kappa : Estimate
         A E* slope / F of eq. 4, by least squares through the origin.
     area_exponent : Estimate
@@ -76,21 +79,45 @@ class DimensionSummary:
     left_out: int
 
 
-def summarise(reduced: xarray.Dataset, full: xarray.Dataset) -> list[DimensionSummary]:
-    """Evaluate both ensembles for each fractal dimension that both have."""
+def summarise(results: PaperResults) -> list[DimensionSummary]:
+    """Evaluate the ensembles for each fractal dimension of the full model."""
     return [
-        _summary(reduced.sel(fractal_dimension=dimension), full.sel(fractal_dimension=dimension))
-        for dimension in full.fractal_dimension.values
+        _summary(*(data.sel(fractal_dimension=dimension) for data in results.ensembles))
+        for dimension in results.full.fractal_dimension.values
     ]
 
 
-def exponents(data: xarray.Dataset, window: Window) -> list[PowerLaw]:
-    """Fit the power law for every fractal dimension of an ensemble."""
-    laws = []
+def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Dataset:
+    """Fit the power law for every fractal dimension of an ensemble, in several windows.
+
+    Returns
+    -------
+    Dataset
+        exponent, low, high, prefactor and left_out over (window, fractal_dimension).
+    """
+    import xarray  # here because it loads slowly
+
+    found: dict[str, list[list[float]]] = {
+        name: [[] for _ in windows] for name in ("exponent", "low", "high", "prefactor", "left_out")
+    }
     for dimension in data.fractal_dimension.values:
         one = data.sel(fractal_dimension=dimension)
-        laws.append(fit_power_law(one.force_bar.values, _usable(one, window)[0], window))
-    return laws
+        for i, window in enumerate(windows):
+            stiffness, left_out = usable(one, window)
+            law = fit_power_law(one.force_bar.values, stiffness, window)
+            row = (law.exponent, *law.exponent_interval, law.prefactor, left_out)
+            for name, value in zip(found, row, strict=True):
+                found[name][i].append(float(value))
+    variables = {name: (("window", "fractal_dimension"), table) for name, table in found.items()}
+    coordinates = {
+        "fractal_dimension": data.fractal_dimension.values,
+        "window_low": ("window", [low for low, _ in windows]),
+        "window_high": ("window", [high for _, high in windows]),
+    }
+    kept = ("model", "n", "seed", "roughline_version")
+    attrs = {name: data.attrs[name] for name in kept}
+    attrs["realisations"] = data.sizes["realisation"]
+    return xarray.Dataset(variables, coordinates, attrs)
 
 
 def saturation(full: xarray.Dataset, k_bar: float = 0.9) -> list[float]:
@@ -105,11 +132,13 @@ def saturation(full: xarray.Dataset, k_bar: float = 0.9) -> list[float]:
     return fractions
 
 
-def _summary(reduced: xarray.Dataset, full: xarray.Dataset) -> DimensionSummary:
-    stiffness_1d, left_out_1d = _usable(reduced, WINDOW_REDUCED)
-    stiffness_3d, left_out_3d = _usable(full, WINDOW_FULL)
+def _summary(
+    reduced: xarray.Dataset, full: xarray.Dataset, matched: xarray.Dataset
+) -> DimensionSummary:
+    stiffness_1d, left_out_1d = usable(reduced, WINDOW_REDUCED)
+    stiffness_3d, left_out_3d = usable(full, WINDOW_FULL)
     force_1d, force_3d = reduced.force_bar.values, full.force_bar.values
-    in_window = _inside(force_3d, WINDOW_FULL)
+    in_window = inside_window(force_3d, WINDOW_FULL)
     kappa, area_exponent = _area_law(full)
     return DimensionSummary(
         fractal_dimension=float(full.fractal_dimension),
@@ -118,7 +147,7 @@ def _summary(reduced: xarray.Dataset, full: xarray.Dataset) -> DimensionSummary:
         reduced_elsewhere=tuple(
             fit_power_law(force_1d, stiffness_1d, window) for window in OTHER_WINDOWS_REDUCED
         ),
-        agreement=_agreement(reduced, full),
+        agreement=_agreement(matched, full),
         kappa=kappa,
         area_exponent=area_exponent,
         unresolved=1 - float(full.resolved.values[:, in_window].mean()),
@@ -126,27 +155,24 @@ def _summary(reduced: xarray.Dataset, full: xarray.Dataset) -> DimensionSummary:
     )
 
 
-def _agreement(reduced: xarray.Dataset, full: xarray.Dataset) -> Estimate:
-    """Full over reduced stiffness; the reduced mean curve is read between its dense loads."""
-    inside = _inside(full.force_bar.values, WINDOW_AGREEMENT)
-    log_force = np.log(full.force_bar.values[inside])
-    mean_1d = _usable(reduced, WINDOW_AGREEMENT)[0].mean(axis=0)
-    log_1d = np.interp(log_force, np.log(reduced.force_bar.values), np.log(mean_1d))
-    values_3d = _usable(full, WINDOW_AGREEMENT)[0][:, inside]
-    log_ratio = np.log(values_3d.mean(axis=0)) - log_1d
-    # the two ensembles are independent: their half-widths add in quadrature
-    ends_3d = bootstrap.interval(values_3d, lambda mean: float(np.log(mean).mean()))
-    inside_1d = _inside(reduced.force_bar.values, WINDOW_AGREEMENT)
-    values_1d = _usable(reduced, WINDOW_AGREEMENT)[0][:, inside_1d]
-    ends_1d = bootstrap.interval(values_1d, lambda mean: float(np.log(mean).mean()))
-    half_width = float(np.hypot(np.ptp(ends_3d), np.ptp(ends_1d))) / 2
-    middle = float(log_ratio.mean())
-    return Estimate(*np.exp([middle, middle - half_width, middle + half_width]).tolist())
+def _agreement(matched: xarray.Dataset, full: xarray.Dataset) -> Estimate:
+    """Full over reduced stiffness, of surfaces and of lines with the same waves."""
+    inside = inside_window(full.force_bar.values, WINDOW_AGREEMENT)
+    values_3d, values_1d = (
+        usable(data, WINDOW_AGREEMENT)[0][:, inside] for data in (full, matched)
+    )
+    middle = float(np.log(values_3d.mean(axis=0) / values_1d.mean(axis=0)).mean())
+    # the two ensembles are independent: they are resampled apart
+    resamples = np.log(
+        bootstrap.resampled_means(values_3d, 0) / bootstrap.resampled_means(values_1d, 1)
+    )
+    low, high = bootstrap.percentile_interval(resamples.mean(axis=1))
+    return Estimate(*np.exp([middle, float(low), float(high)]).tolist())
 
 
 def _area_law(full: xarray.Dataset) -> tuple[Estimate, Estimate]:
     """Kappa and the exponent of the real area over the force."""
-    inside = _inside(full.force_bar.values, WINDOW_AREA)
+    inside = inside_window(full.force_bar.values, WINDOW_AREA)
     force = full.force_bar.values[inside]
     area = full.area_fraction.values[:, inside]
     finite = np.isfinite(area).all(axis=1)
@@ -165,10 +191,10 @@ def _area_law(full: xarray.Dataset) -> tuple[Estimate, Estimate]:
     )
 
 
-def _usable(data: xarray.Dataset, window: Window) -> tuple[Real, int]:
+def usable(data: xarray.Dataset, window: Window) -> tuple[Real, int]:
     """Raw stiffness of the realisations that converged throughout a window; how many did not."""
     stiffness = data.stiffness.values
-    usable = np.isfinite(stiffness[:, _inside(data.force_bar.values, window)]).all(axis=1)
+    usable = np.isfinite(stiffness[:, inside_window(data.force_bar.values, window)]).all(axis=1)
     if not usable.any():
         raise InputError(
             f"no realisation of D_f = {float(data.fractal_dimension):g} converged throughout "
@@ -177,5 +203,6 @@ def _usable(data: xarray.Dataset, window: Window) -> tuple[Real, int]:
     return stiffness[usable], int(np.count_nonzero(~usable))
 
 
-def _inside(force_bar: Real, window: Window) -> NDArray[np.bool_]:
+def inside_window(force_bar: Real, window: Window) -> NDArray[np.bool_]:
+    """Return which loads are in a window, its edges included."""
     return (force_bar >= window[0] * (1 - 1e-9)) & (force_bar <= window[1] * (1 + 1e-9))

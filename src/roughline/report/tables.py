@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughline.campaign.export import mean_table, write_netcdf
 from roughline.power_law import linear_exponent, scaling_exponent
 from roughline.report.claims import Claim
 from roughline.report.page import Table
+from roughline.report.results import PaperResults
+from roughline.report.sensitivity import Sensitivity
 from roughline.report.summary import OTHER_WINDOWS_REDUCED, DimensionSummary
-
-if TYPE_CHECKING:
-    import xarray
 
 
 def exponent_table(summaries: list[DimensionSummary]) -> Table:
@@ -59,15 +58,44 @@ def constant_table(summaries: list[DimensionSummary]) -> Table:
     return Table(header, rows, numbers=range(len(header)))
 
 
+def sensitivity_table(model: str, rows: list[Sensitivity]) -> Table:
+    """Table of the exponents of one model by window and averaging."""
+    windows = [f"{law.window[0]:g} to {law.window[1]:g}" for law in rows[0].arithmetic]
+    header = ["D_f"]
+    for window in windows:
+        header += [f"α {model}, {window}", "geometric", "fixed level"]
+    header += ["automatic window", "α there", "loads left out"]
+    body = []
+    for row in rows:
+        cells = [f"{row.fractal_dimension:.1f}"]
+        for law, other, level in zip(row.arithmetic, row.geometric, row.at_level, strict=True):
+            cells += [
+                _with_interval(law.exponent, law.exponent_interval),
+                f"{other.exponent:.3f}",
+                "-"
+                if np.isnan(level.value)
+                else _with_interval(level.value, (level.low, level.high)),
+            ]
+        found = row.automatic
+        cells += (
+            [
+                f"{found.window[0]:.2g} to {found.window[1]:.2g}",
+                _with_interval(found.exponent, found.exponent_interval),
+            ]
+            if found
+            else ["none", "-"]
+        )
+        body.append([*cells, str(row.unresolved)])
+    return Table(header, body, numbers=range(len(header)))
+
+
 def _with_interval(value: float, interval: tuple[float, float]) -> str:
     return f"{value:.3f} ({interval[0]:.3f}-{interval[1]:.3f})"
 
 
 def write_data(
     folder: Path,
-    reduced: xarray.Dataset,
-    full: xarray.Dataset,
-    gallery: xarray.Dataset,
+    results: PaperResults,
     summaries: list[DimensionSummary],
     claims: list[Claim],
 ) -> None:
@@ -75,21 +103,13 @@ def write_data(
     import pandas as pd  # here because it loads slowly
 
     folder.mkdir(parents=True, exist_ok=True)
-    for name, data in (("reduced", reduced), ("full", full), ("gallery", gallery)):
-        data.to_netcdf(folder / f"{name}.nc", engine="h5netcdf")
-    for name, data in (("reduced", reduced), ("full", full)):
-        stiffness = data.stiffness
-        table = {
-            "stiffness_mean": stiffness.mean("realisation"),
-            "stiffness_standard_deviation": stiffness.std("realisation", ddof=1),
-            "depth_mean": data.depth.mean("realisation"),
-            "realisations_converged": np.isfinite(stiffness).sum("realisation"),
-            "realisations_resolved": data.resolved.sum("realisation"),
-        }
-        if "area_fraction" in data:
-            table["area_fraction_mean"] = data.area_fraction.mean("realisation")
-        frame = pd.DataFrame({key: value.to_series() for key, value in table.items()})
-        frame.to_csv(folder / f"{name}.csv")
+    ensembles = {"reduced": results.reduced, "matched": results.matched, "full": results.full}
+    ensembles |= {f"grid_{n}": data for n, data in results.grids.items()}
+    for name, data in ensembles.items():
+        write_netcdf(data, folder / f"{name}.nc")
+        mean_table(data).to_csv(folder / f"{name}.csv", index=False)
+    if results.gallery is not None:
+        results.gallery.to_netcdf(folder / "gallery.nc", engine="h5netcdf")
     for name, shown in (
         ("exponents", exponent_table(summaries)),
         ("constants", constant_table(summaries)),

@@ -2,54 +2,74 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Protocol
 
 from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     Progress,
+    ProgressColumn,
+    Task,
     TaskID,
     TextColumn,
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
 from rich.table import Table
+from rich.text import Text
 
+from roughline.campaign.run import Summary
+from roughline.campaign.store import Store
 from roughline.quantities import engineering
 from roughline.report.pressed import Pressed, curve_table
 from roughline.topography import Body, Surface
 
-_STAGES = {
-    "gallery": "surfaces to look at",
-    "reduced": "reduced model, lines",
-    "full": "full model, surfaces",
-}
+
+class _Rate(ProgressColumn):
+    """Steps a second, or a minute where they are slow."""
+
+    def render(self, task: Task) -> Text:
+        """Show the speed of the last while."""
+        speed = task.speed or 0.0
+        shown = f"{speed:.1f}/s" if speed >= 1 else f"{60 * speed:.1f}/min"
+        return Text(shown if speed else "", style="progress.data.speed")
 
 
 @contextmanager
-def study_progress() -> Iterator[Callable[[str, int, int], None]]:
-    """Show a bar for each stage of a study; gives the callback."""
+def campaign_progress() -> Iterator[Callable[[str, int, int, int], None]]:
+    """Show a bar for each ensemble of a campaign; gives the callback."""
     with _bars() as show:
-        yield lambda stage, done, total: show(_STAGES[stage], done, total)
+
+        def progress(name: str, done: int, failed: int, total: int) -> None:
+            show(f"{name}, {failed} failed" if failed else name, done, total, key=name)
+
+        yield progress
 
 
 @contextmanager
 def load_progress() -> Iterator[Callable[[int, int], None]]:
     """Show a bar over the loads of one body; gives the callback."""
     with _bars() as show:
-        yield lambda done, total: show("loads", done, total)
+        yield lambda done, total: show("loads", done, total, key="loads")
+
+
+class _Show(Protocol):
+    def __call__(self, name: str, done: int, total: int, *, key: str) -> None: ...
 
 
 @contextmanager
-def _bars() -> Iterator[Callable[[str, int, int], None]]:
+def _bars() -> Iterator[_Show]:
     """Bars by name, on standard error; nothing is drawn before the first is told of."""
     progress = Progress(
         TextColumn("{task.description:<22}"),
         BarColumn(),
         MofNCompleteColumn(),
+        _Rate(),
         TimeElapsedColumn(),
         TextColumn("left"),
         TimeRemainingColumn(),
@@ -57,12 +77,13 @@ def _bars() -> Iterator[Callable[[str, int, int], None]]:
     )
     tasks: dict[str, TaskID] = {}
 
-    def show(name: str, done: int, total: int) -> None:
+    def show(name: str, done: int, total: int, *, key: str) -> None:
         if not tasks:
             progress.start()
-        if name not in tasks:
-            tasks[name] = progress.add_task(name, total=total)
-        progress.update(tasks[name], completed=done)
+        if key not in tasks:
+            # a bar that starts half full tells its time from what is added
+            tasks[key] = progress.add_task(name, total=total, completed=done)
+        progress.update(tasks[key], completed=done, description=name)
 
     try:
         yield show
@@ -91,7 +112,39 @@ def print_pressed(pressed: Pressed) -> None:
         console.print("* fewer than ten points in contact: the grid decides, not the surface")
     for warning in curve.warnings:
         console.print(f"warning: {warning}", highlight=False, soft_wrap=True)
-    for file in pressed.files:
+    print_files(pressed.files)
+
+
+def print_summary(summary: Summary, store: Path) -> None:
+    """Print what a campaign did, equal reasons of failures together."""
+    console = Console()
+    done, failed = sum(summary.done.values()), sum(summary.failed.values())
+    console.print(f"{done} cases computed, {failed} failed; results in {store}", soft_wrap=True)
+    for reason, count in summary.reasons.most_common():
+        console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)
+
+
+def print_status(store: Store) -> None:
+    """Print what is done of a campaign, and why cases failed."""
+    console = Console()
+    table = Table(box=None, header_style="bold")
+    table.add_column("ensemble")
+    for name in ("done", "failed", "in all"):
+        table.add_column(name, justify="right")
+    reasons: Counter[str] = Counter()
+    for name in store.names:
+        done, failed, total = store.counts(name)
+        table.add_row(name, str(done), str(failed), str(total))
+        reasons.update(store.failures(name).values())
+    console.print(table)
+    for reason, count in reasons.most_common():
+        console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)
+
+
+def print_files(files: Iterable[Path]) -> None:
+    """Print which files were written."""
+    console = Console()
+    for file in files:
         console.print(f"wrote {file}", highlight=False, soft_wrap=True)
 
 
@@ -104,7 +157,7 @@ def print_generated(body: Body, file: Path) -> None:
     """Print what was generated and where it is."""
     console = Console()
     console.print(_described(body), highlight=False)
-    console.print(f"wrote {file}", highlight=False, soft_wrap=True)
+    print_files([file])
 
 
 def _described(body: Body) -> str:

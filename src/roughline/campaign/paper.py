@@ -1,0 +1,71 @@
+"""The paper's study as a plan, in minutes or at the paper's own sizes."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from roughline.campaign.plan import Ensemble, Gallery, Plan, decades, evenly
+
+Scale = Literal["quick", "full"]
+
+DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
+"""The six fractal dimensions of the paper's Figures 3 and 4."""
+
+LINES, SURFACES, MATCHED = "lines", "surfaces", "lines-of-surfaces"
+"""Names of the ensembles: the reduced model, the full model, and lines with the waves of the
+surfaces alone."""
+
+
+def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
+    """Return the paper's study at one of two scales.
+
+    Parameters
+    ----------
+    scale : {"quick", "full"}
+        Minutes on two cores, or the paper's own sizes: 60 surfaces of 2048², 500 lines of 2^20.
+    seed : int, optional
+        Root of all seeds.
+    """
+    quick = scale == "quick"
+    n = 256 if quick else 2048
+    bodies = 100 if quick else 500
+    forces = decades(1e-3, 1e1, per_decade=6)
+    lines = Ensemble(
+        name=LINES,
+        model="reduced",
+        fractal_dimensions=evenly(2, 3, 21 if quick else 101),
+        n=2**16 if quick else 2**20,
+        realisations=bodies,
+        force_bars=decades(1e-5, 1e1, per_decade=10),
+        seed=seed,
+        boundary="none",
+    )
+    surfaces = Ensemble(
+        name=SURFACES,
+        model="full",
+        fractal_dimensions=DIMENSIONS,
+        n=n,
+        realisations=10 if quick else 60,
+        force_bars=forces,
+        seed=seed,
+        boundary="free",
+    )
+    matched = Ensemble(
+        name=MATCHED,
+        model="reduced",
+        fractal_dimensions=DIMENSIONS,
+        n=256 * n,
+        realisations=bodies,
+        force_bars=forces,
+        seed=seed,
+        boundary="none",
+        cutoff_ratio=n / 2,
+    )
+    gallery = Gallery(
+        fractal_dimensions=(2.0, 7 / 3, 8 / 3, 3.0),
+        n=256 if quick else 1024,
+        n_line=2**12,
+        force_bar=0.3,
+        seed=seed,
+    )
+    return Plan(f"the paper, {scale} scale", (lines, matched, surfaces), gallery)
