@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from roughline import fft
 from roughline._version import __version__
+from roughline.campaign.layout import PER_BODY, VARIABLES, variables_of
 from roughline.campaign.plan import Ensemble, Gallery
 from roughline.contact import press
 from roughline.errors import RoughlineError
@@ -56,26 +57,6 @@ class Outcome:
     results: Results
     failures: dict[Cell, str]
     seconds: float = 0.0
-
-
-VARIABLES: dict[str, tuple[str, float, str]] = {
-    # name: (dtype, fill value, meaning); no fill value is one that a finished case can have
-    "stiffness": ("f8", np.nan, "raw stiffness k / (E* L)"),
-    "depth": ("f8", np.nan, "depth since touch / h"),
-    "area_fraction": ("f8", np.nan, "real over nominal contact area, cells in contact"),
-    "area_fraction_corrected": ("f8", np.nan, "the same, corrected for the outline's steps"),
-    "status": ("i1", -1, "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"),
-    "resolved": ("i1", -1, "1 where at least 10 springs or cells are in contact, -1 not done"),
-    "rms_slope": ("f8", np.nan, "rms slope L / h of the grid, forward differences"),
-    "highest": ("f8", np.nan, "highest point above the mean / h"),
-}
-PER_BODY = ("rms_slope", "highest")
-_OF_SURFACES = ("area_fraction", "area_fraction_corrected")
-
-
-def variables_of(ensemble: Ensemble) -> list[str]:
-    """Names of what is kept of an ensemble; areas of lines predict nothing."""
-    return [name for name in VARIABLES if ensemble.model == "full" or name not in _OF_SURFACES]
 
 
 class VersionError(RoughlineError):

@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from roughline import estimates, fft
-from roughline.campaign.batch import PER_BODY, VARIABLES, evaluate_case, variables_of
+from roughline.campaign.batch import evaluate_case
+from roughline.campaign.layout import PER_BODY, VARIABLES, variables_of
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.errors import InputError, StoreError
 

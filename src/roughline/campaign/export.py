@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.averages import average
-from roughline.campaign.store import DONE, Store
+from roughline.campaign.layout import DONE
+from roughline.campaign.store import Store
 from roughline.errors import InputError, StoreError
 
 if TYPE_CHECKING:

@@ -26,7 +26,7 @@ from roughline.campaign.batch import (
 )
 from roughline.campaign.cost import cost_of, refuse_beyond_disk, workers_that_fit
 from roughline.campaign.plan import Plan
-from roughline.campaign.store import Writer, writing
+from roughline.campaign.writer import Writer, writing
 from roughline.errors import ClusterError, InputError
 
 Progress = Callable[[str, int, int, int], None]

@@ -1,51 +1,19 @@
-"""Results on disk: a Zarr group for each ensemble, which xarray opens directly. The only writer.
-
-Chunks are replaced as a whole and carry checksums. The mark of a case, in ``case_status``, is
-written after all its values, so a case counts only when all of it is on disk; chunks that were
-damaged later are found and emptied before a campaign goes on, and their cases computed again.
-"""
+"""Results on disk, for reading: a Zarr group for each ensemble, which xarray opens directly."""
 
 from __future__ import annotations
 
 import json
-import warnings
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from roughline._version import __version__
-from roughline.campaign.batch import PER_BODY, VARIABLES, Batch, Outcome, Results, variables_of
-from roughline.campaign.cost import chunk_shape
-from roughline.campaign.plan import Ensemble, Gallery, Plan
+from roughline.campaign.layout import DONE, FAILED, FORMAT, GALLERY, VARIABLES
 from roughline.errors import StoreError
 
 if TYPE_CHECKING:
     import xarray
-
-FORMAT = 1
-"""Changes when older stores can no longer be read."""
-
-PENDING, DONE, FAILED = 0, 1, 2
-
-_DIMENSIONS = ("fractal_dimension", "realisation", "force_bar")
-_COORDINATES = {
-    "fractal_dimension": "D_f = 3 - H",
-    "realisation": "body i has the seed SeedSequence(seed, spawn_key=(i,))",
-    "force_bar": "F / (E* h L)",
-}
-_GALLERY_DIMENSIONS = {
-    "heights": ("fractal_dimension", "x", "y"),
-    "contact": ("fractal_dimension", "x", "y"),
-    "displacement": ("fractal_dimension", "x", "y"),
-    "line_heights": ("fractal_dimension", "s"),
-    "line_depth": ("fractal_dimension",),
-}
-_GALLERY = "gallery"
 
 
 class Store:
@@ -72,7 +40,7 @@ class Store:
             self._root: Any = zarr.open_group(self.path, mode="r+", use_consolidated=False)
             marks = dict(self._root.attrs)
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise _damaged_or_foreign(self.path) from error
+            raise damaged_or_foreign(self.path) from error
         if "roughline_store" not in marks:
             raise StoreError(
                 f"{path} is no store of roughline; choose another folder for the campaign"
@@ -87,7 +55,7 @@ class Store:
     @property
     def names(self) -> list[str]:
         """Names of the ensembles."""
-        return sorted(name for name in self._root.group_keys() if name != _GALLERY)
+        return sorted(name for name in self._root.group_keys() if name != GALLERY)
 
     def counts(self, name: str) -> tuple[int, int, int]:
         """Return the number of cases that are done, have failed, and are there in all."""
@@ -121,7 +89,7 @@ class Store:
         """Return the gallery over (fractal_dimension, x, y) and (fractal_dimension, s)."""
         import xarray
 
-        data = xarray.open_zarr(self.path, group=_GALLERY, consolidated=False, chunks=None)
+        data = xarray.open_zarr(self.path, group=GALLERY, consolidated=False, chunks=None)
         return data.load()
 
     def _group(self, name: str) -> Any:
@@ -130,329 +98,11 @@ class Store:
         return self._root[name]
 
 
-class Writer(Store):
-    """A store that is held, for writing, by one campaign; made by :func:`writing`."""
-
-    def __init__(self, path: Path, plan: Plan) -> None:
-        super().__init__(path)
-        self.plan = plan
-        try:
-            for ensemble in plan.ensembles:
-                self._prepare(ensemble)
-                _mend(self._root[ensemble.name])
-            if self.has_gallery and not self._gallery_is_whole(plan.gallery):
-                self._root.attrs["gallery_done"] = False
-        except (ValueError, KeyError, TypeError) as error:
-            raise _damaged_or_foreign(path) from error
-
-    def missing(self, ensemble: Ensemble) -> list[Batch]:
-        """List what is not done, a batch for each chunk; cases that failed are tried again."""
-        group = self._root[ensemble.name]
-        status = group["case_status"][:]
-        stored = group.attrs["fractal_dimensions"]
-        rows = [stored.index(dimension) for dimension in ensemble.fractal_dimensions]
-        high, wide = group["case_status"].chunks
-        chunks: dict[tuple[int, int], list[tuple[int, int]]] = {}
-        for row, column in product(rows, range(ensemble.realisations)):
-            if status[row, column] != DONE:
-                chunks.setdefault((column // wide, row // high), []).append((row, column))
-        return [
-            Batch(ensemble, tuple(cells), tuple(stored[row] for row, _ in cells))
-            for _, cells in sorted(chunks.items())
-        ]
-
-    def put(self, batch: Batch, outcome: Outcome) -> None:
-        """Write a batch: values first, reasons of failures next, marks last.
-
-        Raises
-        ------
-        StoreError
-            If the disk is full or the folder cannot be written; what was there stays.
-        """
-        group = self._root[batch.ensemble.name]
-        failed = np.array([cell in outcome.failures for cell in batch.cells])
-        try:
-            for name, values in outcome.results.items():
-                _write_cells(group[name], batch.cells, values)
-            self._note(group, batch, outcome.failures)
-            _write_cells(group["case_status"], batch.cells, np.where(failed, FAILED, DONE))
-        except OSError as error:
-            raise _unwritable(self.path, error) from error
-
-    def put_gallery(self, gallery: Gallery, results: Results) -> None:
-        """Write the gallery."""
-        try:
-            group = self._root.require_group(_GALLERY)
-            group.attrs.update(_gallery_settings(gallery))
-            coordinate = np.array(gallery.fractal_dimensions)
-            for name, values in {**results, "fractal_dimension": coordinate}.items():
-                group.create_array(
-                    name,
-                    data=values,
-                    dimension_names=_GALLERY_DIMENSIONS.get(name, ("fractal_dimension",)),
-                    overwrite=True,
-                    **_codecs(),
-                )
-            self._root.attrs["gallery_done"] = True
-        except OSError as error:
-            raise _unwritable(self.path, error) from error
-
-    def consolidate(self) -> None:
-        """Gather the metadata of all groups in one place, where xarray looks first."""
-        import zarr
-
-        with warnings.catch_warnings():
-            warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
-            zarr.consolidate_metadata(self.path)
-
-    def _note(self, group: Any, batch: Batch, failures: dict[tuple[int, int], str]) -> None:
-        before = dict(group.attrs["failures"])
-        named = {
-            cell: f"D_f {dimension:g}, realisation {cell[1]}"
-            for cell, dimension in zip(batch.cells, batch.fractal_dimensions, strict=True)
-        }
-        after = {key: why for key, why in before.items() if key not in named.values()}
-        after |= {named[cell]: why for cell, why in failures.items()}
-        if after != before:
-            group.attrs["failures"] = dict(sorted(after.items()))
-
-    def _prepare(self, ensemble: Ensemble) -> None:
-        """Make the group of an ensemble, or enlarge it; nothing that is there changes."""
-        wanted = json.loads(json.dumps(ensemble.identity()))
-        if ensemble.name not in self._root:
-            attributes = {
-                **wanted,
-                **_descriptions(ensemble),
-                "fractal_dimensions": [],
-                "failures": {},
-            }
-            self._root.create_group(ensemble.name, attributes=attributes)
-        group = self._root[ensemble.name]
-        found = {key: group.attrs.get(key) for key in wanted}
-        if found != wanted:
-            key = next(key for key in wanted if found[key] != wanted[key])
-            raise StoreError(
-                f"{self.path} holds an ensemble {ensemble.name!r} of other settings: its {key} is "
-                f"{_short(found[key])}, the plan's is {_short(wanted[key])}; rename the ensemble, "
-                "or choose another folder"
-            )
-        before = list(group.attrs["fractal_dimensions"])
-        known = before + [value for value in ensemble.fractal_dimensions if value not in before]
-        if known != before:
-            group.attrs["fractal_dimensions"] = known
-        there = group["case_status"].shape[1] if "case_status" in group else 0
-        realisations = max(ensemble.realisations, there)
-        shape = (len(known), realisations, len(ensemble.force_bars))
-        chunks = (*chunk_shape(ensemble), len(ensemble.force_bars))
-        for name in variables_of(ensemble):
-            dtype, fill, meaning = VARIABLES[name]
-            rank = 2 if name in PER_BODY else 3
-            _array(group, name, shape[:rank], chunks[:rank], dtype, fill, meaning)
-        meaning = "0 not done, 1 done, 2 failed (reasons in the group's attribute failures)"
-        _array(group, "case_status", shape[:2], chunks[:2], "i1", PENDING, meaning)
-        values = (np.array(known), np.arange(realisations), np.array(ensemble.force_bars))
-        for name, value in zip(_DIMENSIONS, values, strict=True):
-            fill = -1 if name == "realisation" else np.nan
-            array = _array(
-                group, name, value.shape, (2**16,), value.dtype, fill, _COORDINATES[name]
-            )
-            found_value = _read(array)
-            if found_value is None or not np.array_equal(found_value, value):
-                array[:] = value
-
-    def _gallery_is_whole(self, gallery: Gallery | None) -> bool:
-        if gallery is None:
-            return True
-        group = self._root[_GALLERY]
-        wanted = json.loads(json.dumps(_gallery_settings(gallery)))
-        if {key: group.attrs.get(key) for key in wanted} != wanted:
-            raise StoreError(
-                f"{self.path} holds a gallery of other settings; choose another folder"
-            )
-        return all(_read(group[name]) is not None for name in _GALLERY_DIMENSIONS)
-
-
-@contextmanager
-def writing(path: str | Path, plan: Plan) -> Iterator[Writer]:
-    """Hold a store for writing; it is made, enlarged or mended as the plan needs.
-
-    Parameters
-    ----------
-    path : str or Path
-        The folder.
-    plan : Plan
-        What is to be stored.
-
-    Raises
-    ------
-    StoreError
-        If the folder is held by another campaign, belongs to something else, holds other
-        settings or another version, or cannot be written.
-    """
-    import filelock
-    import zarr
-
-    path = Path(path)
-    lock = filelock.FileLock(path.parent / f".{path.name}.lock", timeout=0)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        lock.acquire()
-    except filelock.Timeout:
-        raise StoreError(
-            f"{path} is in use by another campaign: wait for it to end, or choose another folder"
-        ) from None
-    except OSError as error:
-        raise _unwritable(path, error) from error
-    try:
-        if path.is_dir() and any(path.iterdir()):
-            for leftover in path.rglob("*.partial"):  # of a writer that was killed
-                leftover.unlink()
-        if not path.exists() or (path.is_dir() and not any(path.iterdir())):
-            marks = {"roughline_store": FORMAT, "roughline_version": __version__}
-            zarr.create_group(path, attributes=marks)
-        writer = Writer(path, plan)
-        yield writer
-        writer.consolidate()
-    except OSError as error:
-        raise _unwritable(path, error) from error
-    finally:
-        lock.release()
-
-
-def _array(
-    group: Any,
-    name: str,
-    shape: tuple[int, ...],
-    chunks: tuple[int, ...],
-    dtype: Any,
-    fill: float,
-    meaning: str,
-) -> Any:
-    """Return an array of the group, made or enlarged where needed."""
-    if name not in group:
-        return group.create_array(
-            name,
-            shape=shape,
-            chunks=tuple(map(min, chunks, shape)) if len(shape) > 1 else shape,
-            dtype=dtype,
-            fill_value=fill,
-            dimension_names=_DIMENSIONS[: len(shape)] if name not in _COORDINATES else (name,),
-            attributes={"long_name": meaning, "units": "1"},
-            **_codecs(),
-        )
-    array = group[name]
-    if array.shape != shape:
-        array.resize(shape)
-    return array
-
-
-def _codecs() -> dict[str, Any]:
-    from zarr.codecs import Crc32cCodec, ZstdCodec
-
-    return {"compressors": (ZstdCodec(level=1), Crc32cCodec())}
-
-
-def _write_cells(array: Any, cells: Sequence[tuple[int, int]], values: NDArray[Any]) -> None:
-    """Write cells of one chunk, leaving the others as they are."""
-    at = np.array(cells)
-    low, high = at.min(axis=0), at.max(axis=0) + 1
-    region = tuple(slice(a, b) for a, b in zip(low.tolist(), high.tolist(), strict=True))
-    if len(cells) == np.prod(high - low):
-        block = np.empty((*(high - low), *values.shape[1:]), dtype=array.dtype)
-    else:
-        block = array[region]
-    block[tuple((at - low).T)] = values
-    array[region] = block
-
-
-def _mend(group: Any) -> None:
-    """Empty chunks that cannot be read, and take back the marks of all that is not whole."""
-    marks = group["case_status"]
-    status = _read(marks)
-    if status is None:
-        _empty_unreadable(marks)
-        status = marks[:]
-    whole = np.ones(status.shape, dtype=bool)
-    for name in VARIABLES:
-        if name not in group:
-            continue
-        values = _read(group[name])
-        if values is None:
-            _empty_unreadable(group[name])
-            values = group[name][:]
-        if name in ("status", "resolved"):
-            whole &= (values >= 0).all(axis=-1)
-        elif name in PER_BODY:
-            whole &= np.isfinite(values)
-        else:
-            converged = _read(group["status"]) == 0
-            whole &= (np.isfinite(values) == converged).all(axis=-1)
-    lost = (status == DONE) & ~whole
-    if lost.any():
-        status[lost] = PENDING
-        marks[:] = status
-
-
-def _empty_unreadable(array: Any) -> None:
-    """Give the chunks that cannot be read their fill value again."""
-    steps = [range(0, size, chunk) for size, chunk in zip(array.shape, array.chunks, strict=True)]
-    for corner in product(*steps):
-        region = tuple(slice(a, a + b) for a, b in zip(corner, array.chunks, strict=True))
-        try:
-            array[region]
-        except (OSError, ValueError, RuntimeError):
-            shape = [
-                min(chunk, size - start)
-                for start, chunk, size in zip(corner, array.chunks, array.shape, strict=True)
-            ]
-            array[region] = np.full(shape, array.fill_value, dtype=array.dtype)
-
-
-def _read(array: Any) -> NDArray[Any] | None:
-    """Values of an array, or None if a chunk is damaged."""
-    try:
-        return array[:]
-    except (OSError, ValueError, RuntimeError):
-        return None
-
-
-def _gallery_settings(gallery: Gallery) -> dict[str, Any]:
-    return {
-        "n": gallery.n,
-        "n_line": gallery.n_line,
-        "force_bar": gallery.force_bar,
-        "seed": gallery.seed,
-        "fractal_dimensions": list(gallery.fractal_dimensions),
-        "roughline_version": __version__,
-    }
-
-
-def _descriptions(ensemble: Ensemble) -> dict[str, Any]:
-    """What a reader wants to know besides the settings themselves."""
-    end = "pi / spacing" if ensemble.cutoff_ratio is None else "cutoff_ratio * 2 pi / L"
-    return {
-        "roughline_version": __version__,
-        "heights": "random phases, fixed moduli, scaled to rms 1; length L = 1, E* = 1",
-        "spectrum": f"self-affine from roll_off_ratio * 2 pi / L to {end}, flat below",
-    }
-
-
-def _short(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
-
-
-def _damaged_or_foreign(path: Path) -> StoreError:
+def damaged_or_foreign(path: Path) -> StoreError:
+    """Say what is wrong with a folder that cannot be opened."""
     what = (
         "is damaged (its zarr.json cannot be read)"
         if (path / "zarr.json").exists()
         else ("is no store of roughline")
     )
     return StoreError(f"{path} {what}; choose another folder for the campaign")
-
-
-def _unwritable(path: Path, error: OSError) -> StoreError:
-    return StoreError(
-        f"cannot write to {path} ({error.strerror or error}): make room or choose another "
-        "folder; what is done is kept"
-    )
