@@ -1,259 +1,311 @@
-"""Ensembles: the same bytes whatever happens on the way, and nothing lost."""
+"""Campaigns: the same bytes however they were run, and stores that grow without changing."""
 
 import json
-import multiprocessing
-import os
-import signal
-import subprocess
-import sys
-import time
+import shutil
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
+import xarray
 
 import roughline as rl
-from roughline import fft
-from roughline.campaign.plan import Ensemble, Gallery, Plan, paper_plan
-from roughline.campaign.run import evaluate, run
-from roughline.campaign.store import Store
-
-DIMENSIONS = (2.0, 2.4, 3.0)
-
-
-def small_plan():
-    """Build the paper's plan on small grids, with its loads."""
-    quick = paper_plan("quick")
-    full = Ensemble("full", DIMENSIONS, 24, 4, quick.full.force_bars, seed=5, batch=1)
-    reduced = Ensemble("reduced", DIMENSIONS, 2**14, 5, quick.reduced.force_bars, seed=5, batch=2)
-    return Plan("small", full, reduced, Gallery((2.0, 3.0), 24, 128, 0.3, seed=5))
+from roughline import campaign
+from roughline.campaign import batch as batches
+from roughline.campaign.cost import chunk_shape, cost_of, workers_that_fit
+from roughline.campaign.export import export
+from roughline.campaign.run import log_of
+from roughline.campaign.writer import writing
+from small_campaign import PLAN, tree
 
 
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory):
-    plan = small_plan()
-    store = Store(tmp_path_factory.mktemp("finished") / "store", plan)
-    run(plan, store, workers=2)
-    return plan, store
+def plan(tmp_path_factory):
+    path = tmp_path_factory.mktemp("plan") / "plan.toml"
+    path.write_text(PLAN)
+    return campaign.read_plan(path)
 
 
-def everything(store):
-    datasets = (store.dataset(store.plan.reduced), store.dataset(store.plan.full), store.gallery())
-    return [
-        (name, data[name].values.tobytes()) for data in datasets for name in sorted(data.variables)
-    ]
+@pytest.fixture(scope="module")
+def finished(plan, tmp_path_factory):
+    path = tmp_path_factory.mktemp("finished") / "store.zarr"
+    told = []
+    summary = campaign.run(plan, path, progress=lambda *told_now: told.append(told_now))
+    assert (summary.done["lines"], summary.done["surfaces"]) == (180, 90)
+    assert told[:2] == [("lines", 0, 0, 180), ("surfaces", 0, 0, 90)]
+    assert ("lines", 180, 0, 180) in told
+    assert ("surfaces", 90, 0, 90) in told
+    return path
 
 
-def test_a_case_is_what_the_library_gives(finished):
-    plan, store = finished
-    data = store.dataset(plan.full)
+def smaller(plan, dimensions=None, realisations=None):
+    """Cut a plan down in one direction or both."""
+    return replace(
+        plan,
+        ensembles=tuple(
+            replace(
+                ensemble,
+                fractal_dimensions=dimensions or ensemble.fractal_dimensions,
+                realisations=realisations or ensemble.realisations,
+            )
+            for ensemble in plan.ensembles
+        ),
+    )
+
+
+def test_a_case_is_what_the_library_gives(plan, finished):
+    data = campaign.Store(finished).dataset("surfaces")
     spectrum = rl.SelfAffine(fractal_dimension=2.4, rms_height=1.0)
-    surface = spectrum.surface(24, np.random.SeedSequence(5, spawn_key=(3,)))
-    curve = rl.press(surface, E_star=1.0, forces=plan.full.force_bars)
+    surface = spectrum.surface(64, np.random.SeedSequence(5, spawn_key=(3,)))
+    curve = rl.press(surface, E_star=1.0, forces=plan.ensemble("surfaces").force_bars)
     one = data.sel(fractal_dimension=2.4, realisation=3)
-    assert one.stiffness.values == pytest.approx(curve.stiffness, rel=1e-12)
-    assert one.area_fraction.values == pytest.approx(curve.area_fraction)
+    assert (one.stiffness.values == curve.stiffness).all()
+    assert (one.depth.values == curve.depth).all()
+    assert (one.area_fraction_corrected.values == curve.area_fraction_corrected).all()
     assert one.rms_slope.item() == surface.rms_slope
+    assert one.highest.item() == pytest.approx(surface.heights.max())
     assert (data.status == 0).all()
+    assert (data.case_status == 1).all()
+    line = spectrum.line(16384, np.random.SeedSequence(5, spawn_key=(59,)))
+    curve = rl.press(line, E_star=1.0, forces=plan.ensemble("lines").force_bars)
+    one = campaign.Store(finished).dataset("lines").sel(fractal_dimension=2.4, realisation=59)
+    assert (one.stiffness.values == curve.stiffness).all()
+    assert "area_fraction" not in one
 
 
-def test_results_do_not_depend_on_the_number_of_workers(finished, tmp_path):
-    plan, store = finished
-    alone = Store(tmp_path / "store", plan)
-    run(plan, alone, workers=1)
-    assert everything(alone) == everything(store)
+def test_xarray_reads_the_store_without_us(finished):
+    with xarray.open_zarr(finished, group="surfaces") as data:
+        assert data.stiffness.dims == ("fractal_dimension", "realisation", "force_bar")
+        assert data.stiffness.attrs["long_name"] == "raw stiffness k / (E* L)"
+        assert data.stiffness.attrs["units"] == "1"
+        assert (data.attrs["n"], data.attrs["seed"], data.attrs["boundary"]) == (64, 5, "free")
+        assert data.attrs["roughline_version"] == rl.__version__
+        assert list(data.fractal_dimension.values) == [2.0, 2.4, 3.0]
 
 
-def test_a_run_that_was_broken_off_goes_on_to_the_same_bytes(finished, tmp_path):
-    plan, store = finished
-    broken = Store(tmp_path / "store", plan)
-    cores = fft.available_cores()
-    fft.set_threads(1)  # as in a worker: the last bits of a transform depend on it
-    for case in plan.full.cases()[::2] + plan.reduced.cases()[1:3]:
-        broken.put(case, evaluate(case))
-    fft.set_threads(cores)
-    assert len(broken.missing(plan.full)) == len(plan.full.cases()) // 2
+def test_bytes_do_not_depend_on_workers_or_threads(plan, finished, tmp_path):
+    campaign.run(plan, tmp_path / "one", workers=1)
+    assert tree(tmp_path / "one") == tree(finished)
+
+
+def test_nothing_is_computed_twice(plan, finished, tmp_path):
+    before, log = tree(finished), log_of(finished).read_text()
     told = []
-    again = Store(tmp_path / "store", plan)
-    run(plan, again, workers=2, progress=lambda *args: told.append(args))
-    assert told[0] == ("gallery", 0, 1)
-    assert ("full", 6, 12) in told
-    assert told[-1] == ("full", 12, 12)
-    assert everything(again) == everything(store)
-    assert again.missing(plan.full) == again.missing(plan.reduced) == []
+    summary = campaign.run(plan, finished, progress=lambda *args: told.append(args))
+    assert (summary.done, summary.failed) == ({}, {})
+    assert told == [("lines", 180, 0, 180), ("surfaces", 90, 0, 90)]
+    assert tree(finished) == before
+    assert log_of(finished).read_text() == log
+    assert json.loads(log)["done"] == {"lines": 180, "surfaces": 90}
 
 
-def test_nothing_is_computed_twice(finished):
-    plan, store = finished
-    before = everything(store)
-    told = []
-    run(plan, store, progress=lambda *args: told.append(args))
-    assert told == [("gallery", 1, 1), ("reduced", 9, 9), ("full", 12, 12)]
-    assert everything(store) == before
+@pytest.mark.parametrize(
+    "cut", [{"realisations": 7}, {"dimensions": (2.4,)}, {"dimensions": (3.0, 2.0)}]
+)
+def test_an_extended_store_holds_what_a_large_one_holds(plan, finished, tmp_path, cut):
+    first = smaller(plan, **cut)
+    path = tmp_path / "store"
+    campaign.run(first, path)
+    early = {name: campaign.Store(path).dataset(name) for name in ("lines", "surfaces")}
+    summary = campaign.run(plan, path)
+    assert sum(summary.done.values()) == plan.cases - first.cases
+    for name, before in early.items():
+        data = campaign.Store(path).dataset(name)
+        whole = campaign.Store(finished).dataset(name)
+        known = {key: before[key] for key in ("fractal_dimension", "realisation")}
+        for key in data.variables:
+            assert data[key].values.tobytes() == whole[key].values.tobytes()
+        for key in before.data_vars:
+            assert data[key].sel(known, drop=True).values.tobytes() == before[key].values.tobytes()
+    # a plan that asks for less than is there is done
+    assert sum(campaign.run(first, path).done.values()) == 0
 
 
-def test_a_half_written_batch_does_not_count(finished, tmp_path):
-    plan, _ = finished
-    store = Store(tmp_path / "store", plan)
-    case = plan.full.cases()[0]
-    results = evaluate(case)
-    store._root["full"]["stiffness"][case.dimension_index, 0:1] = results["stiffness"]
-    assert case in store.missing(plan.full)
-    store.put(case, results)
-    assert case not in store.missing(plan.full)
+def test_a_store_of_other_settings_is_refused_and_not_touched(plan, finished):
+    before = tree(finished)
+    lines, surfaces = plan.ensembles
+    for changes, key in (
+        ({"n": 128}, "n is 64, the plan's is 128"),
+        ({"seed": 6}, "seed is 5, the plan's is 6"),
+        ({"roll_off_ratio": 2.0}, "roll_off_ratio is 1.0"),
+        ({"force_bars": surfaces.force_bars[:-1]}, "force_bars is"),
+        ({"boundary": "periodic"}, "boundary is 'free'"),
+    ):
+        more = replace(lines, realisations=100)
+        other = replace(plan, ensembles=(more, replace(surfaces, **changes)))
+        with pytest.raises(rl.StoreError, match="'surfaces' of other settings") as caught:
+            campaign.run(other, finished)
+        assert key in str(caught.value)
+    assert tree(finished) == before
 
 
-def test_an_interrupt_keeps_what_is_done(tmp_path):
-    """Ctrl-C in the middle: exit code 130, no traceback, and the next call ends the work."""
-    command = [sys.executable, "-c", INTERRUPTED, str(tmp_path / "out")]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
-    store = tmp_path / "out" / "results.zarr" / "full" / "done" / "c"
-    deadline = time.monotonic() + 60
-    while not (store.exists() and any(store.rglob("*"))) and time.monotonic() < deadline:
-        time.sleep(0.05)
-    os.killpg(process.pid, signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert "what is done is kept" in errors
-    assert "Traceback" not in errors
-    kept = sum(1 for path in store.rglob("*") if path.is_file())
-    assert kept >= 1
-    done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
-    assert done.returncode == 0, done.stderr
-    assert (tmp_path / "out" / "report.html").exists()
+def test_a_store_of_another_version_is_refused(plan, finished, tmp_path):
+    shutil.copytree(finished, tmp_path / "old")
+    marks = tmp_path / "old" / "zarr.json"
+    marks.write_text(marks.read_text().replace(f'"{rl.__version__}"', '"0.0.9"'))
+    with pytest.raises(rl.StoreError, match="was made by roughline 0.0.9"):
+        campaign.run(plan, tmp_path / "old")
+    with pytest.raises(rl.StoreError, match="use that version, or another folder"):
+        campaign.Store(tmp_path / "old")
 
 
-INTERRUPTED = """
-import sys
-from dataclasses import replace
-import roughline.report.paper as paper
-original = paper.paper_plan
-def slow_but_small(scale, seed):
-    plan = original(scale, seed)
-    full = replace(plan.full, n=128, realisations=12)
-    reduced = replace(plan.reduced, n=2**14, realisations=20)
-    return replace(plan, full=full, reduced=reduced, gallery=replace(plan.gallery, n=48))
-if __name__ == "__main__":
-    paper.paper_plan = slow_but_small
-    sys.argv = ["roughline", "paper", "--out", sys.argv[1]]
-    from roughline.cli import main
-    main()
-"""
+def test_folders_that_are_no_store(plan, finished, tmp_path):
+    import zarr
 
-
-def test_a_store_of_other_settings_is_refused(finished, tmp_path):
-    plan, _ = finished
-    Store(tmp_path / "store", plan)
-    other = replace(plan, full=replace(plan.full, seed=6))
-    with pytest.raises(rl.StoreError, match="results of other settings or of another version"):
-        Store(tmp_path / "store", other)
-
-
-def test_a_folder_that_is_no_store_or_cannot_be_one_is_refused(finished, tmp_path):
-    plan, _ = finished
+    with pytest.raises(rl.StoreError, match="does not exist; a store made by a campaign"):
+        campaign.Store(tmp_path / "none")
+    thesis = tmp_path / "thesis"
+    thesis.mkdir()
+    (thesis / "chapter_1.txt").write_text("")
+    with pytest.raises(rl.StoreError, match="is no store of roughline"):
+        campaign.run(plan, thesis)
+    assert [path.name for path in thesis.iterdir()] == ["chapter_1.txt"]
+    zarr.create_group(tmp_path / "foreign")
+    with pytest.raises(rl.StoreError, match="is no store of roughline"):
+        campaign.run(plan, tmp_path / "foreign")
     (tmp_path / "file").write_text("")
-    with pytest.raises(rl.StoreError, match="cannot keep results in"):
-        Store(tmp_path / "file", plan)
-    (tmp_path / "full").mkdir()
-    (tmp_path / "full" / "thesis.txt").write_text("")
-    with pytest.raises(rl.StoreError, match="holds results of other settings"):
-        Store(tmp_path / "full", plan)
+    with pytest.raises(rl.StoreError):
+        campaign.run(plan, tmp_path / "file")
+    with pytest.raises(rl.StoreError):
+        campaign.run(plan, tmp_path / "file" / "store")
+    shutil.copytree(finished, tmp_path / "damaged")
+    (tmp_path / "damaged" / "zarr.json").write_text('{"zarr_fo')
+    with pytest.raises(rl.StoreError, match=r"is damaged \(its zarr.json cannot be read\)"):
+        campaign.run(plan, tmp_path / "damaged")
+    with pytest.raises(rl.StoreError, match="has no ensemble 'waves'"):
+        campaign.Store(finished).dataset("waves")
 
 
-def test_settings_say_everything():
-    settings = json.loads(json.dumps(paper_plan("quick").settings()))
-    assert settings["roughline_version"] == rl.__version__
-    assert settings["full"]["n"] >= 128
-    assert settings["full"]["realisations"] >= 10
-    assert (settings["reduced"]["n"], settings["reduced"]["realisations"]) == (2**16, 100)
+def test_a_case_that_fails_is_recorded_and_stops_no_other(plan, tmp_path, monkeypatch):
+    """The reasons lie in the store; the next run tries again and leaves no trace of them."""
+    small = smaller(plan, realisations=4)
+    original = batches.evaluate_case
+
+    def sometimes(ensemble, dimension, realisation):
+        if (dimension, realisation) == (2.4, 2):
+            raise FloatingPointError("the sky fell\non this one")
+        return original(ensemble, dimension, realisation)
+
+    path = tmp_path / "store"
+    with writing(path, small) as writer:
+        monkeypatch.setattr(batches, "evaluate_case", sometimes)
+        for ensemble in small.ensembles:
+            for batch in writer.missing(ensemble):
+                writer.put(batch, batches.evaluate(batch, 1, rl.__version__))
+    store = campaign.Store(path)
+    assert [store.counts(name) for name in store.names] == [(11, 1, 12), (11, 1, 12)]
+    why = {"D_f 2.4, realisation 2": "FloatingPointError: the sky fell"}
+    assert store.failures("lines") == store.failures("surfaces") == why
+    hurt = store.dataset("surfaces")
+    assert hurt.case_status.sel(fractal_dimension=2.4, realisation=2) == 2
+    assert np.isnan(hurt.stiffness.sel(fractal_dimension=2.4, realisation=2)).all()
+    assert int(np.isnan(hurt.stiffness).any("force_bar").sum()) == 1
+    monkeypatch.undo()
+    summary = campaign.run(small, path)
+    assert summary.done == {"lines": 1, "surfaces": 1}
+    assert campaign.Store(path).failures("lines") == {}
+    campaign.run(small, tmp_path / "undisturbed")
+    assert tree(path) == tree(tmp_path / "undisturbed")
 
 
-def test_the_full_scale_is_the_papers():
-    plan = paper_plan("full")
-    assert (plan.full.n, plan.full.realisations) == (2048, 60)
-    assert (plan.reduced.n, plan.reduced.realisations) == (2**20, 500)
-    assert plan.full.fractal_dimensions == (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
-    assert {2.0, 2.2, 2.4, 2.6, 2.8, 3.0} <= set(plan.reduced.fractal_dimensions)
+def test_a_load_that_does_not_converge_is_a_result(plan, tmp_path, monkeypatch):
+    """Its values are NaN, its status says why, and the case is done."""
+    small = smaller(plan, realisations=1, dimensions=(2.4,))
+    original = batches.evaluate_case
+
+    def stalled(*case):
+        values = original(*case)
+        for name in ("stiffness", "depth", "area_fraction", "area_fraction_corrected"):
+            if name in values:
+                values[name][3] = np.nan
+        values["status"][3] = rl.Status.STALLED
+        return values
+
+    monkeypatch.setattr(batches, "evaluate_case", stalled)
+    path = tmp_path / "store"
+    with writing(path, small) as writer:
+        for batch in writer.missing(small.ensemble("surfaces")):
+            writer.put(batch, batches.evaluate(batch, 1, rl.__version__))
+    with writing(path, small) as writer:
+        assert writer.missing(small.ensemble("surfaces")) == []
+    assert campaign.Store(path).dataset("surfaces").status.values.ravel()[3] == rl.Status.STALLED
 
 
-def test_a_load_that_fails_is_kept_as_missing_and_counted(finished, tmp_path):
-    from roughline.report.paper import write_report
-    from roughline.report.summary import summarise
-
-    plan, _ = finished
-    hurt = Store(tmp_path / "store", plan)
-    run(plan, hurt, workers=1)
-    case = plan.full.cases()[1]
-    results = evaluate(case)
-    results["stiffness"][0, 9], results["status"][0, 9] = np.nan, rl.Status.STALLED
-    hurt.put(case, results)
-    summaries = summarise(hurt.dataset(plan.reduced), hurt.dataset(plan.full))
-    assert [s.left_out for s in summaries] == [0, 1, 0]
-    page = write_report(plan, hurt, tmp_path / "report").read_text(encoding="utf-8")
-    assert "1 loads did not converge" in page
-
-
-@pytest.fixture(scope="module")
-def report(finished, tmp_path_factory):
-    from roughline.report.paper import write_report
-
-    return write_report(*finished, tmp_path_factory.mktemp("report"))
-
-
-def test_the_report_is_one_file_that_needs_no_other(report):
-    page = report.read_text(encoding="utf-8")
-    assert "Every load of every realisation converged" in page
-    assert "<script" not in page
-    assert "http" not in page
-    assert page.count('src="data:image/png;base64,') == page.count("<img") == 7
-    assert page.count("<tr>") >= 1 + 7 + 2 * (1 + len(DIMENSIONS)) + 3
-    for text in ("1.1523", "SeedSequence(5, spawn_key=(i,))", "0.2567", "Verdict", "95 % interval"):
-        assert text in page
+def test_export_to_netcdf_and_csv(finished, tmp_path):
+    files = export(campaign.Store(finished), tmp_path)
+    assert {path.name for path in files} == {
+        *("lines.nc", "lines.csv", "lines_mean.csv"),
+        *("surfaces.nc", "surfaces.csv", "surfaces_mean.csv"),
+    }
+    data = campaign.Store(finished).dataset("surfaces")
+    with xarray.open_dataset(tmp_path / "surfaces.nc", engine="h5netcdf") as written:
+        assert written.identical(data)
+    means = pd.read_csv(tmp_path / "surfaces_mean.csv")
+    assert means.stiffness_mean.values == pytest.approx(
+        data.stiffness.mean("realisation").values.ravel()
+    )
+    assert (means.stiffness_low <= means.stiffness_mean).all()
+    assert (means.realisations_done == 30).all()
+    cases = pd.read_csv(tmp_path / "surfaces.csv")
+    assert len(cases) == data.stiffness.size
+    assert cases.stiffness.values == pytest.approx(data.stiffness.values.ravel())
+    with pytest.raises(rl.InputError, match="format is 'xlsx'"):
+        export(campaign.Store(finished), tmp_path, ["xlsx"])
+    (tmp_path / "taken").write_text("")
+    with pytest.raises(rl.StoreError, match="cannot write to"):
+        export(campaign.Store(finished), tmp_path / "taken")
 
 
-def test_every_figure_comes_as_png_and_pdf(report):
-    names = {path.name for path in (report.parent / "figures").iterdir()}
-    for stem in (*(f"figure_{i}" for i in range(1, 6)), "area_law", "models_compared"):
-        assert {f"{stem}.png", f"{stem}.pdf"} <= names
+def test_batches_take_half_a_second_or_one_case():
+    line = campaign.Ensemble("a", "reduced", (2.0, 2.5, 3.0), 2**12, 500, (0.1, 1.0), 0, "none")
+    high, wide = chunk_shape(line)
+    assert (high, wide) == (3, 500)
+    assert chunk_shape(replace(line, n=2**20)) == (1, 24)
+    assert chunk_shape(replace(line, n=2**12, realisations=10**6))[0] == 1
+    surface = replace(line, model="full", boundary="free", n=512)
+    assert chunk_shape(surface) == (1, 2)
+    assert chunk_shape(replace(surface, n=2048)) == (1, 1)
 
 
-def test_the_data_behind_the_figures_are_there(report, finished):
-    import pandas as pd
-    import xarray
+def test_what_does_not_fit_is_refused_with_numbers(plan, tmp_path, monkeypatch):
+    import psutil
 
-    plan, store = finished
-    folder = report.parent / "data"
-    with xarray.open_dataset(folder / "full.nc", engine="h5netcdf") as data:
-        assert data.identical(store.dataset(plan.full))
-        assert data.attrs["seed"] == 5
-    table = pd.read_csv(folder / "full.csv")
-    assert len(table) == len(DIMENSIONS) * len(plan.full.force_bars)
-    mean = store.dataset(plan.full).stiffness.mean("realisation").values.ravel()
-    assert table.stiffness_mean.values == pytest.approx(mean)
-    assert len(pd.read_csv(folder / "claims.csv")) == 7
-
-
-def test_equal_results_give_equal_reports(report, finished, tmp_path):
-    from roughline.report.paper import write_report
-
-    again = write_report(*finished, tmp_path)
-    for name in ("report.html", "figures/figure_3.pdf", "figures/figure_1.png", "data/full.csv"):
-        assert (tmp_path / name).read_bytes() == (report.parent / name).read_bytes()
-    assert again.name == "report.html"
+    huge = replace(plan.ensemble("surfaces"), n=2**15, realisations=1)
+    with pytest.raises(rl.InputError, match="GB of memory for the largest case"):
+        campaign.run(replace(plan, ensembles=(huge,)), tmp_path / "huge")
+    with pytest.raises(rl.InputError, match="take fewer workers"):
+        workers_that_fit(psutil.virtual_memory().available // 2, wanted=4)
+    assert workers_that_fit(psutil.virtual_memory().available // 3, wanted=2) == 2
+    many = replace(plan.ensemble("lines"), realisations=10)
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=1000))
+    with pytest.raises(rl.StoreError, match="GB of disk, and"):
+        campaign.run(replace(plan, ensembles=(many,)), tmp_path / "many")
 
 
-def test_a_worker_that_dies_is_said_and_nothing_is_lost(finished, tmp_path):
-    plan, store = finished
-    again = Store(tmp_path / "store", plan)
+def test_the_cost_is_told_before_the_work(plan, finished, tmp_path):
+    told = []
+    small = smaller(plan, realisations=2)
+    campaign.run(small, tmp_path / "store", announce=told.append)
+    assert told[0].startswith("small: 12 cases to compute; about ")
+    assert "GB of memory each, up to" in told[0]
+    assert told[1].startswith("dashboard: http://127.0.0.1:")
+    spent = json.loads(log_of(finished).read_text())["core_seconds"]
+    cost = cost_of(plan, {"lines": 180, "surfaces": 90})
+    assert cost.core_seconds == pytest.approx(sum(spent.values()), rel=9)  # within a factor of ten
 
-    def kill_at_once(stage, done, total):
-        if (stage, done) == ("full", 1):
-            for process in multiprocessing.active_children():
-                process.kill()
 
-    with pytest.raises(rl.RoughlineError, match="a worker process died"):
-        run(plan, again, workers=1, progress=kill_at_once)
-    assert again.missing(plan.reduced) == []
-    assert 0 < len(again.missing(plan.full)) < len(plan.full.cases())
-    run(plan, again, workers=1)
-    assert everything(again) == everything(store)
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"workers": 0}, "workers is 0; at least 1"),
+        ({"threads": 0}, "threads is 0; at least 1"),
+        ({"workers": 10**3, "threads": 2}, "more than the .* cores of this machine"),
+        ({"workers": 2, "scheduler": "tcp://127.0.0.1:1"}, "workers and a scheduler are given"),
+    ],
+)
+def test_workers_and_threads_fit_the_machine(plan, tmp_path, options, message):
+    if options.get("workers") == 10**3:
+        options = options | {"workers": rl.fft.available_cores()}
+    with pytest.raises(rl.InputError, match=message):
+        campaign.run(smaller(plan, realisations=1), tmp_path / "store", **options)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import logging
 import multiprocessing
+import signal
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from roughline._version import __version__
@@ -51,14 +54,16 @@ def local(workers: int) -> Iterator[Cluster]:
 
     with _quiet():
         try:
-            cluster = LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                processes=True,
-                memory_limit=0,  # cases that do not fit are refused before
-                dashboard_address="127.0.0.1:0",
-                silence_logs=logging.CRITICAL,
-            )
+            with _deaf_to_interrupts():
+                cluster = LocalCluster(
+                    n_workers=workers,
+                    threads_per_worker=1,
+                    processes=True,
+                    memory_limit=0,  # cases that do not fit are refused before
+                    dashboard_address="127.0.0.1:0",
+                    silence_logs=logging.CRITICAL,
+                    preload=[__name__],
+                )
         except (OSError, RuntimeError, TimeoutError) as error:
             raise ClusterError(f"workers on this machine do not start ({error})") from error
         with cluster, Client(cluster) as client:
@@ -106,16 +111,36 @@ def _check_versions(client: Any) -> None:
             raise ClusterError(f"{worker}: {answer}; install version {__version__} there")
 
 
+def dask_setup(worker: object) -> None:
+    """Leave interrupts to the parent: Dask calls this in each worker as it starts."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
 @contextmanager
-def _quiet() -> Iterator[None]:
-    """Keep the cluster's log of joining and leaving workers off the terminal."""
-    logger = logging.getLogger("distributed")
-    level = logger.level
-    logger.setLevel(logging.CRITICAL)
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Ignore interrupts for a moment; processes that are started meanwhile ignore them for good."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         yield
     finally:
-        logger.setLevel(level)
+        signal.signal(signal.SIGINT, before)
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep the cluster's talk of joining, leaving and lost workers off the terminal."""
+    loggers = [logging.getLogger(name) for name in ("distributed", "asyncio")]
+    levels = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        for logger, level in zip(loggers, levels, strict=True):
+            logger.setLevel(level)
 
 
 def refuse_unguarded_script() -> None:
@@ -133,6 +158,11 @@ def refuse_unguarded_script() -> None:
     main = sys.modules["__main__"]
     if getattr(main, "__spec__", None) is not None or not hasattr(main, "__file__"):
         return  # a module run with -m, a notebook, a prompt
+    if not Path(str(main.__file__)).exists():
+        raise InputError(
+            "a program from standard input cannot start workers, as they must import it: save it "
+            "in a file"
+        )
     trial = multiprocessing.get_context("spawn").Process(target=_nothing)
     trial.start()
     trial.join()

@@ -18,6 +18,8 @@ _BATCH_SECONDS = 0.5  # sending, receiving and writing a batch takes some ten mi
 _MOST_PER_CHUNK = 2**20  # values of one variable, so that one chunk is some megabytes
 _GENERATION_BYTES = 40  # per point of a surface, while it is generated
 _LINE_BYTES = 60  # per point, all in all
+_BLOCK = 4096  # of a file system [bytes]
+_FILES_OF_METADATA = 30  # of an ensemble
 _WORKER_BYTES = 300_000_000  # of the interpreter and its libraries
 
 
@@ -79,7 +81,7 @@ def cost_of(plan: Plan, missing: dict[str, int]) -> Cost:
         if count:
             seconds += count * _timed(ensemble)
             memory = max(memory, memory_of(ensemble))
-            disk += count * _bytes_per_case(ensemble)
+            disk += _bytes_on_disk(ensemble, count)
     return Cost(sum(missing.values()), seconds, memory, disk)
 
 
@@ -137,10 +139,16 @@ def _timed(ensemble: Ensemble) -> float:
         fft.set_threads(before)
 
 
-def _bytes_per_case(ensemble: Ensemble) -> int:
+def _bytes_on_disk(ensemble: Ensemble, cases: int) -> int:
+    """Size of the results of some cases, in the whole blocks that files take. [bytes]"""
     loads = len(ensemble.force_bars)
-    sizes = {name: int(VARIABLES[name][0][1:]) for name in variables_of(ensemble)}
-    return sum(size * (1 if name in PER_BODY else loads) for name, size in sizes.items()) + 1
+    high, wide = chunk_shape(ensemble)
+    chunks = math.ceil(cases / (high * wide))
+    per_chunk = _BLOCK  # the marks
+    for name in variables_of(ensemble):
+        values = high * wide * (1 if name in PER_BODY else loads)
+        per_chunk += _BLOCK * math.ceil(values * int(VARIABLES[name][0][1:]) / _BLOCK)
+    return chunks * per_chunk + _BLOCK * _FILES_OF_METADATA
 
 
 def _spoken(seconds: float) -> str:

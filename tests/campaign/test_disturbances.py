@@ -1,0 +1,251 @@
+"""Nothing is lost: whatever happens to a campaign, it ends in the bytes of an undisturbed one."""
+
+import contextlib
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import psutil
+import pytest
+
+from small_campaign import PLAN, finish, run, start, tree
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="signals of POSIX")
+
+
+@pytest.fixture(scope="module")
+def plan(tmp_path_factory):
+    path = tmp_path_factory.mktemp("plan") / "plan.toml"
+    path.write_text(PLAN)
+    return path
+
+
+@pytest.fixture(scope="module")
+def undisturbed(plan, tmp_path_factory):
+    store = tmp_path_factory.mktemp("undisturbed") / "store.zarr"
+    code, out, err = run(plan, store)
+    assert code == 0, err
+    assert "270 cases computed, 0 failed" in out
+    return tree(store)
+
+
+def wait_for_results(store, process, count=5):
+    """Wait until some batches of surfaces are written."""
+    chunks = store / "surfaces" / "case_status" / "c"
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and process.poll() is None:
+        if sum(path.is_file() for path in chunks.rglob("*")) >= count:
+            return
+        time.sleep(0.02)
+    pytest.fail(f"no results in time: {finish(process)}")
+
+
+def workers_of(process):
+    return [
+        child
+        for child in psutil.Process(process.pid).children(recursive=True)
+        if "spawn_main" in " ".join(child.cmdline())
+    ]
+
+
+def resume(plan, store, undisturbed):
+    code, out, err = run(plan, store)
+    assert code == 0, err
+    assert tree(store) == undisturbed
+    return out
+
+
+def test_a_worker_killed(plan, undisturbed, tmp_path):
+    store = tmp_path / "store"
+    process = start(plan, store)
+    for count in (2, 6):
+        wait_for_results(store, process, count)
+        workers_of(process)[0].kill()
+    code, out, err = finish(process)
+    assert code == 0, err
+    assert "270 cases computed, 0 failed" in out
+    assert tree(store) == undisturbed
+
+
+def test_the_client_killed(plan, undisturbed, tmp_path):
+    store = tmp_path / "store"
+    process = start(plan, store)
+    wait_for_results(store, process)
+    workers = workers_of(process)
+    process.kill()
+    finish(process)
+    _, alive = psutil.wait_procs(workers, timeout=30)
+    assert not alive, "workers outlive their client"
+    out = resume(plan, store, undisturbed)
+    assert "270 cases computed" not in out, "what was done is computed again"
+
+
+def test_the_scheduler_killed(plan, undisturbed, tmp_path, dask_cluster):
+    store = tmp_path / "store"
+    scheduler, address = dask_cluster
+    process = start(plan, store, "--scheduler", address)
+    wait_for_results(store, process)
+    scheduler.kill()
+    code, _, err = finish(process)
+    assert code == 2
+    assert "the Dask scheduler is gone; what is done is kept" in err
+    assert "Traceback" not in err
+    resume(plan, store, undisturbed)
+
+
+def test_ctrl_c(plan, undisturbed, tmp_path):
+    store = tmp_path / "store"
+    process = start(plan, store)
+    wait_for_results(store, process)
+    workers = workers_of(process)
+    os.killpg(process.pid, signal.SIGINT)
+    code, _, err = finish(process, timeout=20)
+    assert code == 130
+    assert "interrupted; what is done is kept in" in err
+    assert "Traceback" not in err
+    assert not psutil.wait_procs(workers, timeout=10)[1]
+    resume(plan, store, undisturbed)
+
+
+def test_terminated(plan, undisturbed, tmp_path):
+    """What batch systems send when time is up."""
+    store = tmp_path / "store"
+    process = start(plan, store)
+    wait_for_results(store, process)
+    process.terminate()
+    finish(process, timeout=20)
+    resume(plan, store, undisturbed)
+
+
+def test_files_cut_off(plan, undisturbed, tmp_path):
+    """Any chunk, of values, of marks or of coordinates, cut to half or to nothing, or lost."""
+    code, _, err = run(plan, tmp_path / "store")
+    assert code == 0, err
+    chunks = sorted(path for path in (tmp_path / "store").rglob("c/**/*") if path.is_file())
+    assert len(chunks) > 100
+    for i, path in enumerate(chunks[::3]):
+        content = path.read_bytes()
+        if i % 4 == 3:
+            path.unlink()
+        else:
+            path.write_bytes([content[: len(content) // 2], b"", b"\xff" + content[1:]][i % 4])
+    resume(plan, tmp_path / "store", undisturbed)
+
+
+def test_one_chunk_cut_off_costs_no_more_than_itself(plan, undisturbed, tmp_path):
+    store = tmp_path / "store"
+    assert run(plan, store)[0] == 0
+    chunk = next(path for path in (store / "surfaces/stiffness").rglob("c/**/*") if path.is_file())
+    chunk.write_bytes(chunk.read_bytes()[:-1])
+    out = resume(plan, store, undisturbed)
+    computed = int(out.split()[0])
+    assert 0 < computed <= 30
+
+
+def test_a_write_that_was_broken_off(plan, undisturbed, tmp_path):
+    """Leftovers of a killed writer, and values whose marks were not written."""
+    store = tmp_path / "store"
+    assert run(plan, store)[0] == 0
+    (store / "surfaces" / "stiffness" / "c" / "0" / "0" / "0.abc.partial").write_bytes(b"half")
+    shutil.rmtree(store / "surfaces" / "case_status" / "c" / "1")
+    resume(plan, store, undisturbed)
+
+
+def test_two_campaigns_on_one_store(plan, undisturbed, tmp_path):
+    store = tmp_path / "store"
+    first = start(plan, store)
+    wait_for_results(store, first, 1)
+    code, _, err = run(plan, store)
+    assert code == 2
+    assert "is in use by another campaign: wait for it to end" in err
+    assert finish(first)[0] == 0
+    assert tree(store) == undisturbed
+
+
+def test_a_disk_that_is_full(plan, undisturbed, tmp_path):
+    """A file system of its own, which somebody else fills up; room is made later."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=20m", "tmpfs", str(disk)]
+    if subprocess.run(mount, capture_output=True, check=False).returncode:
+        pytest.skip("no rights to mount a small disk")
+    try:
+        store = disk / "store"
+        process = start(plan, store)
+        wait_for_results(store, process)
+        with contextlib.suppress(OSError), (disk / "filler").open("wb", buffering=0) as filler:
+            while True:
+                filler.write(bytes(4096))
+        code, _, err = finish(process)
+        assert code == 2
+        assert "No space left on device" in err
+        assert "what is done is kept" in err
+        assert "Traceback" not in err
+        (disk / "filler").unlink()
+        resume(plan, store, undisturbed)
+    finally:
+        subprocess.run(["umount", "-l", str(disk)], check=False)
+
+
+def test_files_that_may_not_grow(plan, undisturbed, tmp_path):
+    """The same where no disk can be mounted: the system refuses to write on."""
+
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1500, 1500))
+
+    store = tmp_path / "store"
+    code, _, err = run(plan, store, preexec_fn=limit)
+    assert code == 2
+    assert "cannot write to" in err
+    assert "what is done is kept" in err
+    resume(plan, store, undisturbed)
+
+
+def test_a_script_without_a_guard(plan, tmp_path):
+    script = tmp_path / "study.py"
+    script.write_text(
+        "from roughline import campaign\n"
+        f"campaign.run(campaign.read_plan({str(plan)!r}), {str(tmp_path / 'store')!r})\n"
+    )
+    done = subprocess.run(
+        [sys.executable, script], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == 1
+    assert done.stderr.count("Traceback") == 1, done.stderr
+    last = done.stderr.splitlines()[-1]
+    assert last.endswith('put what it does under `if __name__ == "__main__":`')
+    assert not (tmp_path / "store").exists()
+    script.write_text(
+        "from roughline import campaign\n"
+        'if __name__ == "__main__":\n'
+        f"    campaign.run(campaign.read_plan({str(plan)!r}), {str(tmp_path / 'store')!r})\n"
+    )
+    done = subprocess.run(
+        [sys.executable, script], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_prompt_and_a_notebook(plan, undisturbed, tmp_path):
+    """No file to import, and inside a running event loop as in a notebook."""
+    script = f"""
+import asyncio
+from roughline import campaign
+async def cell():
+    campaign.run(campaign.read_plan({str(plan)!r}), {str(tmp_path / "store")!r})
+asyncio.run(cell())
+"""
+    command = [sys.executable, "-c", script]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert tree(tmp_path / "store") == undisturbed
+    done = subprocess.run(
+        [sys.executable, "-"], input=script, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 1
+    assert "cannot start workers, as they must import it: save it in a file" in done.stderr
