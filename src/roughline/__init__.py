@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING, Any
 from roughline._version import __version__
 
 if TYPE_CHECKING:
+    from roughline.averages import average as average
+    from roughline.comparison import Comparison as Comparison
+    from roughline.comparison import compare as compare
     from roughline.contact import press as press
     from roughline.curve import Curve as Curve
     from roughline.curve import Fields as Fields
     from roughline.curve import Status as Status
+    from roughline.errors import ClusterError as ClusterError
     from roughline.errors import ConvergenceError as ConvergenceError
     from roughline.errors import InputError as InputError
     from roughline.errors import RoughlineError as RoughlineError
@@ -24,17 +28,23 @@ if TYPE_CHECKING:
     from roughline.measured import read as read
     from roughline.measured import write as write
     from roughline.power_law import PowerLaw as PowerLaw
+    from roughline.power_law import find_window as find_window
     from roughline.power_law import fit_power_law as fit_power_law
     from roughline.scaling import EXACT_PUNCH as EXACT_PUNCH
     from roughline.scaling import PAPER_PUNCH as PAPER_PUNCH
     from roughline.spectra import SelfAffine as SelfAffine
     from roughline.topography import Line as Line
     from roughline.topography import Surface as Surface
+    from roughline.trust import trust_map as trust_map
 
 _HOMES = {
     "Curve": "curve",
     "Fields": "curve",
     "Status": "curve",
+    "Comparison": "comparison",
+    "compare": "comparison",
+    "average": "averages",
+    "ClusterError": "errors",
     "ConvergenceError": "errors",
     "InputError": "errors",
     "RoughlineError": "errors",
@@ -47,12 +57,14 @@ _HOMES = {
     "write": "measured",
     "PowerLaw": "power_law",
     "fit_power_law": "power_law",
+    "find_window": "power_law",
     "press": "contact",
     "EXACT_PUNCH": "scaling",
     "PAPER_PUNCH": "scaling",
     "SelfAffine": "spectra",
     "Line": "topography",
     "Surface": "topography",
+    "trust_map": "trust",
 }
 
 __all__ = ["__version__", *_HOMES]

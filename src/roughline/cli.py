@@ -9,12 +9,15 @@ from contextlib import contextmanager
 from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from roughline._version import __version__
-from roughline.errors import ConvergenceError, RoughlineError
+from roughline.errors import ConvergenceError, InputError, RoughlineError
+
+if TYPE_CHECKING:
+    from roughline.spectra import SelfAffine
 
 app = typer.Typer(
     name="roughline",
@@ -47,6 +50,12 @@ class Scale(StrEnum):
 
 _WORKERS = typer.Option(min=1, help="Processes on this machine [default: one for each core].")
 _SCHEDULER = typer.Option(help="Address of a Dask scheduler, such as tcp://10.0.0.1:8786.")
+_HURST = typer.Option(help="Hurst exponent, 0 to 1.")
+_FRACTAL_DIMENSION = typer.Option(help="Fractal dimension, 2 to 3, instead.")
+_POINTS = typer.Option("-n", "--points", help="Points along a side.")
+_ROLL_OFF = typer.Option(help='Wavelength above which the spectrum is flat: "0.2 mm".')
+_CUTOFF = typer.Option(help='Shortest wavelength, such as "5 um" [default: the grid].')
+_UNIT = typer.Option(help="Unit of the lengths in a file that states none.")
 _STORE = typer.Argument(help="A store, or the plan beside which it lies.")
 
 
@@ -133,7 +142,7 @@ def campaign_run(
             announce=announce,
         )
     print_summary(summary, where)
-    if sum(summary.failed.values()):
+    if sum(summary.failed.values()) or summary.unconverged:
         raise typer.Exit(1)
 
 
@@ -178,9 +187,7 @@ def press(
     depth: Annotated[
         list[str] | None, typer.Option(help='A depth, such as "200 nm"; may be repeated.')
     ] = None,
-    unit: Annotated[
-        str | None, typer.Option(help="Unit of the lengths in a file that states none.")
-    ] = None,
+    unit: Annotated[str | None, _UNIT] = None,
     keep_tilt: Annotated[bool, typer.Option(help="Keep a measured surface's tilt.")] = False,
     periodic: Annotated[bool, typer.Option(help="Repeat the surface periodically.")] = False,
     grid_error: Annotated[
@@ -226,45 +233,101 @@ def press(
 
 
 @app.command()
+def compare(
+    file: Annotated[Path | None, typer.Argument(help="A surface, instead of a spectrum.")] = None,
+    hurst: Annotated[float | None, _HURST] = None,
+    fractal_dimension: Annotated[float | None, _FRACTAL_DIMENSION] = None,
+    length: Annotated[
+        str | None, typer.Option(help='Side of the surface, such as "1 mm"; needed with cutoffs.')
+    ] = None,
+    roll_off: Annotated[str | None, _ROLL_OFF] = None,
+    cutoff: Annotated[str | None, _CUTOFF] = None,
+    n: Annotated[int, _POINTS] = 256,
+    surfaces: Annotated[int, typer.Option(help="Surfaces of the spectrum.")] = 20,
+    force_bar: Annotated[
+        list[float] | None,
+        typer.Option(help="A dimensionless force F / (E* h L); may be repeated."),
+    ] = None,
+    tolerance: Annotated[
+        float, typer.Option(help="Relative difference that counts as agreement.")
+    ] = 0.1,
+    seed: Annotated[int, typer.Option(min=0, help="Root of all random seeds.")] = 0,
+    unit: Annotated[str | None, _UNIT] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for a table (CSV) and a figure.")] = None,
+) -> None:
+    """Say how far the reduced model is from the full one, for your own roughness.
+
+    For a spectrum, random surfaces and random lines are pressed, and the map that comes with the
+    package is read; for a surface in a file, that surface and lines of its spectrum.
+    """
+    from roughline.report.compared import compare_models
+    from roughline.report.terminal import load_progress, print_compared
+
+    body = file or _spectrum(hurst, fractal_dimension, length, "1 m", roll_off, cutoff)
+    with load_progress() as progress:
+        result = compare_models(
+            body,
+            n=n,
+            surfaces=surfaces,
+            force_bars=force_bar,
+            tolerance=tolerance,
+            seed=seed,
+            unit=unit,
+            out=out,
+            progress=progress,
+        )
+    print_compared(result)
+
+
+@app.command()
 def generate(
     out: Annotated[Path, typer.Option(help='File to write, ending in ".nc".')],
     length: Annotated[str, typer.Option(help='Side of the surface, such as "1 mm".')],
     rms_height: Annotated[str, typer.Option(help='Rms height, such as "1 um".')],
-    hurst: Annotated[float | None, typer.Option(help="Hurst exponent, 0 to 1.")] = None,
-    fractal_dimension: Annotated[
-        float | None, typer.Option(help="Fractal dimension, 2 to 3, instead.")
-    ] = None,
-    n: Annotated[int, typer.Option("-n", "--points", help="Points along a side.")] = 512,
+    hurst: Annotated[float | None, _HURST] = None,
+    fractal_dimension: Annotated[float | None, _FRACTAL_DIMENSION] = None,
+    n: Annotated[int, _POINTS] = 512,
     seed: Annotated[int, typer.Option(min=0, help="Random seed.")] = 0,
     line: Annotated[bool, typer.Option(help="The reduced line instead of the surface.")] = False,
-    roll_off: Annotated[
-        str | None, typer.Option(help='Wavelength above which the spectrum is flat: "0.2 mm".')
-    ] = None,
-    cutoff: Annotated[
-        str | None, typer.Option(help='Shortest wavelength, such as "5 um" [default: the grid].')
-    ] = None,
+    roll_off: Annotated[str | None, _ROLL_OFF] = None,
+    cutoff: Annotated[str | None, _CUTOFF] = None,
     gaussian: Annotated[
         bool, typer.Option(help="Gaussian amplitudes instead of random phases alone.")
     ] = False,
 ) -> None:
     """Generate a random self-affine surface, or its reduced line, and write it to a file."""
     from roughline.measured import write
-    from roughline.quantities import in_si
     from roughline.report.terminal import print_generated
-    from roughline.spectra import SelfAffine
 
-    spectrum = SelfAffine(
-        hurst=hurst,
-        fractal_dimension=fractal_dimension,
-        length=in_si(length, "m", "length"),
-        rms_height=in_si(rms_height, "m", "rms-height"),
-        q_roll=2 * math.pi / in_si(roll_off, "m", "roll-off") if roll_off else None,
-        q_high=2 * math.pi / in_si(cutoff, "m", "cutoff") if cutoff else None,
-    )
+    spectrum = _spectrum(hurst, fractal_dimension, length, rms_height, roll_off, cutoff)
     make = spectrum.line if line else spectrum.surface
     body = replace(make(n, seed, "gaussian" if gaussian else "fixed"), unit="m")
     write(body, out)
     print_generated(body, out)
+
+
+def _spectrum(
+    hurst: float | None,
+    fractal_dimension: float | None,
+    length: str | None,
+    rms_height: str,
+    roll_off: str | None,
+    cutoff: str | None,
+) -> SelfAffine:
+    """The spectrum that the options describe; without a length, one without cutoffs."""
+    from roughline.quantities import in_si
+    from roughline.spectra import SelfAffine
+
+    if length is None and (roll_off or cutoff):
+        raise InputError("a roll-off or a cutoff is given without the length of the surface")
+    return SelfAffine(
+        hurst=hurst,
+        fractal_dimension=fractal_dimension,
+        length=in_si(length or "1 m", "m", "length"),
+        rms_height=in_si(rms_height, "m", "rms-height"),
+        q_roll=2 * math.pi / in_si(roll_off, "m", "roll-off") if roll_off else None,
+        q_high=2 * math.pi / in_si(cutoff, "m", "cutoff") if cutoff else None,
+    )
 
 
 def _store_of(path: Path) -> Path:

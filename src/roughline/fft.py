@@ -99,6 +99,11 @@ def cosine_spectrum(quarter: Real) -> None:
     ducc0.fft.dct(quarter, type=1, out=quarter, nthreads=1)
 
 
+def analyse(values: Real) -> Complex:
+    """Return the full spectrum of real values over a plane."""
+    return ducc0.fft.c2c(values.astype(np.complex128), axes=(0, 1), forward=True, nthreads=1)
+
+
 def synthesise(half_spectrum: Complex, n: int) -> Real:
     """Sum a Hermitian spectrum, stored for q >= 0 on the last axis, to real values."""
     axes = tuple(range(half_spectrum.ndim))

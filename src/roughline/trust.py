@@ -59,12 +59,12 @@ class Difference:
         return text if self.resolved else f"{text}, at the limit of the grid"
 
     def verdict(self, tolerance: float = 0.1) -> str:
-        """Say whether the reduced model may be trusted to a relative tolerance."""
+        """Say "yes", "no" or "undecided": whether the interval lies within a tolerance."""
         if -tolerance <= self.low and self.high <= tolerance:
             return "yes"
         if self.high < -tolerance or self.low > tolerance:
             return "no"
-        return "within the uncertainty"
+        return "undecided"
 
 
 @dataclass(frozen=True, eq=False)

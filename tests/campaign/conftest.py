@@ -1,37 +1,8 @@
-"""A Dask scheduler and workers as processes of their own, on loopback."""
-
-import subprocess
-import sys
-import time
+"""A Dask cluster for the tests of campaigns."""
 
 import pytest
 
-
-def start_scheduler(folder):
-    """Start a scheduler; the process and its address."""
-    note = folder / "scheduler.json"
-    process = subprocess.Popen(
-        [
-            *(sys.executable, "-m", "dask", "scheduler", "--host", "127.0.0.1", "--port", "0"),
-            *("--no-dashboard", "--scheduler-file", str(note)),
-        ],
-        stderr=subprocess.DEVNULL,
-    )
-    deadline = time.monotonic() + 30
-    while time.monotonic() < deadline:
-        if note.exists() and '"address"' in (text := note.read_text()):
-            return process, text.split('"address": "')[1].split('"')[0]
-        time.sleep(0.05)
-    process.kill()
-    raise TimeoutError("the scheduler does not start")
-
-
-def start_worker(address, *arguments, **options):
-    """Start a worker of a scheduler."""
-    command = [sys.executable, "-m", "dask", "worker", address, "--no-dashboard", "--no-nanny"]
-    return subprocess.Popen(
-        [*command, *arguments], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL, **options
-    )
+from dask_processes import start_scheduler, start_worker
 
 
 @pytest.fixture

@@ -169,7 +169,7 @@ def test_the_first_real_surface(topographies, invoke, tmp_path):
             ),
             'does not end in ".nc"',
         ),
-        (("paper", "--out", "{file}"), "cannot keep results in"),
+        (("paper", "--out", "{file}"), "cannot write to"),
     ],
 )
 def test_bad_input_is_one_line_and_exit_2(surface_file, tmp_path, invoke, arguments, message):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from roughline.contact import press
 from roughline.errors import RoughlineError
 from roughline.spectra import SelfAffine
 
-Results = dict[str, NDArray[np.generic]]
+Results = dict[str, NDArray[Any]]
 Cell = tuple[int, int]
 """Index of the fractal dimension in the store, and the realisation."""
 
@@ -50,13 +51,13 @@ class Outcome:
         Every variable over (case, load) or (case); cases that failed hold fill values.
     failures : dict
         Reasons, by the cell of the case.
-    seconds : float
-        Time that it took. [s]
+    core_seconds : float
+        Computing time that it took, on all its cores. [s]
     """
 
     results: Results
     failures: dict[Cell, str]
-    seconds: float = 0.0
+    core_seconds: float = 0.0
 
 
 class VersionError(RoughlineError):
@@ -90,7 +91,8 @@ def evaluate(batch: Batch, threads: int, version: str) -> Outcome:
     """
     check_version(version)
     fft.set_threads(min(threads, fft.available_cores()))
-    start = time.perf_counter()
+    clock = time.thread_time if threads == 1 else time.process_time
+    start = clock()
     ensemble = batch.ensemble
     loads = len(ensemble.force_bars)
     results: Results = {}
@@ -107,7 +109,7 @@ def evaluate(batch: Batch, threads: int, version: str) -> Outcome:
             continue
         for name, values in case.items():
             results[name][i] = values
-    return Outcome(results, failures, time.perf_counter() - start)
+    return Outcome(results, failures, clock() - start)
 
 
 def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int) -> Results:

@@ -103,7 +103,7 @@ def remote(address: str) -> Iterator[Cluster]:
 
 def _check_versions(client: Any) -> None:
     for worker, answer in client.run(check_version, __version__, on_error="return").items():
-        if isinstance(answer, ImportError):
+        if "ModuleNotFoundError" in repr(answer):  # wrapped in an exception of no kind
             raise ClusterError(
                 f"the worker at {worker} has no roughline; install version {__version__} there"
             )

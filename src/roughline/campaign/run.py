@@ -27,6 +27,7 @@ from roughline.campaign.batch import (
 from roughline.campaign.cost import cost_of, refuse_beyond_disk, workers_that_fit
 from roughline.campaign.plan import Plan
 from roughline.campaign.writer import Writer, writing
+from roughline.curve import Status
 from roughline.errors import ClusterError, InputError
 
 Progress = Callable[[str, int, int, int], None]
@@ -49,12 +50,25 @@ class Summary:
         Time of the workers by ensemble. [s]
     reasons : Counter
         Why cases failed, equal reasons together.
+    unconverged : int
+        Loads, of cases that are done, that were not solved to the tolerance; they are NaN.
     """
 
     done: Counter[str] = field(default_factory=Counter)
     failed: Counter[str] = field(default_factory=Counter)
     core_seconds: dict[str, float] = field(default_factory=dict)
     reasons: Counter[str] = field(default_factory=Counter)
+    unconverged: int = 0
+
+    def add(self, batch: Batch, outcome: Outcome) -> None:
+        """Count a batch that was written."""
+        name, failed = batch.ensemble.name, len(outcome.failures)
+        self.done[name] += len(batch.cells) - failed
+        self.failed[name] += failed
+        self.core_seconds[name] = self.core_seconds.get(name, 0.0) + outcome.core_seconds
+        self.reasons.update(outcome.failures.values())
+        if "status" in outcome.results:
+            self.unconverged += int((outcome.results["status"] > Status.CONVERGED).sum())
 
 
 def run(
@@ -235,16 +249,10 @@ class _Campaign:
         outcome = _failed(batch, error) if error is not None else future.result()
         future.release()
         self.writer.put(batch, outcome)
-        name, failed = batch.ensemble.name, len(outcome.failures)
-        summary = self.summary
-        summary.done[name] += len(batch.cells) - failed
-        summary.failed[name] += failed
-        spent = summary.core_seconds.get(name, 0.0)
-        summary.core_seconds[name] = spent + outcome.seconds * self.threads
-        summary.reasons.update(outcome.failures.values())
-        total = batch.ensemble.cases
-        done = total - self.missing[name] + summary.done[name]
-        self.report(name, done, summary.failed[name], total)
+        self.summary.add(batch, outcome)
+        name, total = batch.ensemble.name, batch.ensemble.cases
+        done = total - self.missing[name] + self.summary.done[name]
+        self.report(name, done, self.summary.failed[name], total)
 
 
 def _failed(batch: Batch, error: BaseException) -> Outcome:

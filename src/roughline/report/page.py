@@ -54,6 +54,30 @@ def render(title: str, lead: str, sections: Sequence[Section]) -> str:
     return environment.from_string(source).render(title=title, lead=lead, sections=sections)
 
 
+def render_markdown(title: str, lead: str, sections: Sequence[Section], folder: str) -> str:
+    """Return the page as Markdown, with its pictures in a folder beside it."""
+    parts = [f"# {title}", lead]
+    for section in sections:
+        parts += [f"## {section.heading}", *section.paragraphs]
+        parts += [_markdown_table(table) for table in section.tables]
+        for picture in section.pictures:
+            parts += [
+                f"![{picture.name}]({folder}/{picture.path.name})",
+                f"**{picture.name}.** {picture.caption}",
+            ]
+        parts += [section.note] if section.note else []
+    return "\n\n".join(parts) + "\n"
+
+
+def _markdown_table(table: Table) -> str:
+    lines = [
+        table.header,
+        ["--:" if i in table.numbers else "---" for i in range(len(table.header))],
+    ]
+    cells = [[cell.replace("|", "\\|") for cell in row] for row in (*lines, *table.rows)]
+    return "\n".join(f"| {' | '.join(row)} |" for row in cells)
+
+
 def _verdict_class(verdict: str) -> str:
     if verdict.startswith("not"):
         return "no"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from tempfile import TemporaryFile
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -13,10 +12,10 @@ from numpy.typing import NDArray
 
 from roughline.contact import press
 from roughline.curve import Curve, Status
-from roughline.errors import StoreError
 from roughline.estimates import estimate
 from roughline.measured import levelled, read
 from roughline.quantities import engineering
+from roughline.report.folder import make_folder
 from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.topography import Body, Surface
 
@@ -87,7 +86,7 @@ def press_file(
     if not keep_tilt:
         body = levelled(body)
     if out is not None:
-        _make_folder(out)  # a folder that cannot be written is said before the work, not after
+        make_folder(out)  # a folder that cannot be written is said before the work, not after
     count = next((len(given) for given in (forces, depths, range(n_loads or 0)) if given), 0)
     if isinstance(body, Surface) and body.heights.size >= _LARGE:
         cost = estimate(body.shape, count, periodic=periodic)
@@ -158,7 +157,7 @@ def write_pressed(body: Body, curve: Curve, out: Path) -> list[Path]:
     StoreError
         If the folder cannot be written.
     """
-    _make_folder(out)
+    make_folder(out)
     replace(curve, fields=()).write(out / "curve.nc")
     written = [out / "curve.nc"]
     with styled():
@@ -208,15 +207,6 @@ def contact_figure(surface: Surface, curve: Curve) -> Figure:
     for axes in (left, right):
         axes.set(xlabel=f"x [{size_unit}]", ylabel=f"y [{size_unit}]")
     return figure
-
-
-def _make_folder(out: Path) -> None:
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        with TemporaryFile(dir=out):
-            pass
-    except OSError as error:
-        raise StoreError(f"cannot write to {out} ({error}): choose another folder") from error
 
 
 def _scaled(values: NDArray[np.float64], unit: str) -> tuple[str, NDArray[np.float64]]:

@@ -26,6 +26,7 @@ from rich.text import Text
 from roughline.campaign.run import Summary
 from roughline.campaign.store import Store
 from roughline.quantities import engineering
+from roughline.report.compared import Compared, compared_table, verdict
 from roughline.report.pressed import Pressed, curve_table
 from roughline.topography import Body, Surface
 
@@ -115,11 +116,30 @@ def print_pressed(pressed: Pressed) -> None:
     print_files(pressed.files)
 
 
+def print_compared(compared: Compared) -> None:
+    """Print both curves, their difference, and where the reduced model may be trusted."""
+    console = Console()
+    console.print(compared.what, highlight=False, soft_wrap=True)
+    header, rows = compared_table(compared)
+    table = Table(box=None, header_style="bold")
+    for name in header:
+        table.add_column(name, justify="right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    console.print(table)
+    if not compared.comparison.resolved.all():
+        console.print("* fewer than ten cells in contact: the grid decides, not the surface")
+    console.print(verdict(compared), highlight=False, soft_wrap=True)
+    print_files(compared.files)
+
+
 def print_summary(summary: Summary, store: Path) -> None:
     """Print what a campaign did, equal reasons of failures together."""
     console = Console()
     done, failed = sum(summary.done.values()), sum(summary.failed.values())
     console.print(f"{done} cases computed, {failed} failed; results in {store}", soft_wrap=True)
+    if summary.unconverged:
+        console.print(f"{summary.unconverged} loads did not converge: they are NaN")
     for reason, count in summary.reasons.most_common():
         console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)
 

@@ -1,0 +1,203 @@
+"""Both models of one roughness: the table, the figure, and what the map says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
+
+from roughline.comparison import Comparison, compare
+from roughline.errors import InputError, StoreError
+from roughline.measured import read
+from roughline.report.folder import make_folder
+from roughline.report.style import FORCE_LABEL, PAGE, SHADE, colours, new_figure, save, styled
+from roughline.spectra import SelfAffine
+from roughline.topography import Line, Surface
+from roughline.trust import Difference, trust_map
+
+
+@dataclass(frozen=True)
+class Compared:
+    """What a comparison gave.
+
+    Attributes
+    ----------
+    what : str
+        What was compared.
+    comparison : Comparison
+        Curves and differences.
+    tolerance : float
+        Relative difference up to which the reduced model counts as trusted.
+    from_map : list of Difference or None
+        What the map says for each load; None for loads outside it, and for surfaces.
+    files : list of Path
+        What was written.
+    """
+
+    what: str
+    comparison: Comparison
+    tolerance: float
+    from_map: list[Difference | None]
+    files: list[Path]
+
+
+def compare_models(
+    body: SelfAffine | Path,
+    *,
+    n: int,
+    surfaces: int,
+    force_bars: list[float] | None,
+    tolerance: float,
+    seed: int,
+    unit: str | None,
+    out: Path | None,
+    progress: Callable[[int, int], None] | None,
+) -> Compared:
+    """Compare the two models for a spectrum or for the surface in a file.
+
+    Parameters
+    ----------
+    body : SelfAffine or Path
+        The spectrum, or a topography.
+    n, surfaces, force_bars
+        As for :func:`roughline.compare`.
+    tolerance : float
+        Relative difference up to which the reduced model counts as trusted.
+    seed : int
+        Root of all seeds.
+    unit : str or None
+        Unit of the lengths in a file that states none.
+    out : Path or None
+        Folder for a table (CSV) and a figure; None writes nothing.
+    progress : callable or None
+        Called with (surfaces done, surfaces in all).
+
+    Raises
+    ------
+    InputError
+        If the tolerance is none, or the file holds a line.
+    """
+    if not 0 < tolerance < 1:
+        raise InputError(f"tolerance is {tolerance}; a share between 0 and 1 is needed")
+    given: SelfAffine | Surface
+    if isinstance(body, Path):
+        found = read(body, unit)
+        if isinstance(found, Line):
+            raise InputError(f"{body} holds a line; the models are compared on a surface")
+        given = found.detrended() if found.is_cut_out else found
+        what = f"{body}, {found.shape[0]} x {found.shape[1]} points, and lines of its spectrum"
+    else:
+        given = body
+        what = (
+            f"{surfaces} surfaces of {n} x {n} points, D_f = {body.fractal_dimension:g}, "
+            f"q_roll / q_0 = {body.q_roll / body.q_low:.3g}"
+        )
+    if out is not None:
+        make_folder(out)
+    result = compare(
+        given, n=n, surfaces=surfaces, force_bars=force_bars, rng=seed, progress=progress
+    )
+    from_map = [_on_map(given, force_bar) for force_bar in result.force_bar]
+    files = _write(result, tolerance, out) if out is not None else []
+    return Compared(what, result, tolerance, from_map, files)
+
+
+def compared_table(compared: Compared) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows; a star marks loads that the grid decides."""
+    result = compared.comparison
+    header = ["F / (E* h L)", "k 1D", "k 3D", "3D over 1D, less 1", "trusted"]
+    shows_map = any(entry is not None for entry in compared.from_map)
+    rows = []
+    for i, difference in enumerate(result.differences()):
+        sure = "" if difference.resolved else " *"
+        interval = f"{difference.value:+.1%} ({difference.low:+.1%} to {difference.high:+.1%})"
+        row = [
+            f"{result.force_bar[i]:.3g}",
+            f"{result.reduced.mean[i]:.4f}",
+            f"{result.full.mean[i]:.4f}",
+            interval + sure,
+            difference.verdict(compared.tolerance),
+        ]
+        entry = compared.from_map[i]
+        rows.append([*row, str(entry) if entry else "-"] if shows_map else row)
+    return ([*header, "the map says"] if shows_map else header), rows
+
+
+def verdict(compared: Compared) -> str:
+    """Say in one line where the reduced model may be trusted."""
+    window = compared.comparison.trusted(compared.tolerance)
+    share = f"{compared.tolerance:.0%}"
+    if window is None:
+        return f"the reduced model is not within {share} at any load that the grid resolves"
+    return (
+        f"the reduced model is within {share} from F / (E* h L) = {window[0]:.3g} to "
+        f"{window[1]:.3g}"
+    )
+
+
+def compared_figure(result: Comparison, tolerance: float) -> Figure:
+    """Both curves, and their relative difference with its interval."""
+    figure = new_figure(PAGE, 3.0)
+    left, right = figure.subplots(1, 2)
+    force = result.force_bar
+    dark, light = colours(2)
+    many = "mean of " if result.surfaces > 1 else ""
+    for mean, colour, label in (
+        (result.full, dark, f"full model, {many}{result.surfaces} surface(s)"),
+        (result.reduced, light, f"reduced model, mean of {result.lines} lines"),
+    ):
+        left.loglog(force, mean.mean, color=colour, marker="o", label=label)
+        left.fill_between(force, mean.low, mean.high, color=colour, alpha=0.25, linewidth=0)
+    left.set(xlabel=FORCE_LABEL, ylabel=r"raw stiffness $k\,/\,(E^* L)$")
+    left.legend()
+    right.axhspan(-tolerance, tolerance, **SHADE)
+    right.axhline(0, color="k", linewidth=0.7)
+    right.fill_between(force, result.low, result.high, color=dark, alpha=0.25, linewidth=0)
+    right.semilogx(force, result.difference, color=dark)
+    for sure, fill in ((result.resolved, "full"), (~result.resolved, "none")):
+        right.semilogx(
+            force[sure],
+            result.difference[sure],
+            color=dark,
+            marker="o",
+            linestyle="",
+            fillstyle=fill,
+        )
+    right.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    right.set(xlabel=FORCE_LABEL, ylabel="3D over 1D, less 1")
+    return figure
+
+
+def _on_map(body: SelfAffine | Surface, force_bar: float) -> Difference | None:
+    if isinstance(body, Surface):
+        return None
+    try:
+        return trust_map().at(body.fractal_dimension, force_bar, body.q_roll / body.q_low)
+    except InputError:  # outside the map, which is no fault of the comparison
+        return None
+
+
+def _write(result: Comparison, tolerance: float, out: Path) -> list[Path]:
+    import pandas as pd  # here because it loads slowly
+
+    frame = pd.DataFrame(
+        {
+            "force_bar": result.force_bar,
+            "stiffness_reduced": result.reduced.mean,
+            "stiffness_full": result.full.mean,
+            "difference": result.difference,
+            "low": result.low,
+            "high": result.high,
+            "resolved": result.resolved,
+        }
+    )
+    try:
+        frame.to_csv(out / "comparison.csv", index=False)
+        with styled():
+            files = save(compared_figure(result, tolerance), out, "comparison")
+    except OSError as error:
+        raise StoreError(f"cannot write to {out} ({error}): choose another folder") from error
+    return [out / "comparison.csv", *files]

@@ -1,0 +1,79 @@
+"""The page about the map: where the reduced model may be trusted."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.report.page import Section, Table, render_markdown
+from roughline.trust import TrustMap
+
+_TABLE_FORCES = (1e-3, 1e-2, 1e-1, 1.0)
+_TABLE_DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
+
+
+def trust_page(trust: TrustMap, folder: str) -> str:
+    """Return the page about the map as Markdown; its figure lies in a folder beside it."""
+    tables = [_table(trust, float(roll_off)) for roll_off in trust.roll_off_ratios]
+    sections = [
+        Section(
+            "The map",
+            [
+                f"![The map]({folder}/trust_map.png)",
+                "Raw stiffness k / (E* L) of the full model over that of the reduced one, less 1, "
+                "at the same F̄ = F / (E* h L), over fractal dimension and load, for five roll-off "
+                "ratios q_roll / q_0. Both models have the same self-affine spectrum, from q_0 = "
+                "2π/L to 64 q_0, and the same rms height. Hatched: in some surface, fewer than ten "
+                "cells were in contact. 20 surfaces of 512² points (eight for the shortest wave), "
+                "free half-space, and 200 lines of 65,536 points at each place.",
+            ],
+        ),
+        Section(
+            "In numbers",
+            [
+                "Differences of the means with 95 % intervals from resampled realisations; a star "
+                "where the grid decides."
+            ],
+        ),
+        *(
+            Section(f"q_roll / q_0 = {roll_off:g}", tables=[table])
+            for roll_off, table in zip(trust.roll_off_ratios, tables, strict=True)
+        ),
+        Section(
+            "How to use it",
+            [
+                "`rl.trust_map().at(fractal_dimension=2.3, force_bar=0.05, roll_off_ratio=2)` "
+                "gives the difference, its interval, and the scatter of single surfaces: one "
+                "surface of your own differs from the mean by so much. `roughline compare` presses "
+                "both models of your own spectrum or surface.",
+                "The map ends at its borders: it says nothing of other boundaries, of bodies that "
+                "are not square, or of heights that are not Gaussian. Its cutoff is 64 q_0; at "
+                "light loads and D_f near 3 the difference depends on the cutoff too.",
+            ],
+        ),
+    ]
+    lead = (
+        "The reduced model gives a stiffness in milliseconds, without interactions between "
+        "contacts. How far off is it? With roughness that goes on to the size of the body "
+        "(q_roll = q_0) it is close over much of the map; the more of the long waves are missing, "
+        "the worse it gets, as the law it obeys is an effect of the finite size (Pastewka et al., "
+        "Phys. Rev. E 87, 062809, 2013). Area, gap and pressure it does not predict at all, and "
+        "roughline does not offer them from it."
+    )
+    return render_markdown("Where may the reduced model be trusted?", lead, sections, folder)
+
+
+def _table(trust: TrustMap, roll_off: float) -> Table:
+    header = ("D_f", *(f"F̄ = {force:g}" for force in _TABLE_FORCES))
+    rows = [
+        (f"{dimension:.1f}", *(_cell(trust, roll_off, dimension, f) for f in _TABLE_FORCES))
+        for dimension in _TABLE_DIMENSIONS
+    ]
+    return Table(header, rows, numbers=range(len(header)))
+
+
+def _cell(trust: TrustMap, roll_off: float, dimension: float, force_bar: float) -> str:
+    found = trust.at(dimension, force_bar, roll_off)
+    if np.isnan(found.value):
+        return "-"
+    star = "" if found.resolved else " *"
+    return f"{found.value:+.0%} ({found.low:+.0%} to {found.high:+.0%}){star}"

@@ -1,0 +1,65 @@
+"""Draw the page "The paper, recomputed", the page of the map and their figures.
+
+    python studies/paper/publish.py
+
+reads ``studies/paper/data`` and the map of the package, and writes ``docs/paper.md``,
+``docs/trust.md`` and ``docs/figures/paper``.
+"""
+
+import json
+import shutil
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import xarray
+
+from roughline.report.comparisons import trust_map as draw_trust_map
+from roughline.report.page import render_markdown
+from roughline.report.paper import compose
+from roughline.report.results import PaperResults
+from roughline.report.style import save, styled
+from roughline.report.trusted import trust_page
+from roughline.trust import trust_map
+
+HERE = Path(__file__).parent
+DOCS = HERE.parents[1] / "docs"
+FIGURES = DOCS / "figures" / "paper"
+GRIDS = (128, 256, 512, 1024)
+
+
+def read(name: str) -> xarray.Dataset:
+    """Read an ensemble of the study."""
+    with xarray.open_dataset(HERE / "data" / f"{name}.nc", engine="h5netcdf") as data:
+        return data.load()
+
+
+def main() -> None:
+    """Draw everything anew."""
+    paper_grid = read("paper_grid")
+    results = PaperResults(
+        name="from the study in studies/paper",
+        command="roughline campaign run studies/paper/plan.toml",
+        reduced=read("lines"),
+        full=read("surfaces"),
+        matched=read("matched"),
+        exponents=read("exponents"),
+        grids={n: read(f"grid_{n}") for n in GRIDS} | {2048: paper_grid},
+        paper_grid=paper_grid,
+        core_seconds=json.loads((HERE / "data" / "times.json").read_text())["core_seconds"],
+    )
+    shutil.rmtree(FIGURES, ignore_errors=True)
+    FIGURES.mkdir(parents=True)
+    with TemporaryDirectory() as folder:
+        title, lead, sections = compose(results, Path(folder))
+        text = render_markdown(title, lead, sections, "figures/paper")
+        for picture in (Path(folder) / "figures").glob("*.png"):
+            shutil.copy(picture, FIGURES)
+    (DOCS / "paper.md").write_text(text, encoding="utf-8")
+    with styled():
+        save(draw_trust_map(trust_map()), FIGURES, "trust_map")
+    (FIGURES / "trust_map.pdf").unlink()
+    (DOCS / "trust.md").write_text(trust_page(trust_map(), "figures/paper"), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,86 @@
+"""Reduce the store of the paper's study to what figures and tables need, a few megabytes.
+
+    python studies/paper/reduce.py out/study.zarr
+
+writes ``studies/paper/data`` and the map of the package.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray
+
+from roughline import averages
+from roughline.campaign import Store
+from roughline.campaign.export import write_netcdf
+from roughline.report.sensitivity import WINDOWS_REDUCED
+from roughline.report.summary import exponents_of
+from roughline.trust import COLUMNS
+
+HERE = Path(__file__).parent
+DATA = HERE / "data"
+MAP = HERE.parents[1] / "src" / "roughline" / "trust_map.csv"
+ROLL_OFFS = (1, 2, 4, 8, 16)
+
+
+def main(path: Path) -> None:
+    """Reduce a finished store."""
+    store = Store(path)
+    for name in store.names:
+        done, failed, total = store.counts(name)
+        if done < total:
+            sys.exit(f"{name}: {total - done} of {total} cases are not done, {failed} failed")
+    DATA.mkdir(exist_ok=True)
+    lines, surfaces = store.dataset("lines"), store.dataset("surfaces")
+    write_netcdf(exponents_of(lines, WINDOWS_REDUCED), DATA / "exponents.nc")
+    shown = lines.sel(fractal_dimension=surfaces.fractal_dimension)
+    write(shown, "lines")
+    write(
+        store.dataset("lines-of-surfaces").drop_vars(["depth", "rms_slope", "highest"]), "matched"
+    )
+    write(surfaces, "surfaces")
+    write(store.dataset("paper-grid"), "paper_grid")
+    for n in (128, 256, 512, 1024):
+        write(store.dataset(f"grids-n{n}"), f"grid_{n}")
+    write_map(store)
+
+
+def write(data: xarray.Dataset, name: str) -> None:
+    """Write an ensemble; depths, which only averages at fixed level need, in single precision."""
+    if "depth" in data:
+        data = data.assign(depth=data.depth.astype(np.float32).assign_attrs(data.depth.attrs))
+    write_netcdf(data, DATA / f"{name}.nc")
+
+
+def write_map(store: Store) -> None:
+    """Write the difference of the two models over roll-off, fractal dimension and load."""
+    rows = []
+    for roll_off in ROLL_OFFS:
+        full, reduced = (
+            store.dataset(f"map-{body}-roll{roll_off}") for body in ("surfaces", "lines")
+        )
+        for dimension in full.fractal_dimension.values:
+            one_3d, one_1d = (data.sel(fractal_dimension=dimension) for data in (full, reduced))
+            difference, low, high = averages.relative_difference(
+                one_3d.stiffness.values, one_1d.stiffness.values, paired=False
+            )
+            mean = averages.average(one_3d.stiffness.values)
+            resolved = (one_3d.resolved.values == 1).all(axis=0)
+            rows += [
+                (roll_off, dimension, *row)
+                for row in zip(
+                    *(full.force_bar.values, difference, low, high, mean.scatter / mean.mean),
+                    resolved.astype(int),
+                    strict=True,
+                )
+            ]
+    table = pd.DataFrame(rows, columns=list(COLUMNS))
+    table.to_csv(MAP, index=False, float_format="%.6g")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(Path(sys.argv[1]))

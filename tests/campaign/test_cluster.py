@@ -1,0 +1,112 @@
+"""Clusters by address: real schedulers and workers, as processes of their own."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+import roughline as rl
+from dask_processes import start_scheduler, start_worker
+from roughline import campaign
+from roughline.campaign import cluster
+from small_campaign import PLAN, run, tree
+
+FEW = PLAN.replace("realisations = 60", "realisations = 6").replace(
+    "realisations = 30", "realisations = 4"
+)
+
+
+@pytest.fixture(scope="module")
+def plan(tmp_path_factory):
+    path = tmp_path_factory.mktemp("plan") / "plan.toml"
+    path.write_text(FEW)
+    return path
+
+
+def test_a_cluster_gives_the_same_bytes(plan, tmp_path, dask_cluster):
+    _, address = dask_cluster
+    code, out, err = run(plan, tmp_path / "far", "--scheduler", address)
+    assert code == 0, err
+    assert "30 cases computed, 0 failed" in out
+    assert "dashboard: http" in err
+    assert run(plan, tmp_path / "near", "--workers", 1)[0] == 0
+    assert tree(tmp_path / "far") == tree(tmp_path / "near")
+
+
+def test_workers_with_several_threads_give_the_same_bytes(plan, tmp_path):
+    """Two cases at a time in one process: nothing is shared between them."""
+    scheduler, address = start_scheduler(tmp_path)
+    worker = start_worker(address, "--nthreads", "2")
+    try:
+        assert run(plan, tmp_path / "far", "--scheduler", address)[0] == 0
+        assert run(plan, tmp_path / "near", "--workers", 2)[0] == 0
+        assert tree(tmp_path / "far") == tree(tmp_path / "near")
+    finally:
+        for process in (worker, scheduler):
+            process.kill()
+            process.wait()
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nonsense://x", "127.0.0.1:1"])
+def test_a_scheduler_that_does_not_answer(plan, tmp_path, address, monkeypatch):
+    monkeypatch.setattr(cluster, "_PATIENCE", 3.0)
+    with pytest.raises(rl.ClusterError, match="no Dask scheduler answers at") as caught:
+        campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_scheduler_without_workers(plan, tmp_path, monkeypatch):
+    monkeypatch.setattr(cluster, "_PATIENCE", 3.0)
+    scheduler, address = start_scheduler(tmp_path)
+    try:
+        with pytest.raises(rl.ClusterError, match="has no workers; start some with"):
+            campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
+    finally:
+        scheduler.kill()
+        scheduler.wait()
+
+
+def test_workers_of_another_version(plan, tmp_path):
+    """Told before anything is computed, with the address of the worker."""
+    fake = tmp_path / "fake"
+    fake.mkdir()
+    (fake / "sitecustomize.py").write_text(
+        "import roughline._version\nroughline._version.__version__ = '0.0.9'\n"
+    )
+    scheduler, address = start_scheduler(tmp_path)
+    worker = start_worker(address, env={**os.environ, "PYTHONPATH": str(fake)})
+    try:
+        code, _, err = run(plan, tmp_path / "store", "--scheduler", address)
+        assert code == 2
+        last = err.splitlines()[-1]
+        assert "a worker has roughline 0.0.9, this is" in last
+        assert f"install version {rl.__version__} there" in last
+        assert "Traceback" not in err
+    finally:
+        for process in (worker, scheduler):
+            process.kill()
+            process.wait()
+
+
+def test_workers_without_roughline(plan, tmp_path):
+    fake = tmp_path / "fake" / "roughline"
+    fake.mkdir(parents=True)
+    (fake / "__init__.py").write_text("")  # a package of that name with nothing in it
+    scheduler, address = start_scheduler(tmp_path)
+    worker = start_worker(address, env={**os.environ, "PYTHONPATH": str(fake.parent)})
+    try:
+        code, _, err = run(plan, tmp_path / "store", "--scheduler", address)
+        assert code == 2
+        assert "has no roughline; install version" in err.splitlines()[-1]
+        assert "Traceback" not in err
+    finally:
+        for process in (worker, scheduler):
+            process.kill()
+            process.wait()
+
+
+def test_a_campaign_without_a_main_module_to_import():
+    """The package itself starts no process and loads no cluster when it is imported."""
+    script = "import sys, roughline.campaign; sys.exit('distributed' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
