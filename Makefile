@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory robustness clean
+.PHONY: paper paper-full test check benchmark memory robustness soak study published clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -30,6 +30,16 @@ memory: $(VENV)/installed
 
 robustness: $(VENV)/installed
 	$(BIN)/python benchmarks/robustness.py
+
+soak: $(VENV)/installed
+	$(BIN)/python benchmarks/soak.py 100 1
+
+study: $(VENV)/installed
+	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
+	$(BIN)/python studies/paper/reduce.py out/study.zarr
+
+published: $(VENV)/installed
+	$(BIN)/python studies/paper/publish.py
 
 $(VENV)/installed: pyproject.toml requirements.lock
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "roughline needs Python 3.11 or newer; set PYTHON=...")'

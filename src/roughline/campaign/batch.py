@@ -40,6 +40,13 @@ class Batch:
     cells: tuple[Cell, ...]
     fractal_dimensions: tuple[float, ...]
 
+    def split(self) -> list[Batch]:
+        """Return batches of one case each."""
+        return [
+            Batch(self.ensemble, (cell,), (dimension,))
+            for cell, dimension in zip(self.cells, self.fractal_dimensions, strict=True)
+        ]
+
 
 @dataclass(frozen=True)
 class Outcome:

@@ -175,6 +175,9 @@ class _Campaign:
         self.threads, self.missing, self.report = threads, missing, report
         self.summary = Summary()
         self.pending: dict[Any, Batch | None] = {}
+        # cases that were with workers that died; which of them is to blame shows when each is alone
+        self.suspects: list[Batch] = []
+        self.alone = False
         self.cores = cluster.cores()
         self.looked = self.last_with_workers = time.monotonic()
 
@@ -185,7 +188,11 @@ class _Campaign:
             self.pending[self._submit(partial(evaluate_gallery, self.plan.gallery))] = None
         try:
             self._send(waiting)
-            while self.pending:
+            while self.pending or self.suspects:
+                if not self.pending:
+                    alone = self.suspects.pop()
+                    self.alone = True
+                    self.pending[self._submit(partial(evaluate, alone))] = alone
                 for future in self._finished():
                     self._take(future)
                 self._send(waiting)
@@ -245,6 +252,9 @@ class _Campaign:
                 raise error
             assert self.plan.gallery is not None
             self.writer.put_gallery(self.plan.gallery, future.result())
+            return
+        if type(error).__name__ == "KilledWorker" and not self.alone:
+            self.suspects += batch.split()
             return
         outcome = _failed(batch, error) if error is not None else future.result()
         future.release()

@@ -36,6 +36,7 @@ from roughline.report.summary import (
 from roughline.report.tables import (
     constant_table,
     exponent_table,
+    paper_grid_table,
     sensitivity_table,
     write_data,
 )
@@ -263,6 +264,7 @@ def _sections(
                 sensitivity_table("3D", _by_dimension(full, full, WINDOWS_FULL)),
             ],
         ),
+        *_grid_sections(results),
         Section("Figures", pictures=pictures),
         Section(
             "What was computed, and how",
@@ -280,6 +282,22 @@ def _sections(
                 "The numbers behind every figure are in the folder data, as NetCDF and CSV."
             ),
         ),
+    ]
+
+
+def _grid_sections(results: PaperResults) -> list[Section]:
+    if results.paper_grid is None:
+        return []
+    return [
+        Section(
+            "The paper's grid",
+            [
+                "The same surfaces (same phases, more detail) on the grid of the ensemble and on "
+                "the paper's. Mean, least and greatest of the ratio; α of their mean in the window "
+                "of the full model."
+            ],
+            tables=[paper_grid_table(results.full, results.paper_grid)],
+        )
     ]
 
 

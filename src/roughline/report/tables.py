@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughline.campaign.export import mean_table, write_netcdf
-from roughline.power_law import linear_exponent, scaling_exponent
+from roughline.power_law import fit_power_law, linear_exponent, scaling_exponent
 from roughline.report.claims import Claim
 from roughline.report.page import Table
 from roughline.report.results import PaperResults
 from roughline.report.sensitivity import Sensitivity
-from roughline.report.summary import OTHER_WINDOWS_REDUCED, DimensionSummary
+from roughline.report.summary import OTHER_WINDOWS_REDUCED, WINDOW_FULL, DimensionSummary
+
+if TYPE_CHECKING:
+    import xarray
+
+_GRID_FORCES = (0.01, 0.1, 1.0)
 
 
 def exponent_table(summaries: list[DimensionSummary]) -> Table:
@@ -87,6 +93,35 @@ def sensitivity_table(model: str, rows: list[Sensitivity]) -> Table:
         )
         body.append([*cells, str(row.unresolved)])
     return Table(header, body, numbers=range(len(header)))
+
+
+def paper_grid_table(full: xarray.Dataset, fine: xarray.Dataset) -> Table:
+    """Table of the same surfaces on the paper's grid and on that of the ensemble."""
+    n, n_fine = full.attrs["n"], fine.attrs["n"]
+    header = ["D_f", "surfaces"]
+    header += [f"k, {n_fine}² over {n}², F̄ = {force:g}" for force in _GRID_FORCES]
+    header += [f"α, {n}²", f"α, {n_fine}²", f"A, {n_fine}² over {n}², F̄ = 0.1"]
+    rows = []
+    for dimension in fine.fractal_dimension.values:
+        at = {"fractal_dimension": dimension, "realisation": fine.realisation}
+        shared = np.intersect1d(full.force_bar, fine.force_bar)
+        coarse = full.sel(at).sel(force_bar=shared)
+        best = fine.sel(fractal_dimension=dimension).sel(force_bar=shared)
+        cells = [f"{dimension:.1f}", f"{fine.sizes['realisation']}"]
+        for force in _GRID_FORCES:
+            ratio = best.stiffness / coarse.stiffness
+            cells.append(_spread(ratio.sel(force_bar=force, method="nearest").values))
+        for data in (coarse, best):
+            law = fit_power_law(shared, data.stiffness.values, WINDOW_FULL)
+            cells.append(f"{law.exponent:.3f}")
+        ratio = best.area_fraction_corrected / coarse.area_fraction_corrected
+        cells.append(_spread(ratio.sel(force_bar=0.1, method="nearest").values))
+        rows.append(cells)
+    return Table(header, rows, numbers=range(len(header)))
+
+
+def _spread(values: np.ndarray) -> str:
+    return f"{values.mean():.3f} ({values.min():.3f}-{values.max():.3f})"
 
 
 def _with_interval(value: float, interval: tuple[float, float]) -> str:

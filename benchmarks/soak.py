@@ -1,0 +1,139 @@
+"""Kill a campaign a hundred times at random moments; it must end in the bytes of a calm run.
+
+    python benchmarks/soak.py [kills] [seed]
+
+Kills are kill -9 of the client, of a worker, or of the scheduler of a cluster of its own, an
+interrupt, and a chunk cut off between two runs. A campaign that ends is compared with the calm one,
+and the next begins. Writes ``docs/soak-table.md``.
+"""
+
+import collections
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import psutil
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+from dask_processes import start_scheduler, start_worker  # noqa: E402
+from small_campaign import PLAN, finish, start, tree  # noqa: E402
+
+KINDS = ("client", "worker", "scheduler", "interrupt", "chunk")
+LONGEST = 6.0  # until a kill, from the start of the command [s]
+
+
+class Soak:
+    """Campaigns that are killed, and what became of them."""
+
+    def __init__(self, folder: Path, seed: int) -> None:
+        self.folder, self.chance = folder, random.Random(seed)
+        self.plan = folder / "plan.toml"
+        self.plan.write_text(PLAN)
+        self.kills: collections.Counter[str] = collections.Counter()
+        self.campaigns = self.runs = 0
+        code, _, err = finish(start(self.plan, folder / "calm"))
+        assert code == 0, err
+        self.calm = tree(folder / "calm")
+
+    def disturb(self, kills: int) -> None:
+        """Run campaigns to their ends until so many kills are done."""
+        while sum(self.kills.values()) < kills:
+            store = self.folder / "store"
+            shutil.rmtree(store, ignore_errors=True)
+            # the last kills fall on a campaign that may then end
+            while not self._run(store, calm=sum(self.kills.values()) >= kills):
+                pass
+            if tree(store) != self.calm:
+                sys.exit(f"after {dict(self.kills)}: the store differs from the calm one")
+            self.campaigns += 1
+            print(f"{sum(self.kills.values())} kills, {self.campaigns} campaigns", flush=True)
+
+    def _run(self, store: Path, calm: bool) -> bool:
+        """Run the command once, with or without a kill; whether the campaign is at its end."""
+        self.runs += 1
+        if calm:
+            return finish(start(self.plan, store))[0] == 0
+        kind = self.chance.choice(KINDS)
+        if kind == "scheduler":
+            return self._with_cluster(store)
+        process = start(self.plan, store)
+        time.sleep(self.chance.uniform(0.5, LONGEST))
+        if process.poll() is None and kind != "chunk":
+            self._kill(process, kind)
+        code, _, err = finish(process)
+        assert "Traceback" not in err, err
+        if kind == "chunk" and self._cut(store):
+            return False
+        return code == 0
+
+    def _kill(self, process: subprocess.Popen, kind: str) -> None:
+        if kind == "client":
+            process.kill()
+        elif kind == "interrupt":
+            os.killpg(process.pid, signal.SIGINT)
+        else:
+            children = psutil.Process(process.pid).children(recursive=True)
+            workers = [c for c in children if "spawn_main" in " ".join(c.cmdline())]
+            if not workers:
+                return
+            self.chance.choice(workers).kill()
+        self.kills[kind] += 1
+
+    def _with_cluster(self, store: Path) -> bool:
+        note = Path(tempfile.mkdtemp(dir=self.folder))
+        scheduler, address = start_scheduler(note)
+        workers = [start_worker(address, "--nthreads", "1") for _ in range(2)]
+        process = start(self.plan, store, "--scheduler", address)
+        time.sleep(self.chance.uniform(1.0, LONGEST))
+        if process.poll() is None:
+            scheduler.kill()
+            self.kills["scheduler"] += 1
+        code, _, err = finish(process)
+        assert "Traceback" not in err, err
+        for each in (*workers, scheduler):
+            each.kill()
+            each.wait()
+        return code == 0
+
+    def _cut(self, store: Path) -> bool:
+        chunks = [path for path in store.rglob("c/**/*") if path.is_file()]
+        if not chunks:
+            return False
+        path = self.chance.choice(chunks)
+        path.write_bytes(path.read_bytes()[: self.chance.randrange(path.stat().st_size)])
+        self.kills["chunk"] += 1
+        return True
+
+
+def main(kills: int, seed: int) -> None:
+    started = time.monotonic()
+    with tempfile.TemporaryDirectory() as folder:
+        soak = Soak(Path(folder), seed)
+        soak.disturb(kills)
+    minutes = (time.monotonic() - started) / 60
+    names = {
+        "client": "kill -9 of the client",
+        "worker": "kill -9 of a worker",
+        "scheduler": "kill -9 of the scheduler of a cluster",
+        "interrupt": "Ctrl-C",
+        "chunk": "a chunk cut off at a random place",
+    }
+    rows = "\n".join(f"| {names[kind]} | {soak.kills[kind]} |" for kind in KINDS)
+    (ROOT / "docs" / "soak-table.md").write_text(
+        f"# Kills, counted\n\nWritten by `make soak`, seed {seed}: {sum(soak.kills.values())} "
+        f"kills in {soak.runs} runs of {soak.campaigns} campaigns of 270 cases, {minutes:.0f} "
+        "minutes. Every campaign ended in the bytes of the calm one.\n\n"
+        f"| disturbance | times |\n|---|---|\n{rows}\n"
+    )
+
+
+if __name__ == "__main__":
+    numbers = [int(text) for text in sys.argv[1:]] + [100, 1][len(sys.argv) - 1 :]
+    main(*numbers)
