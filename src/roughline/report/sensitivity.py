@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughline import bootstrap
 from roughline.averages import at_levels
@@ -15,10 +16,13 @@ from roughline.report.summary import Estimate, Window, inside_window, usable
 if TYPE_CHECKING:
     import xarray
 
+Real = NDArray[np.float64]
+
 WINDOWS_REDUCED: tuple[Window, ...] = ((1e-4, 1e-2), (1e-3, 1e-1), (1e-2, 0.3))
 WINDOWS_FULL: tuple[Window, ...] = ((1e-3, 1e-2), (1e-2, 1e-1), (1e-2, 0.3))
 
 _LEVELS = 400
+_SURE = 0.95  # share of resamples that must bear something in the window, for an interval
 
 
 @dataclass(frozen=True)
@@ -86,15 +90,19 @@ def _at_level(data: xarray.Dataset, window: Window) -> Estimate:
         bootstrap.resampled_means(stiffness[:, inside]),
         strict=True,
     )
-    with np.errstate(divide="ignore", invalid="ignore"):
-        slopes = np.array([_slope(*pair) for pair in pairs])
+    slopes = np.array([_slope(*pair) for pair in pairs])
+    value = _slope(*(mean[inside] for mean in means))
+    if np.isfinite(slopes).mean() < _SURE:
+        return Estimate(value, np.nan, np.nan)
     low, high = bootstrap.percentile_interval(slopes)
-    return Estimate(_slope(*(mean[inside] for mean in means)), float(low), float(high))
+    return Estimate(value, float(low), float(high))
 
 
-def _slope(force: np.ndarray, stiffness: np.ndarray) -> float:
+def _slope(force: Real, stiffness: Real) -> float:
     """Exponent by least squares; levels at which a resample bears nothing are left out."""
     bears = (force > 0) & (stiffness > 0)
+    if np.count_nonzero(bears) < 3:
+        return float("nan")
     x, y = np.log(force[bears]), np.log(stiffness[bears])
     centred = x - x.mean()
     return float((centred * y).sum() / (centred**2).sum())
