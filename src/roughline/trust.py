@@ -1,7 +1,7 @@
 """Where the reduced model may be trusted: its distance from the full model, as a map.
 
 The map comes from ensembles of both models with the same self-affine spectrum, from
-2 pi / L to 64 times that, well resolved by the grids (512² points, free half-space); it is part of
+2 pi / L to 32 times that, well resolved by the grids (256² points, free half-space); it is part of
 the package, and made anew from the study in ``studies/paper``.
 """
 

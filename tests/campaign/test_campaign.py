@@ -273,6 +273,9 @@ def test_what_does_not_fit_is_refused_with_numbers(plan, tmp_path, monkeypatch):
     huge = replace(plan.ensemble("surfaces"), n=2**15, realisations=1)
     with pytest.raises(rl.InputError, match="GB of memory for the largest case"):
         campaign.run(replace(plan, ensembles=(huge,)), tmp_path / "huge")
+    # nothing was computed, so the same name may have other settings now
+    small = replace(huge, n=24)
+    assert campaign.run(replace(plan, ensembles=(small,)), tmp_path / "huge").done["surfaces"] == 3
     with pytest.raises(rl.InputError, match="take fewer workers"):
         workers_that_fit(psutil.virtual_memory().available // 2, wanted=4)
     assert workers_that_fit(psutil.virtual_memory().available // 3, wanted=2) == 2

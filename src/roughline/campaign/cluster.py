@@ -6,10 +6,10 @@ import logging
 import multiprocessing
 import signal
 import sys
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import Any
 
@@ -62,7 +62,6 @@ def local(workers: int) -> Iterator[Cluster]:
                     memory_limit=0,  # cases that do not fit are refused before
                     dashboard_address="127.0.0.1:0",
                     silence_logs=logging.CRITICAL,
-                    preload=[__name__],
                 )
         except (OSError, RuntimeError, TimeoutError) as error:
             raise ClusterError(f"workers on this machine do not start ({error})") from error
@@ -111,22 +110,22 @@ def _check_versions(client: Any) -> None:
             raise ClusterError(f"{worker}: {answer}; install version {__version__} there")
 
 
-def dask_setup(worker: object) -> None:
-    """Leave interrupts to the parent: Dask calls this in each worker as it starts."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 @contextmanager
 def _deaf_to_interrupts() -> Iterator[None]:
-    """Ignore interrupts for a moment; processes that are started meanwhile ignore them for good."""
-    if threading.current_thread() is not threading.main_thread():
+    """Hold interrupts back; threads and processes that are started meanwhile never get any.
+
+    So workers leave them to their parent. Dask starts its workers, later ones too, from a thread
+    that begins with the first.
+    """
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    resource_tracker.ensure_running()  # or it would let interrupts through when it starts
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextmanager

@@ -131,11 +131,20 @@ class Writer(Store):
             group.attrs["failures"] = dict(sorted(after.items()))
 
     def _refuse_others(self, ensemble: Ensemble) -> None:
-        """Raise if the store holds an ensemble of that name and other settings."""
+        """Raise if the store holds results of that name and other settings.
+
+        Where nothing was computed under the name yet, the settings give way.
+        """
         if ensemble.name not in self._root:
             return
         wanted = json.loads(json.dumps(ensemble.identity()))
-        found = self._root[ensemble.name].attrs
+        group = self._root[ensemble.name]
+        found = group.attrs
+        if {key: found.get(key) for key in wanted} == wanted:
+            return
+        if "case_status" not in group or (group["case_status"][:] == PENDING).all():
+            del self._root[ensemble.name]
+            return
         for key, value in wanted.items():
             if found.get(key) != value:
                 raise StoreError(

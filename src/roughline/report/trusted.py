@@ -22,8 +22,8 @@ def trust_page(trust: TrustMap, folder: str) -> str:
                 "Raw stiffness k / (E* L) of the full model over that of the reduced one, less 1, "
                 "at the same F̄ = F / (E* h L), over fractal dimension and load, for five roll-off "
                 "ratios q_roll / q_0. Both models have the same self-affine spectrum, from q_0 = "
-                "2π/L to 64 q_0, and the same rms height. Hatched: in some surface, fewer than ten "
-                "cells were in contact. 20 surfaces of 512² points (eight for the shortest wave), "
+                "2π/L to 32 q_0, and the same rms height. Hatched: in some surface, fewer than ten "
+                "cells were in contact. 40 surfaces of 256² points (eight for the shortest wave), "
                 "free half-space, and 200 lines of 65,536 points at each place.",
             ],
         ),
@@ -46,7 +46,7 @@ def trust_page(trust: TrustMap, folder: str) -> str:
                 "surface of your own differs from the mean by so much. `roughline compare` presses "
                 "both models of your own spectrum or surface.",
                 "The map ends at its borders: it says nothing of other boundaries, of bodies that "
-                "are not square, or of heights that are not Gaussian. Its cutoff is 64 q_0; at "
+                "are not square, or of heights that are not Gaussian. Its cutoff is 32 q_0; at "
                 "light loads and D_f near 3 the difference depends on the cutoff too.",
             ],
         ),
