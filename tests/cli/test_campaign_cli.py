@@ -1,14 +1,11 @@
 """Campaigns and comparisons on the command line: output, exit codes, and one line for bad input."""
 
-import sys
-
 import numpy as np
 import pandas as pd
 import pytest
 import xarray
 
 import roughline as rl
-from roughline import cli
 
 PLAN = """
 seed = 3
@@ -20,20 +17,6 @@ points = 1024
 realisations = 4
 force_bars = [0.01, 0.1, 1.0]
 """
-
-
-@pytest.fixture
-def invoke(monkeypatch, capsys):
-    """Run the command in this process; returns exit code, output and errors."""
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["roughline", *map(str, arguments)])
-        with pytest.raises(SystemExit) as caught:
-            cli.main()
-        captured = capsys.readouterr()
-        return caught.value.code, captured.out, captured.err
-
-    return run
 
 
 @pytest.fixture

@@ -19,20 +19,6 @@ def roughline(*arguments, timeout=120):
 
 
 @pytest.fixture
-def invoke(monkeypatch, capsys):
-    """Run the command in this process; returns exit code, output and errors."""
-
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["roughline", *map(str, arguments)])
-        with pytest.raises(SystemExit) as caught:
-            cli.main()
-        captured = capsys.readouterr()
-        return caught.value.code, captured.out, captured.err
-
-    return run
-
-
-@pytest.fixture
 def surface_file(tmp_path, invoke):
     path = tmp_path / "surface.nc"
     code, out, _ = invoke(

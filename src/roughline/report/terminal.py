@@ -102,13 +102,7 @@ def print_pressed(pressed: Pressed) -> None:
     boundary = curve.settings.get("boundary")
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
     console.print(f"E* = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
-    header, rows = curve_table(curve)
-    table = Table(box=None, header_style="bold")
-    for name in header:
-        table.add_column(name, justify="right", no_wrap=True)
-    for row in rows:
-        table.add_row(*row)
-    console.print(table)
+    console.print(_table(*curve_table(curve)))
     if not curve.resolved[curve.converged].all():
         console.print("* fewer than ten points in contact: the grid decides, not the surface")
     for warning in curve.warnings:
@@ -120,13 +114,7 @@ def print_compared(compared: Compared) -> None:
     """Print both curves, their difference, and where the reduced model may be trusted."""
     console = Console()
     console.print(compared.what, highlight=False, soft_wrap=True)
-    header, rows = compared_table(compared)
-    table = Table(box=None, header_style="bold")
-    for name in header:
-        table.add_column(name, justify="right", no_wrap=True)
-    for row in rows:
-        table.add_row(*row)
-    console.print(table)
+    console.print(_table(*compared_table(compared)))
     if not compared.comparison.resolved.all():
         console.print("* fewer than ten cells in contact: the grid decides, not the surface")
     console.print(verdict(compared), highlight=False, soft_wrap=True)
@@ -147,18 +135,20 @@ def print_summary(summary: Summary, store: Path) -> None:
 def print_status(store: Store) -> None:
     """Print what is done of a campaign, and why cases failed."""
     console = Console()
-    table = Table(box=None, header_style="bold")
-    table.add_column("ensemble")
-    for name in ("done", "failed", "in all"):
-        table.add_column(name, justify="right")
-    reasons: Counter[str] = Counter()
-    for name in store.names:
-        done, failed, total = store.counts(name)
-        table.add_row(name, str(done), str(failed), str(total))
-        reasons.update(store.failures(name).values())
-    console.print(table)
+    rows = [[name, *map(str, store.counts(name))] for name in store.names]
+    console.print(_table(["ensemble", "done", "failed", "in all"], rows))
+    reasons = Counter(why for name in store.names for why in store.failures(name).values())
     for reason, count in reasons.most_common():
         console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)
+
+
+def _table(header: list[str], rows: list[list[str]]) -> Table:
+    table = Table(box=None, header_style="bold")
+    for name in header:
+        table.add_column(name, justify="right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    return table
 
 
 def print_files(files: Iterable[Path]) -> None:
