@@ -37,6 +37,7 @@ soak: $(VENV)/installed
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
 	$(BIN)/python studies/paper/reduce.py out/study.zarr
+	$(BIN)/python studies/paper/times.py
 
 published: $(VENV)/installed
 	$(BIN)/python studies/paper/publish.py

@@ -16,7 +16,7 @@ import xarray
 from roughline.report.comparisons import trust_map as draw_trust_map
 from roughline.report.page import render_markdown
 from roughline.report.paper import compose
-from roughline.report.results import PaperResults
+from roughline.report.results import ROW_1D, ROW_3D, ROW_MATCHED, PaperResults, row_of
 from roughline.report.style import save, styled
 from roughline.report.trusted import trust_page
 from roughline.trust import trust_map
@@ -36,6 +36,7 @@ def read(name: str) -> xarray.Dataset:
 def main() -> None:
     """Draw everything anew."""
     paper_grid = read("paper_grid")
+    times = json.loads((HERE / "data" / "times.json").read_text())["core_seconds"]
     results = PaperResults(
         name="from the study in studies/paper",
         command="roughline campaign run studies/paper/plan.toml",
@@ -45,7 +46,16 @@ def main() -> None:
         exponents=read("exponents"),
         grids={n: read(f"grid_{n}") for n in GRIDS} | {2048: paper_grid},
         paper_grid=paper_grid,
-        core_seconds=json.loads((HERE / "data" / "times.json").read_text())["core_seconds"],
+        core_seconds={
+            name: times[ensemble]
+            for name, ensemble in (
+                (ROW_1D, "lines"),
+                (ROW_MATCHED, "lines-of-surfaces"),
+                (ROW_3D, "surfaces"),
+                (row_of(2048), "paper-grid"),
+                *((row_of(n), f"grids-n{n}") for n in GRIDS),
+            )
+        },
     )
     shutil.rmtree(FIGURES, ignore_errors=True)
     FIGURES.mkdir(parents=True)

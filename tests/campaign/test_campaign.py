@@ -284,6 +284,10 @@ def test_what_does_not_fit_is_refused_with_numbers(plan, tmp_path, monkeypatch):
     monkeypatch.setattr(shutil, "disk_usage", lambda path: usage._replace(free=1000))
     with pytest.raises(rl.StoreError, match="GB of disk, and"):
         campaign.run(replace(plan, ensembles=(many,)), tmp_path / "many")
+    countless = replace(many, realisations=10**10)
+    with pytest.raises(rl.InputError, match="a campaign of 30000000000 cases needs about"):
+        campaign.run(replace(plan, ensembles=(countless,)), tmp_path / "countless")
+    assert not (tmp_path / "countless").exists()
 
 
 def test_the_cost_is_told_before_the_work(plan, finished, tmp_path):

@@ -206,7 +206,7 @@ def test_the_published_page_has_grids_and_times(results, tmp_path):
         gallery=None,
         grids={24: results.full, 48: results.full},
         paper_grid=results.full,
-        core_seconds={"reduced": 18.0, "paper_grid": 1200.0},
+        core_seconds={"reduced": 0.02, "full, 2048²": 100.0},
     )
     import roughline.report.comparisons as comparisons
 
@@ -215,7 +215,7 @@ def test_the_published_page_has_grids_and_times(results, tmp_path):
         text = render_markdown(*compose(more, tmp_path), "figures/paper")
     assert text.startswith("# The paper, recomputed")
     assert "| 3D: several weeks at 2049² (§8) | 1e+02 s for a surface of 24² points" in text
-    assert "1D: lines of 2^20 points within minutes (§8) | 1 s for a line" in text
+    assert "1D: lines of 2^20 points within minutes (§8) | 0.02 s for a line" in text
     assert "![The influence of the grid](figures/paper/grid_convergence.png)" in text
     assert "1.000 (1.000-1.000)" in text
     assert "figure_1" not in text

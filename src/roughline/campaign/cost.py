@@ -13,11 +13,13 @@ from roughline.campaign.batch import evaluate_case
 from roughline.campaign.layout import PER_BODY, VARIABLES, variables_of
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.errors import InputError, StoreError
+from roughline.memory import refuse_beyond_memory
 
 _BATCH_SECONDS = 0.5  # sending, receiving and writing a batch takes some ten milliseconds
 _MOST_PER_CHUNK = 2**20  # values of one variable, so that one chunk is some megabytes
 _GENERATION_BYTES = 40  # per point of a surface, while it is generated
 _LINE_BYTES = 60  # per point, all in all
+_BYTES_PER_CASE = 500  # in the client, which lists them all
 _BLOCK = 4096  # of a file system [bytes]
 _FILES_OF_METADATA = 30  # of an ensemble
 _WORKER_BYTES = 300_000_000  # of the interpreter and its libraries
@@ -75,14 +77,13 @@ def cost_of(plan: Plan, missing: dict[str, int]) -> Cost:
     missing : dict
         Number of missing cases by name of the ensemble.
     """
-    seconds, memory, disk = 0.0, 0, 0
+    seconds, memory = 0.0, 0
     for ensemble in plan.ensembles:
         count = missing[ensemble.name]
         if count:
             seconds += count * _timed(ensemble)
             memory = max(memory, memory_of(ensemble))
-            disk += _bytes_on_disk(ensemble, count)
-    return Cost(sum(missing.values()), seconds, memory, disk)
+    return Cost(sum(missing.values()), seconds, memory, disk_of(plan, missing))
 
 
 def memory_of(ensemble: Ensemble) -> int:
@@ -95,7 +96,36 @@ def memory_of(ensemble: Ensemble) -> int:
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
 
 
-def refuse_beyond_disk(cost: Cost, store: Path) -> None:
+def disk_of(plan: Plan, missing: dict[str, int]) -> int:
+    """Return the size of results, before compression. [bytes]
+
+    Parameters
+    ----------
+    plan : Plan
+        The campaign.
+    missing : dict
+        Number of missing cases by name of the ensemble.
+    """
+    return sum(
+        _bytes_on_disk(ensemble, missing[ensemble.name])
+        for ensemble in plan.ensembles
+        if missing[ensemble.name]
+    )
+
+
+def refuse_countless(plan: Plan) -> None:
+    """Refuse a campaign with more cases than memory can list.
+
+    Raises
+    ------
+    InputError
+        If there are so many.
+    """
+    needed = _BYTES_PER_CASE * plan.cases
+    refuse_beyond_memory(needed, f"a campaign of {plan.cases} cases", "split the plan")
+
+
+def refuse_beyond_disk(plan: Plan, missing: dict[str, int], store: Path) -> None:
     """Refuse a campaign whose results the disk cannot hold.
 
     Raises
@@ -106,11 +136,11 @@ def refuse_beyond_disk(cost: Cost, store: Path) -> None:
     folder = store.absolute()
     while not folder.exists():
         folder = folder.parent
-    free = shutil.disk_usage(folder).free
-    if cost.disk > free:
+    needed, free = disk_of(plan, missing), shutil.disk_usage(folder).free
+    if needed > free:
         raise StoreError(
-            f"{cost.cases} cases need up to {cost.disk / 1e9:.3g} GB of disk, and "
-            f"{free / 1e9:.3g} GB is free in {folder}: make room, or take fewer cases or loads"
+            f"{sum(missing.values())} cases need up to {needed / 1e9:.3g} GB of disk, and {free / 1e9:.3g} GB is "
+            f"free in {folder}: make room, or take fewer cases or loads"
         )
 
 

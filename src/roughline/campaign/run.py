@@ -24,7 +24,7 @@ from roughline.campaign.batch import (
     evaluate,
     evaluate_gallery,
 )
-from roughline.campaign.cost import cost_of, refuse_beyond_disk, workers_that_fit
+from roughline.campaign.cost import cost_of, refuse_beyond_disk, refuse_countless, workers_that_fit
 from roughline.campaign.plan import Plan
 from roughline.campaign.writer import Writer, writing
 from roughline.curve import Status
@@ -125,6 +125,10 @@ def run(
     _check(scheduler, workers, threads)
     if scheduler is None:
         clusters.refuse_unguarded_script()
+    refuse_countless(plan)
+    if not Path(store).exists():  # else it shows below what is missing
+        whole = {ensemble.name: ensemble.cases for ensemble in plan.ensembles}
+        refuse_beyond_disk(plan, whole, Path(store))
     with writing(store, plan) as writer:
         batches = {ensemble.name: writer.missing(ensemble) for ensemble in plan.ensembles}
         missing = {name: sum(len(b.cells) for b in found) for name, found in batches.items()}
@@ -133,7 +137,7 @@ def run(
             _tell_all(plan, missing, report)
             return Summary()
         cost = cost_of(plan, missing)
-        refuse_beyond_disk(cost, Path(store))
+        refuse_beyond_disk(plan, missing, Path(store))
         cores = fft.available_cores()
         if scheduler is None:
             workers = workers_that_fit(max(cost.memory, 1), workers)

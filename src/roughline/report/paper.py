@@ -16,7 +16,7 @@ from roughline.errors import StoreError
 from roughline.report import comparisons, figures
 from roughline.report.claims import Claim, judge
 from roughline.report.page import Picture, Section, Table, render
-from roughline.report.results import PaperResults
+from roughline.report.results import ROW_1D, ROW_3D, ROW_MATCHED, PaperResults, row_of
 from roughline.report.sensitivity import (
     WINDOWS_FULL,
     WINDOWS_REDUCED,
@@ -325,23 +325,27 @@ def _by_dimension(
 
 def _settings_table(results: PaperResults) -> Table:
     named = [
-        ("reduced, 1D", results.reduced),
-        ("reduced, with the waves of the surfaces", results.matched),
-        ("full, 3D", results.full),
+        (ROW_1D, results.reduced),
+        (ROW_MATCHED, results.matched),
+        (ROW_3D, results.full),
+        *((row_of(n), data) for n, data in sorted(results.grids.items())),
     ]
-    named += [(f"full, {n}²", data) for n, data in sorted(results.grids.items())]
     rows = []
     for name, data in named:
-        n, dimensions, forces = data.attrs["n"], data.fractal_dimension.values, data.force_bar
+        # the exponents may be of more lines than are kept
+        dimensions = (results.exponents if name == ROW_1D else data).fractal_dimension.values
+        n, forces = data.attrs["n"], data.force_bar.values
+        each = results.core_seconds.get(name)
         rows.append(
             (
                 name,
                 f"{dimensions.size}, from {dimensions[0]:g} to {dimensions[-1]:g}",
                 f"{data.sizes['realisation']}",
                 f"{n}" if data.attrs["model"] == "reduced" else f"{n} × {n}",
-                f"{forces.size}, F̄ = {forces.values[0]:g} to {forces.values[-1]:g}",
+                f"{forces.size}, F̄ = {forces[0]:g} to {forces[-1]:g}",
                 f"SeedSequence({data.attrs['seed']}, spawn_key=(i,))",
+                *([f"{each:.2g} s"] if each else ["-"] if results.core_seconds else []),
             )
         )
     header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")
-    return Table(header, rows)
+    return Table((*header, "One body, one core") if results.core_seconds else header, rows)

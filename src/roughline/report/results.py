@@ -8,6 +8,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     import xarray
 
+ROW_1D, ROW_MATCHED, ROW_3D = "reduced", "reduced, with the waves of the surfaces", "full"
+"""Names of the ensembles in the table of what was computed."""
+
+
+def row_of(n: int) -> str:
+    """Return the name of the surfaces on a grid of n points along a side."""
+    return f"full, {n}²"
+
 
 @dataclass(frozen=True, eq=False)
 class PaperResults:
@@ -32,7 +40,7 @@ class PaperResults:
     paper_grid : Dataset or None
         Surfaces of 2048².
     core_seconds : dict of float
-        Time of the workers by ensemble ("reduced", "paper_grid"). [s]
+        Computing time of one body with all its loads, on one core, by the name of its row. [s]
     """
 
     name: str
