@@ -139,8 +139,8 @@ def refuse_beyond_disk(plan: Plan, missing: dict[str, int], store: Path) -> None
     needed, free = disk_of(plan, missing), shutil.disk_usage(folder).free
     if needed > free:
         raise StoreError(
-            f"{sum(missing.values())} cases need up to {needed / 1e9:.3g} GB of disk, and {free / 1e9:.3g} GB is "
-            f"free in {folder}: make room, or take fewer cases or loads"
+            f"{sum(missing.values())} cases need up to {needed / 1e9:.3g} GB of disk, and "
+            f"{free / 1e9:.3g} GB is free in {folder}: make room, or take fewer cases or loads"
         )
 
 
