@@ -11,6 +11,7 @@ import shutil
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
 import xarray
 
 from roughline.report.comparisons import trust_map as draw_trust_map
@@ -19,7 +20,7 @@ from roughline.report.paper import compose
 from roughline.report.results import ROW_1D, ROW_3D, ROW_MATCHED, PaperResults, row_of
 from roughline.report.style import save, styled
 from roughline.report.trusted import trust_page
-from roughline.trust import trust_map
+from roughline.trust import from_rows, trust_map
 
 HERE = Path(__file__).parent
 DOCS = HERE.parents[1] / "docs"
@@ -68,7 +69,8 @@ def main() -> None:
     with styled():
         save(draw_trust_map(trust_map()), FIGURES, "trust_map")
     (FIGURES / "trust_map.pdf").unlink()
-    (DOCS / "trust.md").write_text(trust_page(trust_map(), "figures/paper"), encoding="utf-8")
+    fine = from_rows(np.loadtxt(HERE / "data" / "map_fine.csv", delimiter=",", skiprows=1))
+    (DOCS / "trust.md").write_text(trust_page(trust_map(), fine, "figures/paper"), encoding="utf-8")
 
 
 if __name__ == "__main__":

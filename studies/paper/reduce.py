@@ -6,6 +6,7 @@ writes ``studies/paper/data`` and the map of the package.
 """
 
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +23,6 @@ from roughline.trust import COLUMNS
 HERE = Path(__file__).parent
 DATA = HERE / "data"
 MAP = HERE.parents[1] / "src" / "roughline" / "trust_map.csv"
-ROLL_OFFS = (1, 2, 4, 8, 16)
 
 
 def main(path: Path) -> None:
@@ -44,7 +44,8 @@ def main(path: Path) -> None:
     write(store.dataset("paper-grid"), "paper_grid")
     for n in (128, 256, 512, 1024):
         write(store.dataset(f"grids-n{n}"), f"grid_{n}")
-    write_map(store)
+    write_map(store, "map", (1, 2, 4, 8, 16), MAP)
+    write_map(store, "fine", (1, 4), DATA / "map_fine.csv")
 
 
 def write(data: xarray.Dataset, name: str) -> None:
@@ -54,12 +55,12 @@ def write(data: xarray.Dataset, name: str) -> None:
     write_netcdf(data, DATA / f"{name}.nc")
 
 
-def write_map(store: Store) -> None:
+def write_map(store: Store, name: str, roll_offs: Sequence[int], path: Path) -> None:
     """Write the difference of the two models over roll-off, fractal dimension and load."""
     rows = []
-    for roll_off in ROLL_OFFS:
+    for roll_off in roll_offs:
         full, reduced = (
-            store.dataset(f"map-{body}-roll{roll_off}") for body in ("surfaces", "lines")
+            store.dataset(f"{name}-{body}-roll{roll_off}") for body in ("surfaces", "lines")
         )
         for dimension in full.fractal_dimension.values:
             one_3d, one_1d = (data.sel(fractal_dimension=dimension) for data in (full, reduced))
@@ -77,7 +78,7 @@ def write_map(store: Store) -> None:
                 )
             ]
     table = pd.DataFrame(rows, columns=list(COLUMNS))
-    table.to_csv(MAP, index=False, float_format="%.6g")
+    table.to_csv(path, index=False, float_format="%.6g")
 
 
 if __name__ == "__main__":

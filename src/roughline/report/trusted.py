@@ -11,8 +11,18 @@ _TABLE_FORCES = (1e-3, 1e-2, 1e-1, 1.0)
 _TABLE_DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 
 
-def trust_page(trust: TrustMap, folder: str) -> str:
-    """Return the page about the map as Markdown; its figure lies in a folder beside it."""
+def trust_page(trust: TrustMap, fine: TrustMap, folder: str) -> str:
+    """Return the page about the map as Markdown; its figure lies in a folder beside it.
+
+    Parameters
+    ----------
+    trust : TrustMap
+        The map.
+    fine : TrustMap
+        The same with twice the waves and points, at some places.
+    folder : str
+        Folder of the figure, relative to the page.
+    """
     tables = [_table(trust, float(roll_off)) for roll_off in trust.roll_off_ratios]
     sections = [
         Section(
@@ -39,6 +49,14 @@ def trust_page(trust: TrustMap, folder: str) -> str:
             for roll_off, table in zip(trust.roll_off_ratios, tables, strict=True)
         ),
         Section(
+            "How much it depends on its cutoff",
+            [
+                "The difference from the map, and from surfaces of 512² points with waves down to "
+                "64 q_0 (20 surfaces, 200 lines)."
+            ],
+            tables=[_cutoff_table(trust, fine)],
+        ),
+        Section(
             "How to use it",
             [
                 "`rl.trust_map().at(fractal_dimension=2.3, force_bar=0.05, roll_off_ratio=2)` "
@@ -46,8 +64,7 @@ def trust_page(trust: TrustMap, folder: str) -> str:
                 "surface of your own differs from the mean by so much. `roughline compare` presses "
                 "both models of your own spectrum or surface.",
                 "The map ends at its borders: it says nothing of other boundaries, of bodies that "
-                "are not square, or of heights that are not Gaussian. Its cutoff is 32 q_0; at "
-                "light loads and D_f near 3 the difference depends on the cutoff too.",
+                "are not square, or of heights that are not Gaussian.",
             ],
         ),
     ]
@@ -68,6 +85,21 @@ def _table(trust: TrustMap, roll_off: float) -> Table:
         (f"{dimension:.1f}", *(_cell(trust, roll_off, dimension, f) for f in _TABLE_FORCES))
         for dimension in _TABLE_DIMENSIONS
     ]
+    return Table(header, rows, numbers=range(len(header)))
+
+
+def _cutoff_table(trust: TrustMap, fine: TrustMap) -> Table:
+    header = ["q_roll / q_0", "D_f"]
+    header += [f"F̄ = {force:g}, {end} q_0" for force in _TABLE_FORCES[1:] for end in (32, 64)]
+    rows = []
+    for roll_off in map(float, fine.roll_off_ratios):
+        for dimension in map(float, fine.fractal_dimensions):
+            cells = [
+                _cell(of, roll_off, dimension, force)
+                for force in _TABLE_FORCES[1:]
+                for of in (trust, fine)
+            ]
+            rows.append([f"{roll_off:g}", f"{dimension:.1f}", *cells])
     return Table(header, rows, numbers=range(len(header)))
 
 
