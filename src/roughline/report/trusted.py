@@ -33,7 +33,7 @@ def trust_page(trust: TrustMap, fine: TrustMap, folder: str) -> str:
                 "at the same F̄ = F / (E* h L), over fractal dimension and load, for five roll-off "
                 "ratios q_roll / q_0. Both models have the same self-affine spectrum, from q_0 = "
                 "2π/L to 32 q_0, and the same rms height. Hatched: in some surface, fewer than ten "
-                "cells were in contact. 40 surfaces of 256² points (eight for the shortest wave), "
+                "cells were in contact. 20 surfaces of 256² points (eight for the shortest wave), "
                 "free half-space, and 200 lines of 65,536 points at each place.",
             ],
         ),
