@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import matplotlib as mpl
 import numpy as np
-from matplotlib.colors import BoundaryNorm
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
@@ -109,7 +110,7 @@ def models_compared(matched: xarray.Dataset, full: xarray.Dataset) -> Figure:
 
 def grid_convergence(grids: dict[int, xarray.Dataset]) -> Figure:
     """Stiffness and area of the same surfaces on several grids, relative to the finest."""
-    figure = new_figure(PAGE, 3.0)
+    figure = new_figure(PAGE, 3.3)
     axes = figure.subplots(1, 2)
     for panel, name in zip(axes, ("stiffness", "area_fraction_corrected"), strict=True):
         for dimension, colour in zip(CONVERGENCE_DIMENSIONS, colours(3), strict=True):
@@ -129,19 +130,22 @@ def grid_convergence(grids: dict[int, xarray.Dataset]) -> Figure:
                     for part in (data, reference)
                 )
                 sure = data.sel(force_bar=shared).resolved.isel(realisation=0).values == 1
-                panel.semilogx(
+                panel.plot(
                     shared[sure],
-                    (one / best - 1)[sure],
+                    (one / best)[sure],
                     color=colour,
                     linestyle=style,
-                    label=f"{dimension:.1f}, {n}² to {finest}²",
+                    label=f"$D_f$ = {dimension:.1f}, {n}²",
                 )
-        panel.axhline(0, color="k", linewidth=0.7)
-        panel.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
-        panel.set(xlabel=FORCE_LABEL)
-    axes[0].set(ylabel="stiffness, relative to the finest grid")
-    axes[1].set(ylabel="real area, relative to the finest grid")
-    axes[0].legend(title="$D_f$, grid", fontsize=6, ncols=2)
+        panel.axhline(1, color="k", linewidth=0.7)
+        panel.set(xlabel=FORCE_LABEL, xscale="log")
+    axes[0].set(ylabel=f"stiffness, over that of {finest}²")
+    axes[1].set(ylabel=f"real area, over that of {finest}²", yscale="log")
+    axes[1].yaxis.set_major_formatter("{x:g}")
+    axes[1].set_yticks([1, 2, 5, 10], minor=False)
+    figure.legend(
+        *axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=6, fontsize=6.5
+    )
     return figure
 
 
@@ -150,16 +154,23 @@ def trust_map(trust: TrustMap) -> Figure:
     count = trust.roll_off_ratios.size
     figure = new_figure(PAGE, 2.7)
     panels = figure.subplots(1, count, sharey=True)
-    levels = np.array([-0.75, -0.5, -0.25, -0.1, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0])
-    norm = BoundaryNorm(levels, 256, extend="both")
+    levels = np.array([-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4])
+    # equal steps of colour on both sides of none, white where the models agree
+    colours_of = mpl.colormaps["RdBu_r"](
+        np.concatenate([np.linspace(0.1, 0.4, 4), [0.5], np.linspace(0.6, 0.95, 5)])
+    )
+    scale, norm = ListedColormap(colours_of), BoundaryNorm(levels, levels.size + 1, extend="both")
     for i, (panel, roll_off) in enumerate(zip(panels, trust.roll_off_ratios, strict=True)):
-        values, doubt = trust.difference[i], ~trust.resolved[i]
         shown = panel.pcolormesh(
-            trust.force_bars, trust.fractal_dimensions, values, cmap="RdBu_r", norm=norm
+            trust.force_bars, trust.fractal_dimensions, trust.difference[i], cmap=scale, norm=norm
         )
-        hidden = np.ma.masked_where(~doubt, np.ones(values.shape))
-        panel.pcolor(
-            trust.force_bars, trust.fractal_dimensions, hidden, hatch="////", alpha=0, linewidth=0
+        panel.contourf(
+            trust.force_bars,
+            trust.fractal_dimensions,
+            trust.resolved[i],
+            levels=[-1, 0.5],
+            colors="none",
+            hatches=["////"],
         )
         panel.set(xscale="log", title=f"$q_r/q_0$ = {roll_off:g}", xlabel=r"$\bar F$")
     panels[0].set(ylabel="fractal dimension $D_f$")
