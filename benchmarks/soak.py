@@ -26,7 +26,7 @@ from dask_processes import start_scheduler, start_worker  # noqa: E402
 from small_campaign import PLAN, finish, start, tree  # noqa: E402
 
 KINDS = ("client", "worker", "scheduler", "interrupt", "chunk")
-LONGEST = 6.0  # until a kill, from the start of the command [s]
+LONGEST = 4.5  # until a kill, from the start of the command [s]
 
 
 class Soak:
@@ -65,8 +65,11 @@ class Soak:
             return self._with_cluster(store)
         process = start(self.plan, store)
         time.sleep(self.chance.uniform(0.5, LONGEST))
-        if process.poll() is None:
+        while process.poll() is None:
             self._kill(process, kind)
+            if kind != "worker":
+                break
+            time.sleep(self.chance.uniform(0.5, 2.0))  # and the next
         code, _, err = finish(process)
         assert "Traceback" not in err, err
         if kind == "chunk":

@@ -18,6 +18,16 @@ from roughline.campaign.batch import check_version
 from roughline.errors import ClusterError, InputError
 
 _PATIENCE = 30.0  # for a scheduler to answer and a first worker to appear [s]
+_ENVIRONMENT = "distributed.nanny.pre-spawn-environ"
+# Dask has its workers give back freed memory at once; to get it again takes longer than an FFT.
+_KEEP_MEMORY = {
+    "MALLOC_ARENA_MAX": "1",
+    "MALLOC_MMAP_THRESHOLD_": str(2**30),
+    "MALLOC_TRIM_THRESHOLD_": str(2**30),
+    "OMP_NUM_THREADS": "1",
+    "MKL_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+}
 _IMPORTED = 77  # exit code of a process that found itself importing its parent's script
 
 
@@ -50,11 +60,12 @@ def local(workers: int) -> Iterator[Cluster]:
     ClusterError
         If they do not start.
     """
-    from distributed import Client, LocalCluster  # here because it loads slowly
+    import dask  # here because they load slowly
+    from distributed import Client, LocalCluster
 
     with _quiet():
         try:
-            with _deaf_to_interrupts():
+            with _deaf_to_interrupts(), dask.config.set({_ENVIRONMENT: _KEEP_MEMORY}):
                 cluster = LocalCluster(
                     n_workers=workers,
                     threads_per_worker=1,
@@ -131,7 +142,12 @@ def _deaf_to_interrupts() -> Iterator[None]:
 @contextmanager
 def _quiet() -> Iterator[None]:
     """Keep the cluster's talk of joining, leaving and lost workers off the terminal."""
-    loggers = [logging.getLogger(name) for name in ("distributed", "asyncio")]
+    # Dask gives some of its loggers handlers and levels of their own
+    loggers = [
+        logging.getLogger(name)
+        for name in ("distributed", "asyncio", *logging.root.manager.loggerDict)
+        if name.partition(".")[0] in ("distributed", "asyncio")
+    ]
     levels = [logger.level for logger in loggers]
     for logger in loggers:
         logger.setLevel(logging.CRITICAL)

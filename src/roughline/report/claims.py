@@ -164,7 +164,7 @@ def _times(results: PaperResults) -> list[Claim]:
         claims.append(
             Claim(
                 statement,
-                f"{each:.2g} s for a {unit} of {data.attrs['n']}"
+                f"{each:.3g} s or less for a {unit} of {data.attrs['n']}"
                 f"{'²' if unit == 'surface' else ''} points and all its {loads} loads, on one "
                 "core, generation included",
                 "mean of a sample",

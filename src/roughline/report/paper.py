@@ -344,8 +344,8 @@ def _settings_table(results: PaperResults) -> Table:
                 f"{n}" if data.attrs["model"] == "reduced" else f"{n} × {n}",
                 f"{forces.size}, F̄ = {forces[0]:g} to {forces[-1]:g}",
                 f"SeedSequence({data.attrs['seed']}, spawn_key=(i,))",
-                *([f"{each:.2g} s"] if each else ["-"] if results.core_seconds else []),
+                *([f"{each:.3g} s"] if each else ["-"] if results.core_seconds else []),
             )
         )
     header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")
-    return Table((*header, "One body, one core") if results.core_seconds else header, rows)
+    return Table((*header, "One body, one core, at most") if results.core_seconds else header, rows)
