@@ -8,6 +8,7 @@ compared with the calm one, and the next begins. Writes ``docs/soak-table.md``.
 """
 
 import collections
+import contextlib
 import os
 import random
 import shutil
@@ -26,7 +27,7 @@ from dask_processes import start_scheduler, start_worker  # noqa: E402
 from small_campaign import PLAN, finish, start, tree  # noqa: E402
 
 KINDS = ("client", "worker", "scheduler", "interrupt", "chunk")
-LONGEST = 4.5  # until a kill, from the start of the command [s]
+LONGEST = 8.0  # until a kill, from the start of the command [s]
 
 
 class Soak:
@@ -49,7 +50,7 @@ class Soak:
             shutil.rmtree(store, ignore_errors=True)
             # the last kills fall on a campaign that may then end
             while not self._run(store, calm=sum(self.kills.values()) >= kills):
-                pass
+                print(dict(self.kills), flush=True)
             if tree(store) != self.calm:
                 sys.exit(f"after {dict(self.kills)}: the store differs from the calm one")
             self.campaigns += 1
@@ -66,7 +67,8 @@ class Soak:
         process = start(self.plan, store)
         time.sleep(self.chance.uniform(0.5, LONGEST))
         while process.poll() is None:
-            self._kill(process, kind)
+            with contextlib.suppress(psutil.Error):  # what is to be killed may have ended meanwhile
+                self._kill(process, kind)
             if kind != "worker":
                 break
             time.sleep(self.chance.uniform(0.5, 2.0))  # and the next
