@@ -121,7 +121,7 @@ def compare(
     if isinstance(body, Surface):
         spectrum = isotropic_spectrum(body)
         points = _SPRINGS_A_WAVE * spectrum.q.size
-        lines = [spectrum.line(points, seed) for seed in _seeds(rng, LINES)]
+        lines = (spectrum.line(points, seed) for seed in _seeds(rng, LINES))
         tell(0, 1)
         pressed = [_pressed(body, forces)]
         tell(1, 1)
@@ -130,7 +130,7 @@ def compare(
             raise InputError(f"surfaces is {surfaces}; an interval needs at least 2")
         alike = _on_grid(body, n)
         points = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE // 2 * n)
-        lines = [alike.line(points, seed) for seed in _seeds(rng, LINES)]
+        lines = (alike.line(points, seed) for seed in _seeds(rng, LINES))
         pressed = []
         for i, seed in enumerate(_seeds(rng, surfaces)):
             tell(i, surfaces)
@@ -148,7 +148,7 @@ def compare(
         high=high,
         resolved=np.all([resolved for _, resolved in pressed], axis=0),
         surfaces=len(pressed),
-        lines=len(lines),
+        lines=LINES,
     )
 
 

@@ -299,7 +299,8 @@ def test_the_cost_is_told_before_the_work(plan, finished, tmp_path):
     assert told[1].startswith("dashboard: http://127.0.0.1:")
     spent = json.loads(log_of(finished).read_text())["core_seconds"]
     cost = cost_of(plan, {"lines": 180, "surfaces": 90})
-    assert cost.core_seconds == pytest.approx(sum(spent.values()), rel=9)  # within a factor of ten
+    # good to a factor of two or three, and machines are noisy
+    assert 0.2 < cost.core_seconds / sum(spent.values()) < 5
 
 
 @pytest.mark.parametrize(
