@@ -22,7 +22,7 @@ PLAN = {
             "model": "reduced",
             "fractal_dimensions": {"from": 2, "to": 3, "count": 11},
             "points": 2**12,
-            "realisations": 10_000,
+            "realisations": 20_000,
             "force_bars": {"from": 1e-4, "to": 10, "per_decade": 6},
         }
     ],

@@ -36,7 +36,7 @@ class Soak:
     def __init__(self, folder: Path, seed: int) -> None:
         self.folder, self.chance = folder, random.Random(seed)
         self.plan = folder / "plan.toml"
-        self.plan.write_text(PLAN.replace("realisations = 30", "realisations = 150"))
+        self.plan.write_text(PLAN.replace("realisations = 62", "realisations = 150"))
         self.kills: collections.Counter[str] = collections.Counter()
         self.campaigns = self.runs = 0
         code, _, err = finish(start(self.plan, folder / "calm"))

@@ -21,7 +21,7 @@ name = "surfaces"
 model = "full"
 fractal_dimensions = [2.0, 2.4, 3.0]
 points = 64
-realisations = 30
+realisations = 62
 force_bars = { from = 1e-3, to = 10, per_decade = 6 }
 """
 

@@ -13,7 +13,7 @@ from roughline.campaign import cluster
 from small_campaign import PLAN, run, tree
 
 FEW = PLAN.replace("realisations = 60", "realisations = 6").replace(
-    "realisations = 30", "realisations = 4"
+    "realisations = 62", "realisations = 4"
 )
 
 

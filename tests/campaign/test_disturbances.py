@@ -29,7 +29,7 @@ def undisturbed(plan, tmp_path_factory):
     store = tmp_path_factory.mktemp("undisturbed") / "store.zarr"
     code, out, err = run(plan, store)
     assert code == 0, err
-    assert "270 cases computed, 0 failed" in out
+    assert "366 cases computed, 0 failed" in out
     return tree(store)
 
 
@@ -67,7 +67,7 @@ def test_a_worker_killed(plan, undisturbed, tmp_path):
         workers_of(process)[0].kill()
     code, out, err = finish(process)
     assert code == 0, err
-    assert "270 cases computed, 0 failed" in out
+    assert "366 cases computed, 0 failed" in out
     assert tree(store) == undisturbed
 
 
@@ -81,7 +81,7 @@ def test_the_client_killed(plan, undisturbed, tmp_path):
     _, alive = psutil.wait_procs(workers, timeout=30)
     assert not alive, "workers outlive their client"
     out = resume(plan, store, undisturbed)
-    assert "270 cases computed" not in out, "what was done is computed again"
+    assert "366 cases computed" not in out, "what was done is computed again"
 
 
 def test_the_scheduler_killed(plan, undisturbed, tmp_path, dask_cluster):

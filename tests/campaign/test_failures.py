@@ -21,7 +21,7 @@ batch.evaluate_case = evaluate_case
 @pytest.fixture
 def plan(tmp_path):
     path = tmp_path / "plan.toml"
-    path.write_text(PLAN.replace("= 60", "= 6").replace("= 30", "= 5"))
+    path.write_text(PLAN.replace("= 60", "= 6").replace("= 62", "= 5"))
     return path
 
 

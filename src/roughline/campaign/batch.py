@@ -18,11 +18,9 @@ from roughline.errors import RoughlineError
 from roughline.spectra import SelfAffine
 
 Results = dict[str, NDArray[Any]]
-Cell = tuple[int, int]
-"""Index of the fractal dimension in the store, and the realisation."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Batch:
     """Cases of one ensemble that lie in one chunk of the store.
 
@@ -30,21 +28,22 @@ class Batch:
     ----------
     ensemble : Ensemble
         What they belong to.
-    cells : tuple of (int, int)
+    cells : ndarray, shape (n, 2)
         Where they lie: index of the fractal dimension in the store, and realisation.
-    fractal_dimensions : tuple of float
+    fractal_dimensions : ndarray, shape (n,)
         Of each.
     """
 
+    # arrays, not tuples: thousands of tuples would keep the collector of Dask's loops busy
     ensemble: Ensemble
-    cells: tuple[Cell, ...]
-    fractal_dimensions: tuple[float, ...]
+    cells: NDArray[np.intp]
+    fractal_dimensions: NDArray[np.float64]
 
     def split(self) -> list[Batch]:
         """Return batches of one case each."""
         return [
-            Batch(self.ensemble, (cell,), (dimension,))
-            for cell, dimension in zip(self.cells, self.fractal_dimensions, strict=True)
+            Batch(self.ensemble, self.cells[i : i + 1], self.fractal_dimensions[i : i + 1])
+            for i in range(len(self.cells))
         ]
 
 
@@ -57,13 +56,13 @@ class Outcome:
     results : dict of ndarray
         Every variable over (case, load) or (case); cases that failed hold fill values.
     failures : dict
-        Reasons, by the cell of the case.
+        Reasons, by the index of the case in the batch.
     core_seconds : float
         Computing time that it took, on all its cores. [s]
     """
 
     results: Results
-    failures: dict[Cell, str]
+    failures: dict[int, str]
     core_seconds: float = 0.0
 
 
@@ -107,12 +106,13 @@ def evaluate(batch: Batch, threads: int, version: str) -> Outcome:
         dtype, fill, _ = VARIABLES[name]
         shape = (len(batch.cells),) if name in PER_BODY else (len(batch.cells), loads)
         results[name] = np.full(shape, fill, dtype=dtype)
-    failures: dict[Cell, str] = {}
-    for i, (cell, dimension) in enumerate(zip(batch.cells, batch.fractal_dimensions, strict=True)):
+    failures: dict[int, str] = {}
+    realisations = batch.cells[:, 1].tolist()
+    for i, dimension in enumerate(batch.fractal_dimensions.tolist()):
         try:
-            case = evaluate_case(ensemble, dimension, cell[1])
+            case = evaluate_case(ensemble, dimension, realisations[i])
         except Exception as error:  # whatever it is, the others go on, and the store says it
-            failures[cell] = f"{type(error).__name__}: {error}".splitlines()[0]
+            failures[i] = f"{type(error).__name__}: {error}".splitlines()[0]
             continue
         for name, values in case.items():
             results[name][i] = values

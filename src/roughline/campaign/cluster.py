@@ -28,6 +28,13 @@ _KEEP_MEMORY = {
     "MKL_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
 }
+# Dask samples the stacks of its workers and counts its own ticks, for pages of its dashboard
+# that say nothing about cases; with short cases that costs more than to send and to store them.
+_UNDISTURBED = {
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.tick.limit": "10s",
+}
 _IMPORTED = 77  # exit code of a process that found itself importing its parent's script
 
 
@@ -65,7 +72,10 @@ def local(workers: int) -> Iterator[Cluster]:
 
     with _quiet():
         try:
-            with _deaf_to_interrupts(), dask.config.set({_ENVIRONMENT: _KEEP_MEMORY}):
+            with (
+                _deaf_to_interrupts(),
+                dask.config.set(_UNDISTURBED | {_ENVIRONMENT: _KEEP_MEMORY}),
+            ):
                 cluster = LocalCluster(
                     n_workers=workers,
                     threads_per_worker=1,

@@ -15,7 +15,7 @@ from roughline.campaign.plan import Ensemble, Plan
 from roughline.errors import InputError, StoreError
 from roughline.memory import refuse_beyond_memory
 
-_BATCH_SECONDS = 0.5  # sending, receiving and writing a batch takes some ten milliseconds
+_BATCH_SECONDS = 1.0  # sending, receiving and writing a batch takes some ten milliseconds
 _MOST_PER_CHUNK = 2**20  # values of one variable, so that one chunk is some megabytes
 _GENERATION_BYTES = 40  # per point of a surface, while it is generated
 _LINE_BYTES = 60  # per point, all in all
@@ -58,7 +58,7 @@ class Cost:
 def chunk_shape(ensemble: Ensemble) -> tuple[int, int]:
     """Return how many fractal dimensions and realisations make a batch, and a chunk of the store.
 
-    Enough for half a second on a nominal core; it depends on the plan alone, so that equal plans
+    Enough for a second on a nominal core; it depends on the plan alone, so that equal plans
     give equal stores on all machines.
     """
     loads = len(ensemble.force_bars)

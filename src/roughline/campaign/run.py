@@ -277,7 +277,7 @@ def _failed(batch: Batch, error: BaseException) -> Outcome:
         if killed
         else f"{type(error).__name__}: {error}".splitlines()[0]
     )
-    return Outcome({}, dict.fromkeys(batch.cells, why))
+    return Outcome({}, dict.fromkeys(range(len(batch.cells)), why))
 
 
 def _check(scheduler: str | None, workers: int | None, threads: int | None) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import product
 from pathlib import Path
@@ -62,18 +62,20 @@ class Writer(Store):
     def missing(self, ensemble: Ensemble) -> list[Batch]:
         """List what is not done, a batch for each chunk; cases that failed are tried again."""
         marks = self._arrays[ensemble.name]["case_status"]
-        status = marks[:]
         stored = self._groups[ensemble.name].attrs["fractal_dimensions"]
         rows = [stored.index(dimension) for dimension in ensemble.fractal_dimensions]
+        wanted = np.zeros(marks.shape, dtype=bool)
+        wanted[rows, : ensemble.realisations] = True
+        wanted &= marks[:] != DONE
         high, wide = marks.chunks
-        chunks: dict[tuple[int, int], list[tuple[int, int]]] = {}
-        for row, column in product(rows, range(ensemble.realisations)):
-            if status[row, column] != DONE:
-                chunks.setdefault((column // wide, row // high), []).append((row, column))
-        return [
-            Batch(ensemble, tuple(cells), tuple(stored[row] for row, _ in cells))
-            for _, cells in sorted(chunks.items())
-        ]
+        corners = product(range(0, wanted.shape[1], wide), range(0, wanted.shape[0], high))
+        dimensions, batches = np.array(stored), []
+        for column, row in corners:
+            cells = np.argwhere(wanted[row : row + high, column : column + wide])
+            cells += np.array((row, column))
+            if len(cells):
+                batches.append(Batch(ensemble, cells, dimensions[cells[:, 0]]))
+        return batches
 
     def put(self, batch: Batch, outcome: Outcome) -> None:
         """Write a batch: values first, reasons of failures next, marks last.
@@ -84,12 +86,13 @@ class Writer(Store):
             If the disk is full or the folder cannot be written; what was there stays.
         """
         arrays = self._arrays[batch.ensemble.name]
-        failed = np.array([cell in outcome.failures for cell in batch.cells])
+        marks = np.full(len(batch.cells), DONE)
+        marks[list(outcome.failures)] = FAILED
         try:
             for name, values in outcome.results.items():
                 _write_cells(arrays[name], batch.cells, values)
             self._note(self._groups[batch.ensemble.name], batch, outcome.failures)
-            _write_cells(arrays["case_status"], batch.cells, np.where(failed, FAILED, DONE))
+            _write_cells(arrays["case_status"], batch.cells, marks)
         except OSError as error:
             raise _unwritable(self.path, error) from error
 
@@ -119,14 +122,18 @@ class Writer(Store):
             warnings.filterwarnings("ignore", "Consolidated metadata is currently not part")
             zarr.consolidate_metadata(self.path)
 
-    def _note(self, group: Any, batch: Batch, failures: dict[tuple[int, int], str]) -> None:
+    def _note(self, group: Any, batch: Batch, failures: dict[int, str]) -> None:
         before = dict(group.attrs["failures"])
-        named = {
-            cell: f"D_f {dimension:g}, realisation {cell[1]}"
-            for cell, dimension in zip(batch.cells, batch.fractal_dimensions, strict=True)
-        }
-        after = {key: why for key, why in before.items() if key not in named.values()}
-        after |= {named[cell]: why for cell, why in failures.items()}
+        if not (before or failures):
+            return
+        named = [
+            f"D_f {dimension:g}, realisation {realisation}"
+            for dimension, realisation in zip(
+                batch.fractal_dimensions, batch.cells[:, 1], strict=True
+            )
+        ]
+        after = {key: why for key, why in before.items() if key not in set(named)}
+        after |= {named[i]: why for i, why in failures.items()}
         if after != before:
             group.attrs["failures"] = dict(sorted(after.items()))
 
@@ -279,16 +286,15 @@ def _codecs() -> dict[str, Any]:
     return {"compressors": (ZstdCodec(level=1), Crc32cCodec())}
 
 
-def _write_cells(array: Any, cells: Sequence[tuple[int, int]], values: NDArray[Any]) -> None:
+def _write_cells(array: Any, cells: NDArray[np.intp], values: NDArray[Any]) -> None:
     """Write cells of one chunk, leaving the others as they are."""
-    at = np.array(cells)
-    low, high = at.min(axis=0), at.max(axis=0) + 1
+    low, high = cells.min(axis=0), cells.max(axis=0) + 1
     region = tuple(slice(a, b) for a, b in zip(low.tolist(), high.tolist(), strict=True))
     if len(cells) == np.prod(high - low):
         block = np.empty((*(high - low), *values.shape[1:]), dtype=array.dtype)
     else:
         block = array[region]
-    block[tuple((at - low).T)] = values
+    block[tuple((cells - low).T)] = values
     array[region] = block
 
 
