@@ -3,7 +3,9 @@
 import os
 import subprocess
 import sys
+import time
 
+import dask
 import pytest
 
 import roughline as rl
@@ -110,3 +112,17 @@ def test_a_campaign_without_a_main_module_to_import():
     """The package itself starts no process and loads no cluster when it is imported."""
     script = "import sys, roughline.campaign; sys.exit('distributed' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
+
+
+def test_workers_that_are_gone_for_good_are_replaced():
+    """As happens to one that dies just while it starts again: Dask gives it up."""
+    one = cluster.local(1)
+    with dask.config.set({"distributed.deploy.lost-worker-timeout": "1s"}), one as here:
+        assert here.cores() == 1
+        here.client.retire_workers()
+        deadline = time.monotonic() + 30
+        while here.cores():
+            assert time.monotonic() < deadline, "the worker stays"
+        while not here.cores():
+            assert time.monotonic() < deadline, "no new worker"
+            time.sleep(0.2)

@@ -6,7 +6,7 @@ import logging
 import multiprocessing
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing import resource_tracker
@@ -48,13 +48,17 @@ class Cluster:
         The way to it.
     dashboard : str
         Address of the page that shows what it does.
+    restore : callable
+        Starts workers anew that are gone for good.
     """
 
     client: Any
     dashboard: str
+    restore: Callable[[], object]
 
     def cores(self) -> int:
         """Return how many cases can be computed at a time now."""
+        self.restore()
         return sum(self.client.ncores().values())
 
 
@@ -87,7 +91,8 @@ def local(workers: int) -> Iterator[Cluster]:
         except (OSError, RuntimeError, TimeoutError) as error:
             raise ClusterError(f"workers on this machine do not start ({error})") from error
         with cluster, Client(cluster) as client:
-            yield Cluster(client, client.dashboard_link)
+            # a worker that dies while it starts is given up by Dask, unless asked again
+            yield Cluster(client, client.dashboard_link, lambda: cluster.scale(workers))
 
 
 @contextmanager
@@ -118,7 +123,7 @@ def remote(address: str) -> Iterator[Cluster]:
                     f"`dask worker {address}`"
                 ) from error
             _check_versions(client)
-            yield Cluster(client, client.dashboard_link)
+            yield Cluster(client, client.dashboard_link, lambda: None)
 
 
 def _check_versions(client: Any) -> None:
