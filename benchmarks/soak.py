@@ -28,6 +28,7 @@ from small_campaign import PLAN, finish, start, tree  # noqa: E402
 
 KINDS = ("client", "worker", "scheduler", "interrupt", "chunk")
 LONGEST = 8.0  # until a kill, from the start of the command [s]
+WORKERS_A_RUN = 3
 
 
 class Soak:
@@ -66,12 +67,12 @@ class Soak:
             return self._with_cluster(store)
         process = start(self.plan, store)
         time.sleep(self.chance.uniform(0.5, LONGEST))
-        while process.poll() is None:
+        for _ in range(WORKERS_A_RUN if kind == "worker" else 1):
+            if process.poll() is not None:
+                break
             with contextlib.suppress(psutil.Error):  # what is to be killed may have ended meanwhile
                 self._kill(process, kind)
-            if kind != "worker":
-                break
-            time.sleep(self.chance.uniform(0.5, 2.0))  # and the next
+            time.sleep(self.chance.uniform(0.5, 2.0))
         code, _, err = finish(process)
         assert "Traceback" not in err, err
         if kind == "chunk":
