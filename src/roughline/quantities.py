@@ -18,6 +18,18 @@ _NUMBER_AND_UNIT = re.compile(
 )
 
 
+_EXAMPLES = {
+    "Pa": "110 GPa",
+    "m": "0.5 mm",
+    "N": "10 N",
+    "1/m": "2e6 1/m",
+    "Hz": "5 MHz",
+    "ohm*m": "1.7e-8 ohm m",
+    "W/m/K": "400 W/m/K",
+    "kg/m**3": "7860 kg/m^3",
+}
+
+
 @functools.cache
 def _registry() -> pint.UnitRegistry[float]:
     import pint  # here because it loads slowly
@@ -33,7 +45,7 @@ def in_si(text: str, unit: str, name: str) -> float:
     text : str
         Number and unit.
     unit : str
-        SI unit of the result, such as "Pa", "m" or "N".
+        SI unit of the result: one for which there is an example in this module.
     name : str
         What the quantity is, for the message.
 
@@ -42,7 +54,7 @@ def in_si(text: str, unit: str, name: str) -> float:
     UnitError
         If there is no unit, or one of another dimension.
     """
-    example = {"Pa": "110 GPa", "m": "0.5 mm", "N": "10 N", "1/m": "2e6 1/m"}[unit]
+    example = _EXAMPLES[unit]
     parts = _NUMBER_AND_UNIT.fullmatch(text)
     if parts and not parts["unit"]:
         raise UnitError(f'{name} is "{text}", without a unit; give one, such as "{example}"')
@@ -66,6 +78,32 @@ def metres_per(unit: str) -> float:
         If it is not a unit of length.
     """
     return in_si(f"1 {unit}", "m", "unit")
+
+
+def load_in_newtons(text: str, area: float) -> float:
+    """Read a load, a total force such as "10 N" or a mean pressure such as "2 MPa".
+
+    Parameters
+    ----------
+    text : str
+        Number and unit.
+    area : float
+        Nominal area that a pressure acts on. [m²]
+
+    Raises
+    ------
+    UnitError
+        If it is neither.
+    """
+    for unit, factor in (("N", 1.0), ("Pa", area)):
+        try:
+            return factor * in_si(text, unit, "load")
+        except UnitError:
+            continue
+    raise UnitError(
+        f'load is "{text}"; give a total force such as "10 N", or a mean pressure over the nominal '
+        'area such as "2 MPa"'
+    )
 
 
 def engineering(value: float, unit: str, digits: int = 4) -> str:

@@ -1,0 +1,83 @@
+"""Materials: a table with sources, values of one's own, and what pairs of them have."""
+
+import math
+
+import pytest
+
+import roughline as rl
+from roughline.materials import (
+    Material,
+    contact_modulus,
+    material,
+    materials,
+    tangential_modulus,
+)
+
+
+def test_every_material_is_whole_and_says_where_it_is_from():
+    table = materials()
+    assert {"steel", "copper", "gold", "aluminium", "glass", "rigid"} <= set(table)
+    for each in table.values():
+        assert each.source
+        assert each.name == "rigid" or 1e8 < each.E < 1e12
+        assert each.name == "rigid" or 1000 < each.density < 2e4
+        assert each.resistivity is None or 1e-8 < each.resistivity < 1e-6
+        assert each.hardness is None or each.hardness < each.E / 7
+        if each.resistivity is not None and each.name not in ("stainless-steel", "steel"):
+            # Wiedemann and Franz: an independent bound on both conductivities of a metal
+            lorenz = each.conductivity * each.resistivity / 293
+            assert 2.0e-8 < lorenz < 3.4e-8
+
+
+def test_by_name_by_values_and_both():
+    assert material("Stainless Steel") == materials()["stainless-steel"]
+    own = material("E=70 GPa nu=0.33 density = 2700 kg/m^3")
+    assert (own.E, own.nu, own.density, own.hardness) == (70e9, 0.33, 2700, None)
+    hard = material("steel hardness=2 GPa; resistivity=2e-7 ohm m")
+    assert (hard.E, hard.hardness) == (materials()["steel"].E, 2e9)
+    assert hard.resistivity == pytest.approx(2e-7)
+    assert "hardness, resistivity given" in hard.source
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("coper", 'no material is called "coper"; did you mean "copper"'),
+        ("", "needs both E and nu"),
+        ("E=70 GPa", "needs both E and nu"),
+        ("E=70 nu=0.3", 'E is "70", without a unit'),
+        ("E=70 mm nu=0.3", "no quantity in Pa"),
+        ("E=70 GPa nu=0.6", "nu of given is 0.6; allowed is -1 to 0.5"),
+        ("E=-70 GPa nu=0.3", "a positive modulus is needed"),
+        ("E=nan GPa nu=0.3", "a positive modulus is needed"),
+        ("steel colour=grey", 'a material has no "colour"'),
+        ("steel nu=zero", 'nu is "zero"; a number such as 0.3 is needed'),
+        ("steel nu=0.2 nu=0.3", "gives nu twice"),
+        ("steel density=inf kg/m^3", "density of steel is inf"),
+    ],
+)
+def test_bad_materials_get_one_line(text, message):
+    with pytest.raises((rl.InputError, rl.UnitError), match=message.replace("(", r"\(")) as caught:
+        material(text)
+    assert "\n" not in str(caught.value)
+
+
+def test_pairs():
+    steel, rigid = materials()["steel"], materials()["rigid"]
+    assert contact_modulus(steel, rigid) == pytest.approx(steel.E / (1 - steel.nu**2))
+    assert contact_modulus(steel, steel) == pytest.approx(steel.E / (1 - steel.nu**2) / 2)
+    ratio = tangential_modulus(steel, steel) / contact_modulus(steel, steel)
+    assert ratio == pytest.approx((2 - 2 * steel.nu) / (2 - steel.nu), rel=1e-12)
+    for pair in (contact_modulus, tangential_modulus):
+        with pytest.raises(rl.InputError, match="both materials are rigid"):
+            pair(rigid, rigid)
+
+
+def test_impedance_of_steel_is_the_textbook_value():
+    # 46e6 kg / (m² s), longitudinal speed 5.9 km/s
+    steel = materials()["steel"]
+    assert steel.impedance == pytest.approx(46e6, rel=0.02)
+    assert steel.impedance / steel.density == pytest.approx(5.9e3, rel=0.02)
+    assert Material("x", 1e9, 0.5, density=1e3).impedance is None
+    assert materials()["rigid"].impedance is None
+    assert math.isinf(materials()["rigid"].shear_modulus)
