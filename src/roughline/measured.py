@@ -2,25 +2,40 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from roughline.errors import InputError, StoreError, UnitError
-from roughline.quantities import metres_per
+from roughline.archives import refuse_bombs
+from roughline.errors import InputError, RoughlineError, StoreError, UnitError
+from roughline.memory import refuse_beyond_memory
+from roughline.missing import Filling, Missing
+from roughline.quantities import engineering, metres_per
 from roughline.topography import MEASURED, Body, Line, Surface
 
 _FORMAT = "roughline body 1"
+_BYTES_PER_POINT = 24  # raw, scaled and masked
+_RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
 
 
-def read(path: str | Path, unit: str | None = None) -> Body:
+def read(
+    path: str | Path,
+    unit: str | None = None,
+    *,
+    channel: int | str | None = None,
+    sizes: float | tuple[float, ...] | None = None,
+    missing: Filling = "harmonic",
+    most_missing: float = 0.1,
+) -> Body:
     """Read a surface or a line from a file, in metres.
 
-    Our own NetCDF files and the formats of SurfaceTopography are understood. A measured line scan
-    is returned as a Line of kind "profile"; one with uneven spacing is interpolated linearly to as
-    many even points.
+    Our own NetCDF files and the formats of SurfaceTopography are understood, plain arrays (NPY,
+    text) included. A measured line scan is returned as a Line of kind "profile"; one with uneven
+    spacing is interpolated linearly to as many even points. Points that the instrument could not
+    measure are filled; how many there were stands in the settings of the result.
 
     Parameters
     ----------
@@ -28,6 +43,16 @@ def read(path: str | Path, unit: str | None = None) -> Body:
         The file.
     unit : str, optional
         Unit of all lengths in a file that states none, such as "nm" or "um".
+    channel : int or str, optional
+        Number, from 0, or name of the channel; default: the file's first one of heights.
+    sizes : float or tuple of float, optional
+        Length of a line, or (Lx, Ly), for a file that states no sizes; one number makes a square
+        of a square array. [m]
+    missing : {"harmonic", "nearest"}, optional
+        How missing points are filled: by the smoothest surface through their neighbours, or by
+        the nearest known height.
+    most_missing : float, optional
+        Share of missing points above which the file is refused.
 
     Returns
     -------
@@ -45,8 +70,15 @@ def read(path: str | Path, unit: str | None = None) -> Body:
     if not path.is_file():
         what = "is a folder" if path.is_dir() else "does not exist"
         raise InputError(f"{path} {what}; give a file with a topography")
-    body = _read_own(path, unit) if path.suffix == ".nc" else None
-    return body or _read_instrument(path, unit)
+    if path.stat().st_size == 0:
+        raise InputError(f"{path.name} is empty: export it again")
+    own = _read_own(path, unit) if path.suffix == ".nc" else None
+    if own is not None:
+        if channel is not None or sizes is not None:
+            raise InputError(f"{path.name} has one channel and states its sizes; leave both out")
+        return own
+    refuse_bombs(path)
+    return _read_instrument(path, unit, channel, sizes, Missing(missing, most_missing))
 
 
 def write(body: Body, path: str | Path) -> None:
@@ -93,6 +125,37 @@ def levelled(body: Body) -> Body:
     return body.detrended() if body.settings.get("origin") == MEASURED else body
 
 
+def suspicions(body: Body) -> list[str]:
+    """List what about the scales of a measured body suggests a wrong unit or a wrong file.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        In metres.
+    """
+    found = []
+    rms, slope = body.rms_height, body.rms_slope
+    if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
+        found.append(
+            f"the rms height is {engineering(rms, 'm')}; roughness is mostly between 1 pm and "
+            "1 mm: check the unit, the tilt, and whether heights share the unit of the sides"
+        )
+    if rms == 0:
+        found.append("all heights are equal: this is a flat punch, or an empty channel")
+    if slope > 1:
+        found.append(
+            f"the rms slope is {slope:.3g}; theories and instruments end before 1: check the unit, "
+            "and outliers"
+        )
+    if isinstance(body, Surface):
+        dx, dy = body.spacing
+        if max(dx, dy) > 2 * min(dx, dy):
+            found.append(
+                f"pixels are {engineering(dx, 'm')} x {engineering(dy, 'm')}: check the sizes"
+            )
+    return found
+
+
 def _read_own(path: Path, unit: str | None) -> Body | None:
     """Read our own format; None if the file has another."""
     import xarray
@@ -101,6 +164,12 @@ def _read_own(path: Path, unit: str | None) -> Body | None:
         with xarray.open_dataset(path, engine="h5netcdf") as dataset:
             if dataset.attrs.get("format") != _FORMAT:
                 return None
+            points = dataset["heights"].shape
+            refuse_beyond_memory(
+                2 * 8 * math.prod(points),
+                f"reading the {' x '.join(map(str, points))} points of {path.name}",
+                "take a smaller piece",
+            )
             heights = dataset["heights"].values
             attrs = dataset.attrs
     except (OSError, ValueError, KeyError):
@@ -113,32 +182,44 @@ def _read_own(path: Path, unit: str | None) -> Body | None:
     }
     settings["file"] = path.name
     sizes = tuple(factor * size for size in np.atleast_1d(attrs["sizes"]))
+    if factor != 1:
+        heights *= factor
     if attrs["kind"] == "surface":
-        return Surface(heights * factor, sizes, "m", settings)
-    return Line(heights * factor, sizes[0], "m", settings, attrs["kind"])
+        return Surface(heights, sizes, "m", settings)
+    return Line(heights, sizes[0], "m", settings, attrs["kind"])
 
 
-def _read_instrument(path: Path, unit: str | None) -> Body:
+def _read_instrument(
+    path: Path,
+    unit: str | None,
+    channel: int | str | None,
+    sizes: float | tuple[float, ...] | None,
+    missing: Missing,
+) -> Body:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ImportWarning)  # it says that MPI is absent; so be it
         from SurfaceTopography.Exceptions import ReadFileError  # here because it loads slowly
         from SurfaceTopography.IO import open_topography
 
     try:
-        with open_topography(str(path)) as reader:
-            channel = reader.default_channel
-            stated = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
+        with warnings.catch_warnings(), open_topography(str(path)) as reader:
+            warnings.simplefilter("ignore")  # readers of damaged files talk a lot
+            chosen = _channel_of(reader, channel, path)
+            refuse_beyond_memory(
+                _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
+                f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {path.name}",
+                "crop it with the instrument's software",
+            )
+            stated = chosen.unit[0] if isinstance(chosen.unit, tuple) else chosen.unit
             factor = _metres_per_file_unit(path, stated, unit)
-            if channel.physical_sizes is None:
-                raise InputError(
-                    f"{path} states no sizes; read its heights with other tools and give them as "
-                    "Surface(heights, sizes=(Lx, Ly))"
-                )
-            topography = reader.topography(**({} if stated else {"unit": "m"}))
-            if stated:
-                topography = topography.to_unit("m")
-            return _body_of(topography, 1.0 if stated else factor, path, stated or str(unit))
-    except InputError:
+            extent = _sizes_in_file_units(chosen, sizes, factor, path)
+            topography = reader.topography(
+                channel_index=chosen.index,
+                **({} if stated else {"unit": "m"}),
+                **({"physical_sizes": extent} if chosen.physical_sizes is None else {}),
+            )
+            return _body_of(topography, factor, path, stated or str(unit), chosen.name, missing)
+    except (RoughlineError, MemoryError):
         raise
     except ReadFileError as error:
         raise InputError(
@@ -152,6 +233,53 @@ def _read_instrument(path: Path, unit: str | None) -> Body:
         ) from error
 
 
+def _channel_of(reader: Any, wanted: int | str | None, path: Path) -> Any:
+    """Find a channel of heights by number or name."""
+    channels = reader.channels
+    listed = ", ".join(f"{i} {each.name!r}" for i, each in enumerate(channels))
+    if wanted is None:
+        return reader.default_channel
+    text = str(wanted)
+    if text.isdigit() and int(text) < len(channels):
+        chosen = channels[int(text)]
+    else:
+        named = [each for each in channels if each.name.lower() == text.lower()]
+        if not named:
+            raise InputError(f"{path.name} has no channel {text!r}; it has {listed}")
+        if len(named) > 1:
+            raise InputError(
+                f"{path.name} has {len(named)} channels {text!r}: choose by number, of {listed}"
+            )
+        chosen = named[0]
+    if not chosen.is_height_channel or (isinstance(chosen.unit, tuple) and not chosen.unit[1]):
+        raise InputError(f"channel {text!r} of {path.name} holds no heights; it has {listed}")
+    return chosen
+
+
+def _sizes_in_file_units(
+    channel: Any, given: float | tuple[float, ...] | None, factor: float, path: Path
+) -> tuple[float, ...] | None:
+    if channel.physical_sizes is not None:
+        if given is not None:
+            raise InputError(f"{path.name} states its sizes; leave them out")
+        return None
+    points = channel.nb_grid_pts
+    if given is None:
+        raise InputError(
+            f"{path.name} states no sizes for its {' x '.join(map(str, points))} points; give "
+            "them, such as sizes = (1e-3, 1e-3) (command line: --size 1mm,1mm)"
+        )
+    sizes = tuple(np.atleast_1d(np.asarray(given, dtype=float)).tolist())
+    if len(sizes) == 1 and len(set(points)) == 1:
+        sizes *= len(points)
+    if len(sizes) != len(points) or not all(0 < size < math.inf for size in sizes):
+        raise InputError(
+            f"sizes is {given!r}; {path.name} has {' x '.join(map(str, points))} points: give "
+            f"{len(points)} positive length{'s' if len(points) > 1 else ''}"
+        )
+    return tuple(size / factor for size in sizes)
+
+
 def _metres_per_file_unit(path: Path, stated: str | None, given: str | None) -> float:
     if stated and given:
         raise UnitError(f"{path.name} states its unit, {stated}; leave unit = {given} out")
@@ -163,22 +291,39 @@ def _metres_per_file_unit(path: Path, stated: str | None, given: str | None) -> 
     return metres_per(stated or str(given))
 
 
-def _body_of(topography: Any, factor: float, path: Path, unit: str) -> Body:
-    settings = {"origin": MEASURED, "file": path.name, "file_unit": unit}
-    if topography.is_uniform and topography.has_undefined_data:
-        missing = int(np.count_nonzero(np.ma.getmaskarray(topography.heights())))
-        raise InputError(
-            f"{path.name} has {missing} missing points of {np.prod(topography.nb_grid_pts)}; "
-            "all heights must be known: fill or crop them with the instrument's software"
-        )
-    heights = np.asarray(topography.heights(), dtype=np.float64) * factor
+def _body_of(
+    topography: Any, factor: float, path: Path, unit: str, channel: str, missing: Missing
+) -> Body:
+    settings: dict[str, str | int | float] = {
+        "origin": MEASURED,
+        "file": path.name,
+        "file_unit": unit,
+        "channel": channel,
+    }
+    heights = topography.heights()
+    unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+    if not unknown and not np.isfinite(np.ma.getdata(heights)).all():
+        heights = np.ma.masked_invalid(heights, copy=False)
+        unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+    if unknown:
+        heights = missing.filled(heights, path.name)
+        settings |= {
+            "missing_points": unknown,
+            "missing_share": unknown / heights.size,
+            "filled": missing.method,
+        }
+    heights = np.array(heights, dtype=np.float64, copy=None)
+    if factor != 1:
+        heights = np.multiply(heights, factor, out=heights if heights.flags.writeable else None)
+    sizes = tuple(factor * float(size) for size in topography.physical_sizes)
     if topography.dim == 2:
-        sizes = (factor * topography.physical_sizes[0], factor * topography.physical_sizes[1])
-        return Surface(heights, sizes, "m", settings)
-    length = float(topography.physical_sizes[0]) * factor
+        return Surface(heights, (sizes[0], sizes[1]), "m", settings)
     if not topography.is_uniform:
         positions = np.asarray(topography.positions(), dtype=np.float64) * factor
+        steps = np.diff(positions)
         even = np.linspace(positions[0], positions[-1], positions.size)
         heights = np.interp(even, positions, heights)
-        settings["resampled"] = "linear, to even spacing"
-    return Line(heights, length, "m", settings, "profile")
+        settings["resampled"] = (
+            f"linear, to even spacing; it was {steps.min():.3g} to {steps.max():.3g} m"
+        )
+    return Line(heights, sizes[0], "m", settings, "profile")

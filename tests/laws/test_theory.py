@@ -17,7 +17,7 @@ SLOPE = FOUND.rms_slope
 
 def test_moments_are_those_of_the_continuum():
     assert FOUND.m0 == pytest.approx(SPECTRUM.moment(0), rel=1e-4)
-    assert SLOPE**2 == pytest.approx(SPECTRUM.moment(2), rel=1e-4)
+    assert pytest.approx(SPECTRUM.moment(2), rel=1e-4) == SLOPE**2
     assert FOUND.m4 * 8 / 3 == pytest.approx(SPECTRUM.moment(4), rel=1e-4)
 
 
@@ -60,7 +60,7 @@ def test_persson_stiffness_is_the_slope_of_its_gap():
 
 
 def test_persson_at_light_loads_is_exponential():
-    """p = beta E* exp(-u / u_0) and K = p / u_0, with u_0 from .4 to .6 rms heights."""
+    """P = beta E* exp(-u / u_0) and K = p / u_0, with u_0 from .4 to .6 rms heights."""
     p = np.array([1e-6, 1e-5]) * SLOPE
     curve = theory("persson", SPECTRUM, 1.0, p)
     lengths = p / curve.stiffness

@@ -1,12 +1,14 @@
 """Files in and out: metres always, one clear line otherwise."""
 
+import zipfile
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.measured import levelled
+from roughline.measured import levelled, suspicions
+from roughline.missing import Missing
 from roughline.quantities import engineering, in_si, metres_per
 
 SPECTRUM = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
@@ -115,8 +117,7 @@ def test_real_files_open_in_metres(topographies, name, kind, points, size):
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("opd-1.opd", "116 missing points of 307200"),
-        ("sur-3.sur", "233009 missing points of 262144"),
+        ("sur-3.sur", r"233009 missing points of 262144 \(89%\); up to 10% are filled: crop"),
         ("xy-1.txt", "states no unit"),
         ("di_corrupted.di", "di_corrupted.di is damaged or of a type that is not known"),
     ],
@@ -156,3 +157,101 @@ def test_senseless_quantities_are_refused(text):
 def test_units_are_written_with_prefixes():
     assert engineering(1.2344e-6, "m") == "1.234 µm"
     assert metres_per("um") == metres_per("µm") == pytest.approx(1e-6)
+
+
+@pytest.mark.parametrize("missing", ["harmonic", "nearest"])
+def test_missing_points_are_filled_and_counted(topographies, missing):
+    found = rl.read(topographies / "opd-1.opd", missing=missing)
+    assert found.settings["missing_points"] == 116
+    assert found.settings["missing_share"] == pytest.approx(116 / 307200)
+    assert found.settings["filled"] == missing
+    with pytest.raises(rl.InputError, match="116 missing points of 307200"):
+        rl.read(topographies / "opd-1.opd", most_missing=0)
+
+
+def masked_wave(n=48, share=0.05):
+    x = np.linspace(-1, 1, n)
+    heights = x[:, np.newaxis] ** 2 - x**2  # harmonic, so one of the methods is exact
+    mask = np.random.default_rng(1).random((n, n)) < share
+    mask[0] = mask[-1] = mask[:, 0] = mask[:, -1] = False
+    return heights, np.ma.MaskedArray(heights, mask)
+
+
+def test_harmonic_filling_is_exact_for_a_harmonic_surface_and_nearest_is_near():
+    heights, masked = masked_wave()
+    assert Missing().filled(masked, "a map") == pytest.approx(heights, abs=1e-12)
+    near = Missing("nearest").filled(masked, "a map")
+    assert np.abs(near - heights).max() < 0.2
+    assert (near[~masked.mask] == heights[~masked.mask]).all()
+    line = np.ma.MaskedArray(np.arange(9.0), np.arange(9) % 4 == 2)
+    assert Missing(most=0.5).filled(line, "a line") == pytest.approx(np.arange(9.0))
+
+
+def test_too_many_missing_points_are_refused_with_numbers():
+    _, masked = masked_wave(share=0.3)
+    with pytest.raises(
+        rl.InputError, match=r"a map has \d+ missing points of 2304 \(\d\d%\); up to"
+    ):
+        Missing().filled(masked, "a map")
+    everything = np.ma.MaskedArray(np.ones((3, 3)), True)
+    with pytest.raises(rl.InputError, match="9 missing points of 9"):
+        Missing(most=0.99).filled(everything, "a map")
+    with pytest.raises(rl.InputError, match="missing is 'spline'"):
+        Missing("spline")
+    with pytest.raises(rl.InputError, match="most_missing is 1"):
+        Missing(most=1.0)
+
+
+def test_channels(topographies):
+    file = topographies / "di-1.di"
+    assert rl.read(file, channel=1).rms_height != rl.read(file).rms_height
+    assert rl.read(file, channel="1").settings["channel"] == "Height"
+    for channel, message in (
+        ("Height", "has 2 channels 'Height': choose by number, of 0 'Height'"),
+        ("Phase", "channel 'Phase' of di-1.di holds no heights"),
+        (2, "channel '2' of di-1.di holds no heights"),
+        (7, "has no channel '7'; it has 0 'Height', 1"),
+    ):
+        with pytest.raises(rl.InputError, match=message):
+            rl.read(file, channel=channel)
+
+
+def test_plain_arrays_need_sizes_and_a_unit(tmp_path):
+    surface = SPECTRUM.surface(24, 7)
+    path = tmp_path / "map.npy"
+    np.save(path, surface.heights * 1e6)
+    with pytest.raises(rl.UnitError, match="states no unit"):
+        rl.read(path, sizes=1e-3)
+    with pytest.raises(rl.InputError, match="states no sizes for its 24 x 24 points"):
+        rl.read(path, unit="um")
+    for sizes in (1e-3, (1e-3, 1e-3)):
+        found = rl.read(path, unit="um", sizes=sizes)
+        assert found.sizes == pytest.approx((1e-3, 1e-3))
+        assert found.heights == pytest.approx(surface.heights, rel=1e-12)
+    for sizes in ((1e-3,) * 3, -1.0, float("nan")):
+        with pytest.raises(rl.InputError, match="give 2 positive lengths"):
+            rl.read(path, unit="um", sizes=sizes)
+    text = tmp_path / "map.txt"
+    np.savetxt(text, surface.heights * 1e6)
+    found = rl.read(text, unit="um", sizes=(1e-3, 2e-3))
+    assert found.sizes == pytest.approx((1e-3, 2e-3))
+    assert sorted(found.heights.ravel()) == pytest.approx(sorted(surface.heights.ravel()))
+
+
+def test_suspicious_scales_are_pointed_out():
+    rough = rl.Surface(SPECTRUM.surface(24, 7).heights, (1e-3, 1e-3), "m")
+    assert suspicions(rough) == []
+    assert "rms height is 1000 mm" in suspicions(rough.scaled(1e6))[0]
+    assert "rms slope" in suspicions(rough.scaled(1e6))[1]
+    assert "rms height is 1 fm" in suspicions(rough.scaled(1e-9))[0]
+    assert "flat punch" in suspicions(rough.scaled(0.0))[0]
+    thin = rl.Surface(rough.heights, (1e-3, 1e-2), "m")
+    assert "pixels are" in suspicions(thin)[0]
+
+
+def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path):
+    path = tmp_path / "bomb.x3p"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("main.xml", b"0" * 2**28)
+    with pytest.raises(rl.InputError, match="would unpack to 268"):
+        rl.read(path)
