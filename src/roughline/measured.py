@@ -120,11 +120,6 @@ def write(body: Body, path: str | Path) -> None:
         raise StoreError(f"cannot write {path} ({error}): choose another place") from error
 
 
-def levelled(body: Body) -> Body:
-    """Return an instrument's topography without its tilt, anything else as it is."""
-    return body.detrended() if body.settings.get("origin") == MEASURED else body
-
-
 def suspicions(body: Body) -> list[str]:
     """List what about the scales of a measured body suggests a wrong unit or a wrong file.
 

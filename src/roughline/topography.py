@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.errors import InputError
+from roughline.trend import Trend, without_trend
 
 Settings = Mapping[str, str | int | float]
 
@@ -151,15 +152,9 @@ class Surface:
         """Return the settings with names that say that they are the body's."""
         return _as_body(self.settings)
 
-    def detrended(self) -> Surface:
-        """Return the surface without its mean and tilt (least-squares plane)."""
-        x = np.linspace(-1.0, 1.0, self.shape[0])[:, np.newaxis]
-        y = np.linspace(-1.0, 1.0, self.shape[1])[np.newaxis, :]
-        # on a full grid the three functions 1, x, y are orthogonal: no equations to solve
-        heights = self.heights - self.heights.mean()
-        heights -= x * ((heights * x).sum() / ((x**2).sum() * self.shape[1]))
-        heights -= y * ((heights * y).sum() / ((y**2).sum() * self.shape[0]))
-        return with_heights(self, heights, detrended="tilt")
+    def detrended(self, trend: Trend = "tilt") -> Surface:
+        """Return the surface without its least-squares mean, tilt, or curvature (2nd degree)."""
+        return with_heights(self, without_trend(self.heights, trend), detrended=trend)
 
     def scaled(self, factor: float) -> Surface:
         """Return the surface with heights times `factor`."""
@@ -232,12 +227,9 @@ class Line:
         """Return the settings with names that say that they are the body's."""
         return _as_body(self.settings)
 
-    def detrended(self) -> Line:
-        """Return the line without its mean and tilt (least squares)."""
-        x = np.linspace(-1.0, 1.0, self.heights.size)
-        heights = self.heights - self.heights.mean()
-        heights -= x * ((heights @ x) / (x @ x))
-        return with_heights(self, heights, detrended="tilt")
+    def detrended(self, trend: Trend = "tilt") -> Line:
+        """Return the line without its least-squares mean, tilt, or curvature (2nd degree)."""
+        return with_heights(self, without_trend(self.heights, trend), detrended=trend)
 
     def scaled(self, factor: float) -> Line:
         """Return the line with heights times `factor`."""

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from roughline.contact import press
 from roughline.curve import Curve, Status
 from roughline.estimates import estimate
-from roughline.measured import levelled, read
+from roughline.measured import read
+from roughline.preparation import Preparation, prepared
 from roughline.quantities import engineering
 from roughline.report.folder import make_folder
 from roughline.report.style import PAGE, new_figure, save, styled
@@ -83,8 +84,7 @@ def press_file(
         Called with (loads done, loads in all).
     """
     body = read(file, unit)
-    if not keep_tilt:
-        body = levelled(body)
+    body = prepared(body, Preparation(trend="none") if keep_tilt else None)
     if out is not None:
         make_folder(out)  # a folder that cannot be written is said before the work, not after
     count = next((len(given) for given in (forces, depths, range(n_loads or 0)) if given), 0)

@@ -1,0 +1,193 @@
+"""What is done to a measured topography before it is used, step by step, and recorded with it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.errors import InputError
+from roughline.missing import Missing
+from roughline.topography import MEASURED, Body, BodyType, Line, Surface, with_heights
+from roughline.trend import DEGREES, Trend
+
+Real = NDArray[np.float64]
+_SPIKE = 6.0  # in robust standard deviations of the heights about the median of their neighbours
+_LARGEST_SPIKE = 9  # points; larger ones are features of the surface
+_ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
+
+
+@dataclass(frozen=True)
+class Preparation:
+    """Steps, in the order in which they are done; each is recorded in the settings of the body.
+
+    Parameters
+    ----------
+    crop : tuple of float, optional
+        (x0, x1, y0, y1) of a surface, (x0, x1) of a line; whole points are kept. [length]
+    remove_outliers : bool, optional
+        Whether spikes are taken out and filled like missing points. They are counted always.
+    trend : {"tilt", "curvature", "mean", "none"}, optional
+        Least-squares polynomial that is removed.
+    low_pass : float, optional
+        Cutoff wavelength of a Gaussian filter after ISO 16610-61 (half of the amplitude of a wave
+        of that length passes). [length]
+    points : int or tuple of int, optional
+        Points to resample to: (nx, ny), one number for the longer side of a surface, or a line's.
+
+    Raises
+    ------
+    InputError
+        If a value makes no sense.
+    """
+
+    crop: tuple[float, ...] | None = None
+    remove_outliers: bool = False
+    trend: Trend = "tilt"
+    low_pass: float | None = None
+    points: int | tuple[int, int] | None = None
+
+    def __post_init__(self) -> None:
+        if self.trend not in DEGREES:
+            raise InputError(f"trend is {self.trend!r}; one of {', '.join(DEGREES)} is needed")
+        if self.low_pass is not None and not 0 < self.low_pass < math.inf:
+            raise InputError(f"low_pass is {self.low_pass}; a positive wavelength is needed")
+        for n in np.atleast_1d(self.points if self.points is not None else 2):
+            if n < 2:
+                raise InputError(f"points is {self.points}; at least 2 are needed")
+
+    def applied(self, body: BodyType) -> BodyType:
+        """Return the body, prepared.
+
+        Raises
+        ------
+        InputError
+            If a step does not suit the body.
+        """
+        if self.crop is not None:
+            body = _cropped(body, self.crop)
+        spikes = outliers(body)
+        count = int(np.count_nonzero(spikes))
+        if count and self.remove_outliers:
+            known = np.ma.MaskedArray(body.heights, spikes)
+            filled = Missing().filled(known, "the topography, without its outliers,")
+            body = with_heights(body, filled, outliers_removed=count)
+        elif count:
+            body = with_heights(body, body.heights, outliers_kept=count)
+        if self.trend != "none":
+            body = body.detrended(self.trend)
+        if self.low_pass is not None:
+            body = _low_passed(body, self.low_pass)
+        if self.points is not None:
+            body = _resampled(body, self.points)
+        return body
+
+
+def prepared(body: Body, preparation: Preparation | None = None) -> Body:
+    """Return a measured body prepared, and others as they are unless a preparation is given.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        Any body.
+    preparation : Preparation, optional
+        Default: the tilt of an instrument's topography is removed.
+    """
+    if preparation is None:
+        measured = body.settings.get("origin") == MEASURED
+        preparation = Preparation() if measured else Preparation(trend="none")
+    if isinstance(body, Surface):
+        return preparation.applied(body)
+    return preparation.applied(body)  # apart, as either comes back as what it was
+
+
+def outliers(body: Body) -> NDArray[np.bool_]:
+    """Mark spikes: points six robust deviations off the median of their 5 or 5 x 5 neighbours.
+
+    The deviation is 1.4826 times the median absolute deviation from those medians. Spots of more
+    than nine points are steps, scratches or particles, and are not marked.
+    """
+    from scipy import ndimage  # here because it loads slowly
+
+    heights = body.heights
+    off = heights - ndimage.median_filter(heights, size=5, mode="nearest")
+    deviation = 1.4826 * float(np.median(np.abs(off)))
+    if deviation == 0:
+        return np.zeros(heights.shape, dtype=bool)
+    spots, _ = ndimage.label(np.abs(off) > _SPIKE * deviation)
+    sizes = np.bincount(spots.ravel())
+    sizes[0] = _LARGEST_SPIKE + 1  # what is no spot
+    return np.asarray(sizes[spots] <= _LARGEST_SPIKE)
+
+
+def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:
+    sides = body.sizes if isinstance(body, Surface) else (body.length,)
+    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
+    if len(crop) != 2 * len(sides):
+        raise InputError(
+            f"crop has {len(crop)} lengths; give {2 * len(sides)}, from and to along each side"
+        )
+    ranges = []
+    for i, (side, spacing) in enumerate(zip(sides, spacings, strict=True)):
+        low, high = crop[2 * i : 2 * i + 2]
+        if not 0 <= low < high <= side * (1 + 1e-9):
+            raise InputError(
+                f"crop from {low:g} to {high:g} is not within 0 to {side:g}, or not rising"
+            )
+        first, end = round(low / spacing), round(high / spacing)
+        if end - first < 2:
+            raise InputError(f"crop from {low:g} to {high:g} keeps {end - first} points; take more")
+        ranges.append((first, min(end, body.heights.shape[i])))
+    if isinstance(body, Surface):
+        return body.cropped(*ranges)
+    (first, end) = ranges[0]
+    settings = {**body.settings, "cropped": f"{first}:{end}"}
+    piece = body.heights[first:end]
+    return Line(piece, spacings[0] * (end - first), body.unit, settings, body.kind)
+
+
+def _low_passed(body: BodyType, cutoff: float) -> BodyType:
+    from scipy import ndimage
+
+    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
+    deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / spacing for spacing in spacings]
+    heights = ndimage.gaussian_filter(body.heights, deviations, mode="nearest")
+    return with_heights(body, heights, low_pass=cutoff)
+
+
+def _resampled(body: BodyType, points: int | tuple[int, int]) -> BodyType:
+    """Means over cells where the new grid is coarser, cubic splines where it is finer."""
+    from scipy import ndimage
+
+    shape = body.heights.shape
+    if isinstance(points, tuple):
+        wanted: tuple[int, ...] = points
+    elif isinstance(body, Surface):
+        wanted = tuple(max(2, round(points * n / max(shape))) for n in shape)
+    else:
+        wanted = (points,)
+    if len(wanted) != len(shape):
+        raise InputError(f"points is {points}; give {len(shape)} of them")
+    heights = body.heights
+    for axis, n in enumerate(wanted):
+        if n < shape[axis]:
+            heights = _means(heights, axis, n)
+        elif n > shape[axis]:
+            zoom = [1.0] * len(shape)
+            zoom[axis] = n / shape[axis]
+            heights = ndimage.zoom(heights, zoom, order=3, mode="nearest", grid_mode=True)
+    return with_heights(body, heights, resampled_to=" x ".join(map(str, wanted)))
+
+
+def _means(heights: Real, axis: int, n: int) -> Real:
+    """Means over n equal pieces along an axis, each cell counting by the part that lies within."""
+    cells = heights.shape[axis]
+    moved = np.moveaxis(heights, axis, 0)
+    whole = np.concatenate([np.zeros((1, *moved.shape[1:])), np.cumsum(moved, axis=0)])
+    edges = np.arange(n + 1) * (cells / n)
+    below = np.minimum(edges.astype(np.intp), cells - 1)
+    part = (edges - below).reshape(-1, *[1] * (moved.ndim - 1))
+    at_edges = whole[below] + part * (whole[below + 1] - whole[below])
+    return np.moveaxis(np.diff(at_edges, axis=0) * (n / cells), 0, axis)
