@@ -30,12 +30,18 @@ class IsotropicSpectrum:
         L, square root of the nominal area. [length]
     rms_height : float
         Of the surface. [length]
+    modes : ndarray
+        How many modes each mean is of; 0 where it lies between its neighbours. [1]
+    windowed : bool
+        Whether a Hann window was laid over the heights.
     """
 
     q: Real
     C_2d: Real
     length: float
     rms_height: float
+    modes: Real
+    windowed: bool
 
     @property
     def C_reduced(self) -> Real:
@@ -120,4 +126,6 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
         C_2d=mean / cell,
         length=surface.length,
         rms_height=rms,
+        modes=counts.astype(np.float64),
+        windowed=surface.is_cut_out,
     )

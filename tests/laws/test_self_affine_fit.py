@@ -1,0 +1,106 @@
+"""What was put into synthetic topographies is found again, within the intervals."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.isotropic import isotropic_spectrum
+from roughline.profile import profile_spectrum
+from roughline.spectral_fit import fit_self_affine
+
+Q_0 = 2 * math.pi
+TRIALS = 200
+
+
+def random_spectrum(rng, n):
+    """H, with or without a roll-off, and with or without a cutoff below the grid's."""
+    roll = rng.choice([1.0, rng.uniform(4, 16)])
+    cutoff = rng.choice([n / 2, rng.uniform(0.35, 0.8) * n / 2])
+    return rng.uniform(0.1, 0.95), roll, cutoff
+
+
+def found(fit, hurst, roll, cutoff, last):
+    """Whether each parameter lies in its interval; a ring or bin holds all waves up to the next."""
+    return (
+        fit.hurst_interval[0] <= hurst <= fit.hurst_interval[1],
+        fit.q_roll_interval[0] <= roll * Q_0 * (1 + 1e-9) and roll * Q_0 <= fit.q_roll_interval[1],
+        fit.q_high_interval[0] <= cutoff * Q_0 <= fit.q_high_interval[1] * last,
+        fit.rms_interval[0] <= 1 <= fit.rms_interval[1],
+    )
+
+
+@pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
+@pytest.mark.parametrize("origin", ["generated", "instrument file"])
+def test_maps_are_recovered_in_95_of_100(amplitudes, origin):
+    n, rng, hits, quiet = 128, np.random.default_rng(7), np.zeros(4), 0
+    for seed in range(TRIALS):
+        hurst, roll, cutoff = random_spectrum(rng, n)
+        q_high = None if cutoff == n / 2 else cutoff * Q_0
+        spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_roll=roll * Q_0, q_high=q_high)
+        heights = spectrum.surface(n, seed, amplitudes).heights
+        surface = rl.Surface(heights, (1.0, 1.0), settings={"origin": origin})
+        fit = fit_self_affine(isotropic_spectrum(surface))
+        hits += found(fit, hurst, roll, cutoff, last=1 + 1 / (n / 2 - 1))
+        quiet += not any("off the law" in text for text in fit.objections)
+    assert (hits >= 0.95 * TRIALS).all(), hits
+    assert quiet >= 0.95 * TRIALS
+
+
+def gaussian_profile(rng, n, spectrum):
+    """A cut with independent Gaussian modes of the exact spectrum C_profile."""
+    power = spectrum.C_profile(np.arange(1, n // 2) * Q_0) * Q_0
+    modes = np.sqrt(power / 2) * (rng.normal(size=power.size) + 1j * rng.normal(size=power.size))
+    return rl.Line(np.fft.irfft([0, *modes, 0], n) * n, 1.0, kind="profile")
+
+
+def test_line_scans_are_recovered_in_95_of_100():
+    n, rng, hits = 2048, np.random.default_rng(8), np.zeros(4)
+    trials = TRIALS // 2
+    for _ in range(trials):
+        hurst, roll, cutoff = random_spectrum(rng, n)
+        spectrum = rl.SelfAffine(
+            hurst=hurst, rms_height=1.0, q_roll=roll * Q_0, q_high=cutoff * Q_0
+        )
+        fit = fit_self_affine(profile_spectrum(gaussian_profile(rng, n, spectrum)))
+        hits += found(fit, hurst, roll, cutoff, last=1.12)  # 20 bins a decade
+    assert (hits >= 0.95 * trials).all(), hits
+
+
+def test_intervals_are_not_idle():
+    """On 512² points H is known to a tenth, a roll-off and a cutoff to some rings."""
+    spectrum = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_roll=8 * Q_0, q_high=150 * Q_0)
+    fit = fit_self_affine(isotropic_spectrum(spectrum.surface(512, 3, "gaussian")))
+    assert fit.hurst == pytest.approx(0.6, abs=0.05)
+    assert np.ptp(fit.hurst_interval) < 0.12
+    assert np.ptp(fit.q_roll_interval) < 5 * Q_0
+    assert np.ptp(fit.q_high_interval) < 10 * Q_0
+    assert fit.objections == []
+    again = fit.spectrum()
+    assert again.hurst == fit.hurst
+    assert fit.values(np.array([2 * Q_0, 40 * Q_0])) == pytest.approx(
+        spectrum.C_2d([2 * Q_0, 40 * Q_0]), rel=0.15
+    )
+    assert np.isnan(fit.values(np.array([200 * Q_0]))).all()
+
+
+def test_what_is_not_self_affine_is_said():
+    noise = rl.Surface(np.random.default_rng(1).normal(size=(128, 128)), (1.0, 1.0))
+    assert fit_self_affine(isotropic_spectrum(noise)).objections
+    x = np.arange(128) / 128
+    waves = 0.1 * noise.heights + np.cos(16 * np.pi * x) + np.cos(50 * np.pi * x)[:, np.newaxis]
+    assert fit_self_affine(isotropic_spectrum(rl.Surface(waves, (1.0, 1.0)))).objections
+    with pytest.raises(rl.InputError, match="a fit needs 12"):
+        fit_self_affine(isotropic_spectrum(rl.Surface(noise.heights[:12, :12], (1.0, 1.0))))
+
+
+def test_units_are_neutral():
+    surface = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_roll=8 * Q_0).surface(128, 3)
+    one = fit_self_affine(isotropic_spectrum(surface))
+    tiny = rl.Surface(surface.heights * 1e-9, (1e-6, 1e-6))
+    other = fit_self_affine(isotropic_spectrum(tiny))
+    assert other.hurst == one.hurst
+    assert other.hurst_interval == one.hurst_interval
+    assert other.q_roll == pytest.approx(one.q_roll * 1e6, rel=1e-9)
+    assert other.rms_interval == pytest.approx(np.array(one.rms_interval) * 1e-9, rel=1e-9)
