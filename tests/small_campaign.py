@@ -1,5 +1,6 @@
 """A small campaign for tests, and how two stores are compared."""
 
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -45,8 +46,13 @@ def start(plan, store, *arguments, **options):
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
-        **options,
+        **{"preexec_fn": hear_interrupts, **options},
     )
+
+
+def hear_interrupts():
+    """Undo what a shell does to its background jobs: they, and theirs, are deaf to Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def finish(process, timeout=120):

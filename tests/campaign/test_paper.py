@@ -20,7 +20,7 @@ from roughline.report.paper import compose, write_report
 from roughline.report.results import PaperResults
 from roughline.report.sensitivity import WINDOWS_REDUCED
 from roughline.report.summary import exponents_of, summarise
-from small_campaign import tree
+from small_campaign import hear_interrupts, tree
 
 DIMENSIONS = (2.0, 2.4, 3.0)
 
@@ -115,7 +115,13 @@ def test_the_gallery_is_kept_and_drawn_once(finished, tmp_path):
 def test_an_interrupt_keeps_what_is_done(tmp_path):
     """Ctrl-C in the middle: exit code 130, no traceback, and the next call ends the work."""
     command = [sys.executable, "-c", INTERRUPTED, str(tmp_path / "out")]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        command,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=hear_interrupts,
+    )
     store = tmp_path / "out" / "results.zarr" / SURFACES / "case_status" / "c"
     deadline = time.monotonic() + 60
     while not any(store.rglob("*")) and time.monotonic() < deadline:
