@@ -10,6 +10,7 @@ from roughline._version import __version__
 
 if TYPE_CHECKING:
     from roughline.averages import average as average
+    from roughline.characterisation import roughness as roughness
     from roughline.comparison import Comparison as Comparison
     from roughline.comparison import compare as compare
     from roughline.contact import press as press
@@ -25,19 +26,42 @@ if TYPE_CHECKING:
     from roughline.estimates import Estimate as Estimate
     from roughline.estimates import estimate as estimate
     from roughline.fft import set_threads as set_threads
+    from roughline.isotropic import isotropic_spectrum as isotropic_spectrum
+    from roughline.line_scan import press_scan as press_scan
+    from roughline.materials import Material as Material
+    from roughline.materials import contact_modulus as contact_modulus
+    from roughline.materials import material as material
     from roughline.measured import read as read
     from roughline.measured import write as write
     from roughline.power_law import PowerLaw as PowerLaw
     from roughline.power_law import find_window as find_window
     from roughline.power_law import fit_power_law as fit_power_law
+    from roughline.preparation import Preparation as Preparation
+    from roughline.preparation import prepared as prepared
+    from roughline.profile import profile_spectrum as profile_spectrum
     from roughline.scaling import EXACT_PUNCH as EXACT_PUNCH
     from roughline.scaling import PAPER_PUNCH as PAPER_PUNCH
     from roughline.spectra import SelfAffine as SelfAffine
+    from roughline.spectral_fit import fit_self_affine as fit_self_affine
+    from roughline.theories import theory as theory
     from roughline.topography import Line as Line
     from roughline.topography import Surface as Surface
     from roughline.trust import trust_map as trust_map
+    from roughline.two_bodies import facing as facing
 
 _HOMES = {
+    "facing": "two_bodies",
+    "theory": "theories",
+    "press_scan": "line_scan",
+    "fit_self_affine": "spectral_fit",
+    "profile_spectrum": "profile",
+    "isotropic_spectrum": "isotropic",
+    "roughness": "characterisation",
+    "prepared": "preparation",
+    "Preparation": "preparation",
+    "material": "materials",
+    "contact_modulus": "materials",
+    "Material": "materials",
     "Curve": "curve",
     "Fields": "curve",
     "Status": "curve",

@@ -66,7 +66,7 @@ def read(
     InputError
         If the file does not exist, has no format known, is damaged or lacks points or sizes.
     """
-    path = Path(path)
+    path, filling = Path(path), Missing(missing, most_missing)
     if not path.is_file():
         what = "is a folder" if path.is_dir() else "does not exist"
         raise InputError(f"{path} {what}; give a file with a topography")
@@ -78,7 +78,7 @@ def read(
             raise InputError(f"{path.name} has one channel and states its sizes; leave both out")
         return own
     refuse_bombs(path)
-    return _read_instrument(path, unit, channel, sizes, Missing(missing, most_missing))
+    return _read_instrument(path, unit, channel, sizes, filling)
 
 
 def write(body: Body, path: str | Path) -> None:

@@ -10,6 +10,8 @@ from typer.testing import CliRunner
 
 import roughline as rl
 from roughline import cli
+from roughline.report.pressed import Pressed, Source
+from roughline.report.pressed_figures import write_pressed
 
 
 def roughline(*arguments, timeout=120):
@@ -102,15 +104,15 @@ def test_the_first_real_surface(topographies, invoke, tmp_path):
         (("press", "{file}", "--modulus", "nan GPa"), "E_star is nan"),
         (("press", "{file}", "--modulus", "5 m"), "no quantity in Pa"),
         (("press", "{file}", "--modulus", "1 GPa", "--loads", "1"), "n_loads is 1"),
-        (("press", "{file}", "--modulus", "1 GPa", "--force", "-1 N"), "negative"),
-        (("press", "{file}", "--modulus", "1 GPa", "--force", "0 N"), "touches nothing"),
+        (("press", "{file}", "--modulus", "1 GPa", "--force", "-1 N"), "give positive ones"),
+        (("press", "{file}", "--modulus", "1 GPa", "--force", "0 N"), "give positive ones"),
         (
-            ("press", "{file}", "--modulus", "1 GPa", "--force", "2 N", "--force", "1 N"),
-            "does not exceed",
+            ("press", "{file}", "--modulus", "1 GPa", "--load", "2 N", "--load", "1 m"),
+            'load is "1 m"; give a total force such as "10 N", or a mean pressure',
         ),
         (
             ("press", "{file}", "--modulus", "1 GPa", "--force", "2 N", "--depth", "1 um"),
-            "both depths and forces",
+            "give one of --load, --depth and --loads",
         ),
         (
             ("press", "{file}", "--modulus", "1 GPa", "--periodic", "--depth", "1 mm"),
@@ -195,11 +197,10 @@ def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch)
 
 
 def test_figures_of_a_failed_load_show_the_others(surface_file, tmp_path):
-    from roughline.report.pressed import write_pressed
-
     surface = rl.read(surface_file)
     curve = rl.press(surface, E_star=1e9, n_loads=6, fields=True, max_iterations=12, throw=False)
     assert not curve.converged.all()
-    files = write_pressed(surface, curve, tmp_path / "figures")
+    pressed = Pressed(Source(surface_file), surface, curve, np.arange(6))
+    files = write_pressed(pressed, tmp_path / "figures")
     assert all(file.stat().st_size > 0 for file in files)
     assert np.isfinite(curve.stiffness).any()

@@ -11,8 +11,9 @@ from matplotlib.ticker import PercentFormatter
 
 from roughline.comparison import Comparison, compare
 from roughline.errors import InputError, StoreError
-from roughline.measured import read
+from roughline.preparation import prepared
 from roughline.report.folder import make_folder
+from roughline.report.pressed import Source
 from roughline.report.style import FORCE_LABEL, PAGE, SHADE, colours, new_figure, save, styled
 from roughline.spectra import SelfAffine
 from roughline.topography import Line, Surface
@@ -45,14 +46,13 @@ class Compared:
 
 
 def compare_models(
-    body: SelfAffine | Path,
+    body: SelfAffine | Source,
     *,
     n: int,
     surfaces: int,
     force_bars: list[float] | None,
     tolerance: float,
     seed: int,
-    unit: str | None,
     out: Path | None,
     progress: Callable[[int, int], None] | None,
 ) -> Compared:
@@ -60,7 +60,7 @@ def compare_models(
 
     Parameters
     ----------
-    body : SelfAffine or Path
+    body : SelfAffine or Source
         The spectrum, or a topography.
     n, surfaces, force_bars
         As for :func:`roughline.compare`.
@@ -68,8 +68,6 @@ def compare_models(
         Relative difference up to which the reduced model counts as trusted.
     seed : int
         Root of all seeds.
-    unit : str or None
-        Unit of the lengths in a file that states none.
     out : Path or None
         Folder for a table (CSV) and a figure; None writes nothing.
     progress : callable or None
@@ -83,12 +81,12 @@ def compare_models(
     if not 0 < tolerance < 1:
         raise InputError(f"tolerance is {tolerance}; a share between 0 and 1 is needed")
     given: SelfAffine | Surface
-    if isinstance(body, Path):
-        found = read(body, unit)
+    if isinstance(body, Source):
+        found = prepared(body.read())
         if isinstance(found, Line):
-            raise InputError(f"{body} holds a line; the models are compared on a surface")
-        given = found.detrended() if found.is_cut_out else found
-        what = f"{body}, {found.shape[0]} x {found.shape[1]} points, and lines of its spectrum"
+            raise InputError(f"{body.file} holds a line; the models are compared on a surface")
+        given = found
+        what = f"{body.file}, {found.shape[0]} x {found.shape[1]} points, and lines of its spectrum"
     else:
         given = body
         what = (

@@ -1,109 +1,386 @@
-"""One pressed body: the table of its curve, and figures of curve, topography and contact."""
+"""One pressed file: from its path, two materials and loads to answers."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from roughline.answers import Answer, Interface, answers, elastic_warnings, saturated_stiffness
 from roughline.contact import press
 from roughline.curve import Curve, Status
+from roughline.errors import InputError
 from roughline.estimates import estimate
-from roughline.measured import read
+from roughline.interface import plasticity_index
+from roughline.isotropic import isotropic_spectrum
+from roughline.line_scan import press_scan
+from roughline.materials import Material
+from roughline.measured import read, suspicions
+from roughline.missing import Filling, Missing
 from roughline.preparation import Preparation, prepared
-from roughline.quantities import engineering
+from roughline.quantities import engineering, in_si, load_in_newtons
 from roughline.report.folder import make_folder
-from roughline.report.style import PAGE, new_figure, save, styled
-from roughline.topography import Body, Surface
+from roughline.theories import TheoryCurve, moments, theory
+from roughline.topography import Body, Line, Surface
+from roughline.two_bodies import facing
+
+Real = NDArray[np.float64]
+Announce = Callable[[str], None]
+Progress = Callable[[int, int], None]
 
 _LARGE = 2**20  # points from which on the cost is told
-_PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+_LIGHTEST = 1e-3  # of the largest load, where a report's curve begins
+_CURVE_LOADS = 16  # of a report's curve
 
 
 @dataclass(frozen=True)
+class Source:
+    """A file, and what is needed to read it; as for :func:`roughline.read`."""
+
+    file: Path
+    unit: str | None = None
+    channel: str | None = None
+    sizes: tuple[float, ...] | None = None
+    missing: Filling = "harmonic"
+    most_missing: float = 0.1
+
+    def read(self, missing: Filling | None = None) -> Body:
+        """Read it, with points filled as stated or by another method."""
+        return read(
+            self.file,
+            self.unit,
+            channel=self.channel,
+            sizes=self.sizes,
+            missing=missing or self.missing,
+            most_missing=self.most_missing,
+        )
+
+
+@dataclass(frozen=True)
+class Loading:
+    """What a body is pressed with; quantities as texts with units.
+
+    Parameters
+    ----------
+    loads : sequence of str
+        Total forces or mean pressures, such as "10 N" or "2 MPa".
+    depths : sequence of str
+        Depths, such as "200 nm", instead.
+    count : int, optional
+        Number of loads from first touch to saturation, instead.
+    """
+
+    loads: Sequence[str] = ()
+    depths: Sequence[str] = ()
+    count: int | None = None
+
+    def forces(self, area: float) -> list[float] | None:
+        """Total forces on a nominal area, rising. [N]"""
+        found = sorted({load_in_newtons(text, area) for text in self.loads})
+        for force in found:
+            if not 0 < force < np.inf:
+                raise InputError(f"a load of {force:g} N is given; give positive ones")
+        return found or None
+
+    def heights(self) -> list[float] | None:
+        """Depths, rising. [m]"""
+        return sorted({in_si(text, "m", "depth") for text in self.depths}) or None
+
+
+@dataclass(frozen=True, eq=False)
 class Pressed:
     """What pressing a file gave.
 
     Attributes
     ----------
+    source : Source
+        The file.
     body : Surface or Line
-        The body that was pressed, in metres.
+        What was pressed, in metres: prepared, and the sum of both where there are two.
     curve : Curve
         Its curve; a load that did not converge is marked.
+    asked : ndarray of int
+        Which loads of the curve were asked for.
+    pair : Interface or None
+        The materials.
+    answers : list of Answer
+        For the materials, over the loads of the curve.
+    theories : list of TheoryCurve
+        At the same mean pressures.
+    notes : list of str
+        How the loads were meant, what was filled, what is suspicious, where an assumption breaks.
     files : list of Path
         What was written.
     """
 
+    source: Source
     body: Body
     curve: Curve
-    files: list[Path]
+    asked: NDArray[np.intp]
+    pair: Interface | None = None
+    answers: list[Answer] = field(default_factory=list)
+    theories: list[TheoryCurve] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    files: list[Path] = field(default_factory=list)
+
+    @property
+    def area(self) -> float:
+        """Nominal area; of a line scan, the square of its length. [m²]"""
+        return nominal_area(self.body)
+
+
+def nominal_area(body: Body) -> float:
+    """Nominal area of a body; of a line, the square of its length. [m²]"""
+    return body.area if isinstance(body, Surface) else body.length**2
 
 
 def press_file(
-    file: Path,
+    source: Source,
+    loading: Loading,
     *,
-    E_star: float,
-    n_loads: int | None,
-    forces: list[float] | None,
-    depths: list[float] | None,
-    unit: str | None,
-    keep_tilt: bool,
-    periodic: bool,
+    E_star: float | None = None,
+    materials: tuple[Material, Material] | None = None,
+    against: Source | None = None,
+    preparation: Preparation | None = None,
+    periodic: bool = False,
     grid_error: bool = False,
-    out: Path | None,
-    announce: Callable[[str], None],
-    progress: Callable[[int, int], None] | None,
+    frequency: float | None = None,
+    theories: Sequence[str] = (),
+    whole_curve: bool = False,
+    out: Path | None = None,
+    announce: Announce,
+    progress: Progress | None = None,
 ) -> Pressed:
-    """Read a file, level it, press it and write the results.
+    """Read a file, prepare it, press it and work out what follows.
 
     Parameters
     ----------
-    file : Path
+    source : Source
         The topography.
-    E_star : float
-        Contact modulus. [Pa]
-    n_loads, forces, depths
-        One of the three, as for :func:`roughline.press`. [N], [m]
-    unit : str or None
-        Unit of the lengths in a file that states none.
-    keep_tilt : bool
-        Whether a measured surface keeps its tilt.
-    periodic : bool
-        Whether the surface is repeated.
-    grid_error : bool
+    loading : Loading
+        Loads.
+    E_star : float, optional
+        Contact modulus, unless materials are given. [Pa]
+    materials : tuple of Material, optional
+        Of both bodies.
+    against : Source, optional
+        Topography of the second body; without it, that one is smooth.
+    preparation : Preparation, optional
+        Of each topography; default: the tilt of measured ones is removed.
+    periodic, grid_error
         As for :func:`roughline.press`.
-    out : Path or None
-        Folder for curve and figures; None writes nothing.
+    frequency : float, optional
+        Of an ultrasonic wave. [Hz]
+    theories : sequence of str
+        As for :func:`roughline.theories.theory`.
+    whole_curve : bool
+        Whether loads from a thousandth of the largest one on are added, for figures.
+    out : Path, optional
+        Folder that will be written to.
     announce : callable
         Told what a large run will cost, before it starts.
-    progress : callable or None
+    progress : callable, optional
         Called with (loads done, loads in all).
+
+    Raises
+    ------
+    InputError
+        If the question does not fit together.
     """
-    body = read(file, unit)
-    body = prepared(body, Preparation(trend="none") if keep_tilt else None)
+    if (E_star is None) == (materials is None):
+        raise InputError("give either a contact modulus (--modulus) or two materials (--materials)")
+    pair = Interface(*materials) if materials else None
+    modulus = pair.E_star if pair else E_star
+    assert modulus is not None
+    body = _body(source, against, preparation)
     if out is not None:
         make_folder(out)  # a folder that cannot be written is said before the work, not after
-    count = next((len(given) for given in (forces, depths, range(n_loads or 0)) if given), 0)
-    if isinstance(body, Surface) and body.heights.size >= _LARGE:
-        cost = estimate(body.shape, count, periodic=periodic)
-        announce(f"{body.shape[0]} x {body.shape[1]} points, {count} loads: {cost}")
-    curve = press(
+    area = nominal_area(body)
+    forces, depths, n_loads = loading.forces(area), loading.heights(), loading.count
+    notes = _notes_on_loads(loading, body) + notes_on_body(body)
+    if isinstance(body, Line) and body.kind == "profile":
+        if periodic or grid_error or depths:
+            raise InputError(
+                "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
+                "loads, through its spectrum"
+            )
+        asked = forces or _default_forces(body, modulus, n_loads or 20)
+        forces = _with_curve(asked) if whole_curve else asked
+        scan = press_scan(body, E_star=modulus, forces=forces)
+        curve = scan.curve
+        stiffness_error: Real | None = (scan.high - scan.low) / 2
+        area_error: Real | None = None
+    else:
+        asked = forces or []
+        forces = _with_curve(forces) if whole_curve and forces else forces
+        count = next((len(given) for given in (forces, depths, range(n_loads or 0)) if given), 0)
+        if isinstance(body, Surface) and body.heights.size >= _LARGE:
+            cost = estimate(body.shape, count, periodic=periodic)
+            announce(f"{body.shape[0]} x {body.shape[1]} points, {count} loads: {cost}")
+        shown = _shown(count, asked, forces) if out is not None else False
+
+        def pressed(which: Body, fields: bool | list[int]) -> Curve:
+            return press(
+                which,
+                E_star=modulus,
+                n_loads=n_loads,
+                forces=forces,
+                depths=depths,
+                periodic=periodic,
+                fields=fields if isinstance(which, Surface) else False,
+                grid_error=grid_error,
+                throw=False,
+                progress=progress,
+            )
+
+        curve = pressed(body, shown)
+        stiffness_error, area_error = curve.stiffness_error, curve.area_fraction_error
+        if body.settings.get("missing_points") and against is None:
+            other = _body(replace(source, missing=Missing(source.missing).other), None, preparation)
+            moved, by_filling = _moved(curve, pressed(other, False))
+            notes.append(f"filled by {Missing(source.missing).other} instead: {moved}")
+            stiffness_error = _combined(stiffness_error, by_filling[0])
+            area_error = _combined(area_error, by_filling[1])
+    notes += curve.warnings
+    result = Pressed(
+        source,
         body,
-        E_star=E_star,
-        n_loads=n_loads,
-        forces=forces,
-        depths=depths,
-        periodic=periodic,
-        fields=[3 * count // 4] if out is not None and isinstance(body, Surface) else False,
-        grid_error=grid_error,
-        throw=False,
-        progress=progress,
+        curve,
+        np.array([i for i, f in enumerate(curve.force) if not asked or np.isclose(f, asked).any()]),
+        pair,
+        notes=notes,
     )
-    return Pressed(body, curve, write_pressed(body, curve, out) if out is not None else [])
+    return _answered(result, modulus, periodic, frequency, theories, stiffness_error, area_error)
+
+
+def _body(source: Source, against: Source | None, preparation: Preparation | None) -> Body:
+    body = prepared(source.read(), preparation)
+    if against is None:
+        return body
+    second = prepared(against.read(), preparation)
+    if not (isinstance(body, Surface) and isinstance(second, Surface)):
+        raise InputError("two rough bodies must both be surfaces; of line scans, spectra add")
+    return facing(body, second)
+
+
+def _answered(
+    pressed: Pressed,
+    E_star: float,
+    periodic: bool,
+    frequency: float | None,
+    theories: Sequence[str],
+    stiffness_error: Real | None,
+    area_error: Real | None,
+) -> Pressed:
+    """Add theories, answers and what the answers warn of."""
+    body, curve = pressed.body, pressed.curve
+    spectral = isinstance(body, Surface) and bool(theories or pressed.pair)
+    found = None
+    if spectral and isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0:
+        spectrum = isotropic_spectrum(body)
+        found = moments(spectrum)
+        lines = [theory(name, spectrum, E_star, curve.force / body.area) for name in theories]
+    else:
+        if theories:
+            raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
+        lines = []
+    if pressed.pair is None:
+        return replace(pressed, theories=lines)
+    saturated = None
+    if isinstance(body, Line):
+        saturated = E_star * body.length
+    elif not periodic:
+        saturated = saturated_stiffness(body, E_star)
+    given = answers(
+        curve,
+        pressed.area,
+        pressed.pair,
+        saturated=saturated,
+        rms_height=body.rms_height,
+        rms_slope=found.rms_slope if found else None,
+        frequency=frequency,
+        stiffness_error=stiffness_error,
+        area_error=area_error,
+    )
+    index = None
+    if found is not None and pressed.pair.hardness is not None:
+        index = plasticity_index(
+            E_star, pressed.pair.hardness, (found.summit_deviation, found.summit_radius)
+        )
+    notes = pressed.notes + elastic_warnings(given, index)
+    if frequency is not None and pressed.pair.both("impedance") is None:
+        notes.append("no reflection: the density of both materials is needed")
+    return replace(pressed, answers=given, theories=lines, notes=notes)
+
+
+def _notes_on_loads(loading: Loading, body: Body) -> list[str]:
+    """Say how loads were meant."""
+    area = nominal_area(body)
+    if isinstance(body, Surface):
+        nominal = f"the nominal area, {' x '.join(engineering(s, 'm') for s in body.sizes)}"
+    else:
+        nominal = f"the square of the line's length, {engineering(body.length, 'm')}"
+    return [
+        f"load {text}: {engineering(load_in_newtons(text, area), 'N')} in all, "
+        f"{engineering(load_in_newtons(text, area) / area, 'Pa')} over {nominal}"
+        for text in loading.loads
+    ]
+
+
+def notes_on_body(body: Body) -> list[str]:
+    """Say what was filled, what spikes there are, and what is suspicious."""
+    notes = []
+    if body.settings.get("missing_points"):
+        count, share = body.settings["missing_points"], float(body.settings["missing_share"])
+        notes.append(f"{count} missing points ({share:.2%}) filled: {body.settings['filled']}")
+    if body.settings.get("outliers_kept"):
+        notes.append(
+            f"{body.settings['outliers_kept']} spikes kept; the highest point decides where touch "
+            "is, so see whether they are real, or remove them"
+        )
+    if body.settings.get("outliers_removed"):
+        notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")
+    return notes + suspicions(body)
+
+
+def _default_forces(line: Line, E_star: float, count: int) -> list[float]:
+    scale = E_star * line.rms_height * line.length
+    return (scale * np.geomspace(1e-3, 3, count)).tolist()
+
+
+def _with_curve(asked: list[float]) -> list[float]:
+    """Loads for a curve up to the largest, those asked for among them."""
+    curve = np.geomspace(_LIGHTEST * asked[-1], asked[-1], _CURVE_LOADS)
+    apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
+    return sorted({*asked, *apart})
+
+
+def _shown(count: int, asked: list[float], forces: list[float] | None) -> list[int]:
+    """Which load's fields the figures show."""
+    if asked and forces:
+        return [forces.index(asked[-1])]
+    return [3 * count // 4]
+
+
+def _moved(curve: Curve, other: Curve) -> tuple[str, tuple[Real, Real]]:
+    """How far another filling moves the answers."""
+    assert curve.area_fraction_corrected is not None
+    assert other.area_fraction_corrected is not None
+    stiffness = np.abs(other.stiffness - curve.stiffness)
+    area = np.abs(other.area_fraction_corrected - curve.area_fraction_corrected)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        shares = [
+            float(np.nanmax(stiffness / curve.stiffness, initial=0.0)),
+            float(np.nanmax(area / curve.area_fraction_corrected, initial=0.0)),
+        ]
+    return f"stiffness moves by up to {shares[0]:.2%}, area by {shares[1]:.2%}", (stiffness, area)
+
+
+def _combined(first: Real | None, second: Real) -> Real:
+    return second if first is None else np.hypot(first, second)
 
 
 def curve_table(curve: Curve) -> tuple[list[str], list[list[str]]]:
@@ -135,83 +412,26 @@ def curve_table(curve: Curve) -> tuple[list[str], list[list[str]]]:
     return header, rows
 
 
-def write_pressed(body: Body, curve: Curve, out: Path) -> list[Path]:
-    """Write a pressed body: ``curve.nc``, and figures of the curve and of the contact.
-
-    Parameters
-    ----------
-    body : Surface or Line
-        The body, in metres.
-    curve : Curve
-        Its curve; of a surface with the fields of the load to be shown.
-    out : Path
-        Folder; made if it does not exist.
-
-    Returns
-    -------
-    list of Path
-        The files.
-
-    Raises
-    ------
-    StoreError
-        If the folder cannot be written.
-    """
-    make_folder(out)
-    replace(curve, fields=()).write(out / "curve.nc")
-    written = [out / "curve.nc"]
-    with styled():
-        written += save(curve_figure(curve), out, "curve")
-        if isinstance(body, Surface):
-            written += save(contact_figure(body, curve), out, "contact")
-    return written
+def answer_table(pressed: Pressed) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of the answers at the loads that were asked for."""
+    header = ["", *(f"load {n + 1}" for n in range(pressed.asked.size)), "formula"]
+    rows = []
+    for each in pressed.answers:
+        row = [f"{each.name} {each.symbol}"]
+        for i in pressed.asked:
+            row.append(quantity(each, int(i)))
+        rows.append([*row, each.formula])
+    return header, rows
 
 
-def curve_figure(curve: Curve) -> Figure:
-    """Force over depth, and stiffness over force; open marks where the grid decides."""
-    figure = new_figure(PAGE, 3.0)
-    left, right = figure.subplots(1, 2)
-    depth_unit, depth = _scaled(curve.depth, "m")
-    force_unit, force = _scaled(curve.force, "N")
-    stiffness_unit, stiffness = _scaled(curve.stiffness, "N/m")
-    for axes, x, y in ((left, depth, force), (right, force, stiffness)):
-        axes.loglog(x, y, color="0.5", linewidth=0.8)
-        axes.loglog(x[curve.resolved], y[curve.resolved], "o", color="k")
-        axes.loglog(x[~curve.resolved], y[~curve.resolved], "o", color="k", fillstyle="none")
-    left.set(xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=f"force $F$ [{force_unit}]")
-    right.set(xlabel=f"force $F$ [{force_unit}]", ylabel=f"stiffness $k$ [{stiffness_unit}]")
-    return figure
-
-
-def contact_figure(surface: Surface, curve: Curve) -> Figure:
-    """Topography, and the real contact area at the last load whose fields are there."""
-    figure = new_figure(PAGE, 3.2)
-    left, right = figure.subplots(1, 2)
-    size_unit, (width, height) = _scaled(np.array(surface.sizes), "m")
-    height_unit, heights = _scaled(surface.heights - surface.heights.mean(), "m")
-    extent = (0, width, 0, height)
-    shown = left.imshow(heights.T, origin="lower", extent=extent, cmap="cividis")
-    figure.colorbar(shown, ax=left, label=f"height [{height_unit}]", shrink=0.85)
-    solved = [i for i, fields in enumerate(curve.fields) if fields is not None]
-    if solved:
-        i = solved[-1]
-        found = curve.fields[i]
-        assert found is not None
-        right.imshow(
-            found.contact.T, origin="lower", extent=extent, cmap="binary", interpolation="nearest"
-        )
-        right.set_title(
-            f"contact {found.contact.mean():.2%} at F = {engineering(curve.force[i], 'N', 3)}",
-            fontsize=9,
-        )
-    for axes in (left, right):
-        axes.set(xlabel=f"x [{size_unit}]", ylabel=f"y [{size_unit}]")
-    return figure
-
-
-def _scaled(values: NDArray[np.float64], unit: str) -> tuple[str, NDArray[np.float64]]:
-    """Choose a prefix for values in an SI unit, and return the unit and the values in it."""
-    largest = float(np.nanmax(np.abs(values), initial=0.0))
-    power = 3 * int(np.floor(np.log10(largest) / 3)) if 0 < largest < np.inf else 0
-    power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
-    return _PREFIXES[power] + unit, values / 10.0**power
+def quantity(answer: Answer, i: int) -> str:
+    """Write one value of an answer, with its error where that is known."""
+    value = float(answer.values[i])
+    if not np.isfinite(value):
+        return "not solved" if np.isnan(value) else "infinite"
+    shown = f"{value:.4g}" if answer.unit == "1" else f"{value:.4g} {answer.unit}"
+    if answer.unit in ("N", "m", "Pa", "N/m", "ohm"):
+        shown = engineering(value, answer.unit)
+    if answer.error is not None and np.isfinite(answer.error[i]) and value:
+        shown += f" ± {abs(float(answer.error[i]) / value):.1%}"
+    return shown

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -25,10 +26,15 @@ from rich.text import Text
 
 from roughline.campaign.run import Summary
 from roughline.campaign.store import Store
+from roughline.curve import Status
 from roughline.quantities import engineering
 from roughline.report.compared import Compared, compared_table, verdict
-from roughline.report.pressed import Pressed, curve_table
+from roughline.report.described import Described, described_table
+from roughline.report.pressed import Pressed, answer_table, curve_table
+from roughline.theories import TheoryCurve
 from roughline.topography import Body, Surface
+
+_MOST_ANSWERED = 3  # loads whose answers fit on a screen
 
 
 class _Rate(ProgressColumn):
@@ -94,20 +100,50 @@ def _bars() -> Iterator[_Show]:
 
 
 def print_pressed(pressed: Pressed) -> None:
-    """Print what was pressed, its curve and the files written."""
+    """Print what was pressed, its curve or its answers, and the files written."""
     console = Console()
-    console.print(_described(pressed.body), highlight=False)
-    curve = pressed.curve
+    console.print(_described(pressed.body), highlight=False, soft_wrap=True)
+    curve, pair = pressed.curve, pressed.pair
     model = "reduced model, exact" if curve.area_fraction is None else "full model"
     boundary = curve.settings.get("boundary")
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
-    console.print(f"E* = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
-    console.print(_table(*curve_table(curve)))
+    of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
+    console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
+    if pair is not None and pressed.asked.size <= _MOST_ANSWERED:
+        header, rows = answer_table(pressed)  # formulas are for the report
+        console.print(_table(header[:-1], [row[:-1] for row in rows]))
+    else:
+        console.print(_table(*curve_table(curve)))
     if not curve.resolved[curve.converged].all():
         console.print("* fewer than ten points in contact: the grid decides, not the surface")
-    for warning in curve.warnings:
-        console.print(f"warning: {warning}", highlight=False, soft_wrap=True)
+    for i in np.flatnonzero(~curve.converged):
+        console.print(f"load {i + 1}: {Status(curve.status[i]).reason}", highlight=False)
+    for theory in pressed.theories:
+        console.print(_theory_line(theory, pressed), highlight=False, soft_wrap=True)
+    for note in pressed.notes:
+        console.print(f"note: {note}", highlight=False, soft_wrap=True)
     print_files(pressed.files)
+
+
+def _theory_line(theory: TheoryCurve, pressed: Pressed) -> str:
+    """A theory at the largest load."""
+    text = f"{theory.name} at the largest load: area {theory.area_fraction[-1]:.3%}"
+    if theory.stiffness is not None:
+        stiffness = theory.stiffness[-1] * pressed.area
+        text += f", interface stiffness {engineering(stiffness, 'N/m')}"
+    return f"{text} ({theory.validity})"
+
+
+def print_described(described: Described) -> None:
+    """Print what a topography is like."""
+    console = Console()
+    table = Table(box=None, show_header=False)
+    for row in described_table(described):
+        table.add_row(*row)
+    console.print(table, highlight=False)
+    for note in (*described.notes, *described.roughness.remarks):
+        console.print(f"note: {note}", highlight=False, soft_wrap=True)
+    print_files(described.files)
 
 
 def print_compared(compared: Compared) -> None:
@@ -145,7 +181,7 @@ def print_status(store: Store) -> None:
 def _table(header: list[str], rows: list[list[str]]) -> Table:
     table = Table(box=None, header_style="bold")
     for name in header:
-        table.add_column(name, justify="right", no_wrap=True)
+        table.add_column(name, justify="right", overflow="fold")
     for row in rows:
         table.add_row(*row)
     return table

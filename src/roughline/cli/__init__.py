@@ -1,0 +1,59 @@
+"""The command line: parse, call one function, print."""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated
+
+import typer
+
+from roughline._version import __version__
+from roughline.cli.campaign import app as campaign_app
+from roughline.cli.campaign import paper
+from roughline.cli.contact import compare, press
+from roughline.cli.topography import generate, info
+from roughline.errors import ConvergenceError, RoughlineError
+
+app = typer.Typer(
+    name="roughline",
+    help="The contact laboratory for rough surfaces.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="markdown",
+)
+for command in (press, info, compare, generate, paper):
+    app.command()(command)
+app.add_typer(campaign_app, name="campaign")
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"roughline {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version."
+        ),
+    ] = False,
+) -> None:
+    pass
+
+
+def main() -> None:
+    """Run the command line; errors are one line, exit code 2 for input and 1 for numerics."""
+    try:
+        app()
+    except ConvergenceError as error:
+        sys.exit(_say(error, 1))
+    except RoughlineError as error:
+        sys.exit(_say(error, 2))
+
+
+def _say(error: RoughlineError, code: int) -> int:
+    typer.echo(f"roughline: {error}", err=True)
+    return code

@@ -1,0 +1,156 @@
+"""Commands on ensembles: the paper's study, and campaigns of one's own."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from roughline.cli.options import Json, Scheduler, Seed, Workers, interruptible, print_json
+
+app = typer.Typer(
+    help="Ensembles of random bodies, on this machine or a Dask cluster.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+
+class ExportFormat(StrEnum):
+    """Which files to write."""
+
+    netcdf = "netcdf"
+    csv = "csv"
+
+
+class Scale(StrEnum):
+    """How large the paper's study is to be."""
+
+    quick = "quick"
+    full = "full"
+
+
+StoreArgument = Annotated[Path, typer.Argument(help="A store, or the plan beside which it lies.")]
+
+
+def paper(
+    scale: Annotated[
+        Scale, typer.Option(help="quick: minutes on two cores; full: the paper's sizes, days.")
+    ] = Scale.quick,
+    out: Annotated[Path, typer.Option(help="Folder for results and report.")] = Path(
+        "roughline-paper"
+    ),
+    seed: Seed = 2012,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    json: Json = False,
+) -> None:
+    """Recompute the paper: both models, its figures, and a report with a verdict on each claim.
+
+    Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
+    """
+    from roughline.report.paper import recompute
+    from roughline.report.terminal import announce, campaign_progress
+
+    with interruptible(_kept(out)), campaign_progress() as progress:
+        page = recompute(
+            scale.value,
+            out,
+            seed,
+            workers=workers,
+            scheduler=scheduler,
+            progress=progress,
+            announce=announce,
+        )
+    if json:
+        print_json({"report": page})
+    else:
+        typer.echo(f"report: {page}")
+
+
+@app.command("run")
+def run_campaign(
+    plan: Annotated[Path, typer.Argument(help="A plan in TOML.")],
+    store: Annotated[
+        Path | None, typer.Option(help="Folder for the results [default: the plan's name.zarr].")
+    ] = None,
+    scheduler: Scheduler = None,
+    workers: Workers = None,
+    threads: Annotated[
+        int | None, typer.Option(help="Threads for each case [default: cores over workers].")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Compute what a plan asks for, or what is left of it.
+
+    Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
+    A plan with more realisations or fractal dimensions adds to the same store. Cases that failed
+    are recorded with their reasons, stop no others, and are tried again by the next run.
+    """
+    from roughline.campaign import read_plan, run
+    from roughline.report.machine import of_summary
+    from roughline.report.terminal import announce, campaign_progress, print_summary
+
+    where = store or plan.with_suffix(".zarr")
+    with interruptible(_kept(where)), campaign_progress() as progress:
+        summary = run(
+            read_plan(plan),
+            where,
+            scheduler=scheduler,
+            workers=workers,
+            threads=threads,
+            progress=progress,
+            announce=announce,
+        )
+    if json:
+        print_json(of_summary(summary, where))
+    else:
+        print_summary(summary, where)
+    if sum(summary.failed.values()) or summary.unconverged:
+        raise typer.Exit(1)
+
+
+@app.command("status")
+def status_of_campaign(store: StoreArgument, json: Json = False) -> None:
+    """Say what is done of a campaign, and why cases failed."""
+    from roughline.campaign import Store
+    from roughline.report.machine import of_status
+    from roughline.report.terminal import print_status
+
+    found = Store(_store_of(store))
+    if json:
+        print_json(of_status(found))
+    else:
+        print_status(found)
+
+
+@app.command("export")
+def export_campaign(
+    store: StoreArgument,
+    out: Annotated[Path, typer.Option(help="Folder for the files.")],
+    formats: Annotated[
+        list[ExportFormat] | None,
+        typer.Option("--format", help="netcdf or csv; may be repeated [default: both]."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Write every ensemble to NetCDF and CSV, with a table of means and their intervals."""
+    from roughline.campaign import Store
+    from roughline.campaign.export import export
+    from roughline.report.terminal import print_files
+
+    chosen = [item.value for item in formats or ExportFormat]
+    files = export(Store(_store_of(store)), out, chosen)
+    if json:
+        print_json({"files": files})
+    else:
+        print_files(files)
+
+
+def _store_of(path: Path) -> Path:
+    return path.with_suffix(".zarr") if path.suffix == ".toml" else path
+
+
+def _kept(place: Path) -> str:
+    return f"what is done is kept in {place}: run again to go on"

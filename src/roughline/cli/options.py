@@ -1,0 +1,210 @@
+"""Options that several commands share, and how their texts are read."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from roughline.errors import InputError
+
+if TYPE_CHECKING:
+    from roughline.preparation import Preparation
+    from roughline.report.pressed import Source
+    from roughline.spectra import SelfAffine
+
+FILE = "A file"
+PREPARATION = "Preparation"
+SPECTRUM = "Spectrum"
+
+
+class Filling(StrEnum):
+    """How missing points are filled."""
+
+    harmonic = "harmonic"
+    nearest = "nearest"
+
+
+class Trend(StrEnum):
+    """What is removed from the heights."""
+
+    none = "none"
+    mean = "mean"
+    tilt = "tilt"
+    curvature = "curvature"
+
+
+Unit = Annotated[
+    str | None,
+    typer.Option(help="Unit of the lengths in a file that states none.", rich_help_panel=FILE),
+]
+Channel = Annotated[
+    str | None, typer.Option(help="Number, from 0, or name of a channel.", rich_help_panel=FILE)
+]
+Size = Annotated[
+    str | None,
+    typer.Option(
+        help='Sides of a file that states none, such as "1 mm, 0.5 mm".', rich_help_panel=FILE
+    ),
+]
+Fill = Annotated[Filling, typer.Option(help="How missing points are filled.", rich_help_panel=FILE)]
+MaxMissing = Annotated[
+    float, typer.Option(help="Share of missing points that is filled.", rich_help_panel=FILE)
+]
+TrendOption = Annotated[
+    Trend | None,
+    typer.Option(
+        help="What is removed [default: the tilt of measured ones].", rich_help_panel=PREPARATION
+    ),
+]
+Crop = Annotated[
+    str | None,
+    typer.Option(
+        help='Piece to keep, from and to along x and y: "0 um, 50 um, 0 um, 40 um".',
+        rich_help_panel=PREPARATION,
+    ),
+]
+LowPass = Annotated[
+    str | None,
+    typer.Option(
+        help='Cutoff wavelength of a Gaussian filter, such as "2 um".',
+        rich_help_panel=PREPARATION,
+    ),
+]
+Resample = Annotated[
+    int | None,
+    typer.Option(help="Points along the longer side to resample to.", rich_help_panel=PREPARATION),
+]
+RemoveOutliers = Annotated[
+    bool, typer.Option(help="Remove spikes; they are counted always.", rich_help_panel=PREPARATION)
+]
+Hurst = Annotated[
+    float | None, typer.Option(help="Hurst exponent, 0 to 1.", rich_help_panel=SPECTRUM)
+]
+FractalDimension = Annotated[
+    float | None, typer.Option(help="Fractal dimension, 2 to 3, instead.", rich_help_panel=SPECTRUM)
+]
+RollOff = Annotated[
+    str | None,
+    typer.Option(
+        help='Wavelength above which the spectrum is flat: "0.2 mm".', rich_help_panel=SPECTRUM
+    ),
+]
+Cutoff = Annotated[
+    str | None,
+    typer.Option(
+        help='Shortest wavelength, such as "5 um" [default: the grid].', rich_help_panel=SPECTRUM
+    ),
+]
+Points = Annotated[int, typer.Option("-n", "--points", help="Points along a side.")]
+Seed = Annotated[int, typer.Option(min=0, help="Root of all random seeds.")]
+Workers = Annotated[
+    int | None,
+    typer.Option(min=1, help="Processes on this machine [default: one for each core]."),
+]
+Scheduler = Annotated[
+    str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://10.0.0.1:8786.")
+]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units, for other programs.")]
+
+
+def source_of(
+    file: Path,
+    unit: str | None,
+    channel: str | None,
+    size: str | None,
+    fill: Filling,
+    max_missing: float,
+) -> Source:
+    """The file that the options describe."""
+    from roughline.report.pressed import Source
+
+    sizes = tuple(lengths(size, "size")) if size else None
+    return Source(file, unit, channel, sizes, fill.value, max_missing)
+
+
+def preparation_of(
+    trend: Trend | None,
+    crop: str | None,
+    low_pass: str | None,
+    resample: int | None,
+    remove_outliers: bool,
+) -> Preparation | None:
+    """The preparation that the options describe; None where none is given."""
+    from roughline.preparation import Preparation
+    from roughline.quantities import in_si
+
+    if not (trend or crop or low_pass or resample is not None or remove_outliers):
+        return None
+    return Preparation(
+        crop=tuple(lengths(crop, "crop")) if crop else None,
+        remove_outliers=remove_outliers,
+        trend=trend.value if trend else "tilt",
+        low_pass=in_si(low_pass, "m", "low-pass") if low_pass else None,
+        points=resample,
+    )
+
+
+def lengths(text: str, name: str) -> list[float]:
+    """Read lengths with units between commas. [m]"""
+    from roughline.quantities import in_si
+
+    return [in_si(part, "m", name) for part in text.split(",")]
+
+
+def spectrum_of(
+    hurst: float | None,
+    fractal_dimension: float | None,
+    length: str | None,
+    rms_height: str,
+    roll_off: str | None,
+    cutoff: str | None,
+) -> SelfAffine:
+    """The spectrum that the options describe; without a length, one without cutoffs."""
+    from roughline.quantities import in_si
+    from roughline.spectra import SelfAffine
+
+    if length is None and (roll_off or cutoff):
+        raise InputError("a roll-off or a cutoff is given without the length of the surface")
+    return SelfAffine(
+        hurst=hurst,
+        fractal_dimension=fractal_dimension,
+        length=in_si(length or "1 m", "m", "length"),
+        rms_height=in_si(rms_height, "m", "rms-height"),
+        q_roll=wavenumber(roll_off, "roll-off"),
+        q_high=wavenumber(cutoff, "cutoff"),
+    )
+
+
+def wavenumber(text: str | None, name: str) -> float | None:
+    """Read a wavelength, and return its wavenumber. [1 / m]"""
+    from roughline.quantities import in_si
+
+    if text is None:
+        return None
+    wavelength = in_si(text, "m", name)
+    if not 0 < wavelength < math.inf:
+        raise InputError(f"{name} is {text}; a positive wavelength is needed")
+    return 2 * math.pi / wavelength
+
+
+def print_json(content: dict[str, Any]) -> None:
+    """Print a result for other programs."""
+    from roughline.report.machine import to_json
+
+    typer.echo(to_json(content))
+
+
+@contextmanager
+def interruptible(kept: str) -> Iterator[None]:
+    """End with exit code 130 and a word on what is kept, when interrupted."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo(f"interrupted; {kept}", err=True)
+        raise typer.Exit(130) from None

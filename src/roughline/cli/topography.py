@@ -1,0 +1,78 @@
+"""Commands on one topography: generate it, describe it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from roughline.cli import options
+from roughline.cli.options import print_json
+
+
+def info(
+    file: Annotated[Path, typer.Argument(help="A topography: an instrument's file, or ours.")],
+    unit: options.Unit = None,
+    channel: options.Channel = None,
+    size: options.Size = None,
+    fill: options.Fill = options.Filling.harmonic,
+    max_missing: options.MaxMissing = 0.1,
+    trend: options.TrendOption = None,
+    crop: options.Crop = None,
+    low_pass: options.LowPass = None,
+    resample: options.Resample = None,
+    remove_outliers: options.RemoveOutliers = False,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for a figure and the prepared topography.")
+    ] = None,
+    json: options.Json = False,
+) -> None:
+    """Describe a topography: sizes, missing points, roughness, spectrum, and the nearest law.
+
+    Intervals are of 95 %. The Hurst exponent, the roll-off and the cutoff are those of a plateau
+    and a power law fitted to the spectrum; the last line says whether that describes it.
+    """
+    from roughline.report.described import describe_file
+    from roughline.report.machine import of_described
+    from roughline.report.terminal import print_described
+
+    source = options.source_of(file, unit, channel, size, fill, max_missing)
+    steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
+    result = describe_file(source, steps, out)
+    if json:
+        print_json(of_described(result))
+    else:
+        print_described(result)
+
+
+def generate(
+    out: Annotated[Path, typer.Option(help='File to write, ending in ".nc".')],
+    length: Annotated[str, typer.Option(help='Side of the surface, such as "1 mm".')],
+    rms_height: Annotated[str, typer.Option(help='Rms height, such as "1 um".')],
+    hurst: options.Hurst = None,
+    fractal_dimension: options.FractalDimension = None,
+    n: options.Points = 512,
+    seed: options.Seed = 0,
+    line: Annotated[bool, typer.Option(help="The reduced line instead of the surface.")] = False,
+    roll_off: options.RollOff = None,
+    cutoff: options.Cutoff = None,
+    gaussian: Annotated[
+        bool, typer.Option(help="Gaussian amplitudes instead of random phases alone.")
+    ] = False,
+    json: options.Json = False,
+) -> None:
+    """Generate a random self-affine surface, or its reduced line, and write it to a file."""
+    from roughline.measured import write
+    from roughline.report.machine import of_generated
+    from roughline.report.terminal import print_generated
+
+    spectrum = options.spectrum_of(hurst, fractal_dimension, length, rms_height, roll_off, cutoff)
+    make = spectrum.line if line else spectrum.surface
+    body = replace(make(n, seed, "gaussian" if gaussian else "fixed"), unit="m")
+    write(body, out)
+    if json:
+        print_json(of_generated(body, out))
+    else:
+        print_generated(body, out)

@@ -1,0 +1,197 @@
+"""The report that a client receives: one page, as HTML and PDF, from a pressed file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from roughline._version import __version__
+from roughline.characterisation import Roughness, roughness
+from roughline.quantities import engineering
+from roughline.report.page import Picture, Section, Table, render
+from roughline.report.pdf import write_pdf
+from roughline.report.pressed import Pressed, answer_table, quantity
+from roughline.report.pressed_figures import (
+    draw_area,
+    draw_contact,
+    draw_heights,
+    draw_partial_slip,
+    draw_spectrum,
+    draw_stiffness,
+    write_pressed,
+)
+from roughline.report.style import PAGE, new_figure, save, styled
+from roughline.topography import Line, Surface
+
+ASSUMPTIONS = (
+    "Linear elastic half-spaces, small slopes, no friction in the normal problem, no adhesion, "
+    "static loads.",
+    "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
+    "them the real contact area; stiffness and conductance depend on them little.",
+    "Intervals are those of the grid and of filled points, or of what a line scan leaves open; "
+    "the scatter of material data and of other places on the part comes on top.",
+)
+
+
+def write_report(
+    pressed: Pressed, folder: Path, command: str, friction: float | None = None
+) -> list[Path]:
+    """Write ``report.html``, ``report.pdf``, ``curve.nc`` and the figures.
+
+    Parameters
+    ----------
+    pressed : Pressed
+        With answers for two materials.
+    folder : Path
+        Made if it does not exist.
+    command : str
+        The command that does it again.
+    friction : float, optional
+        Coefficient of friction; adds the curve of partial slip at the largest load. [1]
+
+    Raises
+    ------
+    StoreError
+        If the folder cannot be written.
+    """
+    files = write_pressed(pressed, folder)
+    described = None
+    body = pressed.body
+    if isinstance(body, Surface) or body.kind == "profile":
+        described = roughness(body)
+    with styled():
+        overview = save(_overview(pressed, described, friction), folder, "overview")
+    title, lead = f"Contact of {pressed.source.file.name}", _lead(pressed)
+    sections = _sections(pressed, described, overview[0], command)
+    page = folder / "report.html"
+    page.write_text(render(title, lead, sections), encoding="utf-8")
+    write_pdf(folder / "report.pdf", title, lead, sections)
+    return [page, folder / "report.pdf", *files, *overview]
+
+
+def settings_of(pressed: Pressed) -> dict[str, Any]:
+    """Everything that the numbers depend on, by name."""
+    return {
+        "roughline_version": __version__,
+        "E_star": pressed.curve.E_star,
+        **pressed.curve.settings,
+    }
+
+
+def _lead(pressed: Pressed) -> str:
+    pair = pressed.pair
+    assert pair is not None
+    last = int(pressed.asked[-1])
+    named = {each.symbol: quantity(each, last) for each in pressed.answers}
+    load = f"{named['F']} ({named['p']})"
+    return (
+        f"{pair.first.name} on {pair.second.name} under {load}: contact stiffness {named['k']}"
+        + (f", real contact area {named['A/A_0']} of the nominal one" if "A/A_0" in named else "")
+        + (f", constriction resistance {named['R']}" if "R" in named else "")
+        + (f", thermal conductance {named['h_c']}" if "h_c" in named else "")
+        + "."
+    )
+
+
+def _overview(pressed: Pressed, described: Roughness | None, friction: float | None) -> Any:
+    figure = new_figure(PAGE, 4.6)
+    panels = figure.subplots(2, 2 if friction is None else 3).ravel()
+    draw_heights(panels[0], pressed.body)
+    remaining = list(panels[1:])
+    if described is not None:
+        draw_spectrum(remaining.pop(0), described)
+    draw_stiffness(remaining.pop(0), pressed)
+    if isinstance(pressed.body, Surface):
+        if pressed.theories or friction is not None:
+            draw_area(remaining.pop(0), pressed)
+        if remaining:
+            draw_contact(remaining.pop(0), pressed.body, pressed.curve)
+    if friction is not None and remaining:
+        draw_partial_slip(remaining.pop(0), pressed, friction)
+    for empty in remaining:
+        empty.set_axis_off()
+    return figure
+
+
+def _sections(
+    pressed: Pressed, described: Roughness | None, overview: Path, command: str
+) -> list[Section]:
+    pair = pressed.pair
+    assert pair is not None
+    header, rows = answer_table(pressed)
+    sources = {each.source for each in pressed.answers if each.source}
+    settings = "; ".join(f"{key} = {value}" for key, value in settings_of(pressed).items())
+    return [
+        Section(
+            "Answers",
+            [f"Materials: {_material(pair.first)}; {_material(pair.second)}."],
+            tables=[Table(header, rows, numbers=range(1, len(header) - 1))],
+            note=" ".join(_sentence(note) for note in pressed.notes),
+        ),
+        Section(
+            "Surface",
+            [_surface(pressed, described)],
+            pictures=[
+                Picture(
+                    overview,
+                    "Overview",
+                    "Heights, spectrum with the nearest self-affine law, stiffness over force "
+                    "(open marks: fewer than ten points in contact)"
+                    + (", and theories for the same spectrum" if pressed.theories else "")
+                    + ".",
+                )
+            ],
+        ),
+        Section(
+            "Assumptions",
+            [
+                *ASSUMPTIONS,
+                *(f"{theory.name}: {theory.validity}." for theory in pressed.theories),
+                f"Formulas: {'; '.join(sorted(sources))}.",
+            ],
+        ),
+        Section("To do it again", [command, settings]),
+    ]
+
+
+def _material(material: Any) -> str:
+    parts = [f"E = {engineering(material.E, 'Pa')}", f"nu = {material.nu:g}"]
+    if material.hardness:
+        parts.append(f"H = {engineering(material.hardness, 'Pa')}")
+    return f"{material.name} ({', '.join(parts)}; {material.source})"
+
+
+def _surface(pressed: Pressed, described: Roughness | None) -> str:
+    body = pressed.body
+    if isinstance(body, Line):
+        what = f"{body.heights.size} points over {engineering(body.length, 'm')}"
+    else:
+        sides = " x ".join(engineering(size, "m") for size in body.sizes)
+        what = f"{body.shape[0]} x {body.shape[1]} points on {sides}"
+    done = [
+        f"{name.replace('_', ' ')}: {body.settings[name]}"
+        for name in (
+            "cropped",
+            "outliers_removed",
+            "detrended",
+            "low_pass",
+            "resampled",
+            "resampled_to",
+            "filled",
+        )
+        if name in body.settings
+    ]
+    text = (
+        f"{what}; rms height {engineering(body.rms_height, 'm')}, rms slope {body.rms_slope:.3g}. "
+        f"Preparation: {', '.join(done) or 'none'}."
+    )
+    if described is not None and described.fit is not None:
+        low, high = described.fit.hurst_interval
+        text += f" Hurst exponent {described.fit.hurst:.2f} ({low:.2f} to {high:.2f})."
+    if described is not None and described.remarks:
+        text += " " + " ".join(_sentence(remark) for remark in described.remarks)
+    return text
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")

@@ -1,0 +1,99 @@
+"""A page of sections as PDF."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import escape
+
+from matplotlib import get_data_path
+
+from roughline.errors import StoreError
+from roughline.report.page import Section, Table
+
+_SIZE = 6.6  # of the text, so that a page holds it [points]
+_MARGIN = 36  # [points]
+
+
+def write_pdf(path: Path, title: str, lead: str, sections: Sequence[Section]) -> None:
+    """Write a page as PDF, one sheet of A4; what is too long is made smaller.
+
+    Parameters
+    ----------
+    path : Path
+        Replaced if it exists.
+    title, lead, sections
+        As for :func:`roughline.report.page.render`.
+
+    Raises
+    ------
+    StoreError
+        If the file cannot be written.
+    """
+    from reportlab.lib.pagesizes import A4
+    from reportlab.lib.utils import ImageReader
+    from reportlab.pdfbase import pdfmetrics
+    from reportlab.pdfbase.ttfonts import TTFont
+    from reportlab.platypus import Image, KeepInFrame, Paragraph, SimpleDocTemplate, Spacer
+
+    folder = Path(get_data_path()) / "fonts" / "ttf"
+    for name, file in (("Sans", "DejaVuSans"), ("Sans-Bold", "DejaVuSans-Bold")):
+        pdfmetrics.registerFont(TTFont(name, folder / f"{file}.ttf"))
+    width = A4[0] - 2 * _MARGIN
+    text, heading = _style(_SIZE, bold=False), _style(1.25 * _SIZE, bold=True)
+    top = _style(2 * _SIZE, bold=True)
+    flow: list[Any] = [Paragraph(escape(title), top), Paragraph(escape(lead), text)]
+    for section in sections:
+        flow.append(Spacer(1, _SIZE * 0.5))
+        flow.append(Paragraph(escape(section.heading), heading))
+        flow += [Paragraph(escape(paragraph), text) for paragraph in section.paragraphs]
+        if section.note:
+            flow.append(Paragraph(f"<i>{escape(section.note)}</i>", text))
+        flow += [_table(table, width, text) for table in section.tables]
+        for picture in section.pictures:
+            wide, high = ImageReader(str(picture.path)).getSize()
+            share = min(1.0, 265 * wide / (high * width))
+            flow.append(Image(str(picture.path), width * share, width * share * high / wide))
+            flow.append(Paragraph(escape(f"{picture.name}. {picture.caption}"), text))
+    document = SimpleDocTemplate(
+        str(path),
+        pagesize=A4,
+        leftMargin=_MARGIN,
+        rightMargin=_MARGIN,
+        topMargin=_MARGIN,
+        bottomMargin=_MARGIN,
+        title=title,
+        author="roughline",
+        invariant=True,
+    )
+    room = (A4[0] - 2 * _MARGIN, A4[1] - 2 * _MARGIN - 12)  # frames have a padding of 6
+    try:
+        document.build([KeepInFrame(*room, flow, mode="shrink")])
+    except OSError as error:
+        raise StoreError(f"cannot write {path} ({error}): choose another folder") from error
+
+
+def _style(size: float, bold: bool) -> Any:
+    from reportlab.lib.styles import ParagraphStyle
+
+    font = "Sans-Bold" if bold else "Sans"
+    return ParagraphStyle(font + str(size), fontName=font, fontSize=size, leading=1.3 * size)
+
+
+def _table(table: Table, width: float, style: Any) -> Any:
+    from reportlab.lib import colors
+    from reportlab.platypus import Paragraph
+    from reportlab.platypus import Table as Grid
+
+    rows = [[Paragraph(escape(cell), style) for cell in row] for row in (table.header, *table.rows)]
+    loads = len(table.header) - 2
+    columns = [0.24 * width, *[0.42 * width / loads] * loads, 0.34 * width]
+    rules = [
+        ("LINEBELOW", (0, 0), (-1, 0), 0.8, colors.black),
+        ("LINEBELOW", (0, 1), (-1, -1), 0.2, colors.lightgrey),
+        ("TOPPADDING", (0, 0), (-1, -1), 0.6),
+        ("BOTTOMPADDING", (0, 0), (-1, -1), 0.9),
+        ("VALIGN", (0, 0), (-1, -1), "TOP"),
+    ]
+    return Grid(rows, columns, style=rules, repeatRows=1)

@@ -1,0 +1,231 @@
+"""Figures of one topography: its heights, its spectrum, its curve, and its contact."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from roughline.characterisation import Roughness
+from roughline.curve import Curve
+from roughline.interface import partial_slip
+from roughline.isotropic import IsotropicSpectrum
+from roughline.quantities import engineering
+from roughline.report.folder import make_folder
+from roughline.report.pressed import Pressed
+from roughline.report.style import PAGE, new_figure, save, styled
+from roughline.topography import Body, Surface
+
+Real = NDArray[np.float64]
+
+_PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+_MOST_PIXELS = 600  # along a side; a picture shows no more
+_DASHES = ("--", ":", "-.")
+
+
+def write_pressed(pressed: Pressed, out: Path) -> list[Path]:
+    """Write a pressed body: ``curve.nc``, and figures of the curve and of the contact.
+
+    Parameters
+    ----------
+    pressed : Pressed
+        Of a surface, with the fields of the load to be shown.
+    out : Path
+        Folder; made if it does not exist.
+
+    Returns
+    -------
+    list of Path
+        The files.
+
+    Raises
+    ------
+    StoreError
+        If the folder cannot be written.
+    """
+    make_folder(out)
+    replace(pressed.curve, fields=()).write(out / "curve.nc")
+    written = [out / "curve.nc"]
+    with styled():
+        written += save(curve_figure(pressed), out, "curve")
+        if isinstance(pressed.body, Surface):
+            written += save(contact_figure(pressed.body, pressed.curve), out, "contact")
+    return written
+
+
+def curve_figure(pressed: Pressed) -> Figure:
+    """Force over depth, and stiffness over force; open marks where the grid decides."""
+    figure = new_figure(PAGE, 3.0)
+    left, right = figure.subplots(1, 2)
+    curve = pressed.curve
+    depth_unit, depth = _prefixed(curve.depth, "m")
+    force_unit, force = _prefixed(curve.force, "N")
+    _draw_loads(left, curve.depth * depth, curve.force * force, curve.resolved)
+    left.set(xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=f"force $F$ [{force_unit}]")
+    draw_stiffness(right, pressed)
+    return figure
+
+
+def contact_figure(surface: Surface, curve: Curve) -> Figure:
+    """Topography, and the real contact area at the last load whose fields are there."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    draw_heights(left, surface)
+    draw_contact(right, surface, curve)
+    return figure
+
+
+def roughness_figure(body: Body, found: Roughness) -> Figure:
+    """Heights, and the spectrum with the law that is nearest to it."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    draw_heights(left, body)
+    draw_spectrum(right, found)
+    return figure
+
+
+def draw_stiffness(axes: Axes, pressed: Pressed) -> None:
+    """Stiffness over force with its interval, and theories beside it."""
+    curve, area = pressed.curve, pressed.area
+    force_unit, force = _prefixed(curve.force, "N")
+    unit, stiffness = _prefixed(curve.stiffness, "N/m")
+    _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve.resolved)
+    for each in pressed.answers:
+        if each.symbol == "k" and each.error is not None:
+            low = np.maximum(each.values - each.error, 0.1 * each.values)
+            axes.fill_between(
+                curve.force * force,
+                low * stiffness,
+                (each.values + each.error) * stiffness,
+                color="0.85",
+                zorder=-5,
+            )
+    for theory, dashes in zip(pressed.theories, _DASHES, strict=False):
+        if theory.stiffness is not None:
+            axes.plot(
+                theory.pressure * area * force,
+                theory.stiffness * area * stiffness,
+                dashes,
+                label=theory.name,
+            )
+            axes.legend()
+    axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel=f"stiffness $k$ [{unit}]")
+
+
+def draw_area(axes: Axes, pressed: Pressed) -> None:
+    """Contact area over force, and theories beside it."""
+    curve, area = pressed.curve, pressed.area
+    assert curve.area_fraction_corrected is not None
+    force_unit, force = _prefixed(curve.force, "N")
+    _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve.resolved)
+    for theory, dashes in zip(pressed.theories, _DASHES, strict=False):
+        axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
+        axes.legend()
+    axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel="contact area $A/A_0$")
+
+
+def draw_partial_slip(axes: Axes, pressed: Pressed, friction: float) -> None:
+    """Tangential force over displacement at the largest load, until the whole contact slides."""
+    assert pressed.pair is not None
+    curve = pressed.curve
+    moduli = pressed.pair.E_star, pressed.pair.G_star
+    displacement, force = partial_slip(curve.depth, curve.force, *moduli, friction)
+    x_unit, x = _prefixed(displacement, "m")
+    y_unit, y = _prefixed(force, "N")
+    axes.plot(displacement * x, force * y, color="k")
+    axes.set(
+        xlabel=f"tangential displacement $u_x$ [{x_unit}]",
+        ylabel=f"tangential force $Q$ [{y_unit}]",
+    )
+
+
+def draw_heights(axes: Axes, body: Body) -> None:
+    """Heights about their mean."""
+    height_unit, factor = _prefixed(body.heights - body.heights.mean(), "m")
+    heights = (body.heights - body.heights.mean()) * factor
+    if not isinstance(body, Surface):
+        unit, size = _prefixed(np.array([body.length]), "m")
+        x = (np.arange(heights.size) + 0.5) * body.spacing * size
+        axes.plot(x, heights, color="k", linewidth=0.6)
+        axes.set(xlabel=f"x [{unit}]", ylabel=f"height [{height_unit}]")
+        return
+    shown = axes.imshow(_thinned(heights).T, origin="lower", extent=_extent(body), cmap="cividis")
+    assert axes.figure is not None
+    axes.figure.colorbar(shown, ax=axes, label=f"height [{height_unit}]", shrink=0.85)
+    _label_sides(axes, body)
+
+
+def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
+    """Real contact area at the last load whose fields are there."""
+    _label_sides(axes, surface)
+    for i in range(len(curve.fields) - 1, -1, -1):
+        found = curve.fields[i]
+        if found is None:
+            continue
+        axes.imshow(
+            found.contact.T,
+            origin="lower",
+            extent=_extent(surface),
+            cmap="binary",
+            interpolation="nearest",
+        )
+        share, force = found.contact.mean(), engineering(curve.force[i], "N", 3)
+        axes.set_title(f"contact {share:.2%} at F = {force}", fontsize=9)
+        return
+
+
+def draw_spectrum(axes: Axes, found: Roughness) -> None:
+    """Spectrum C_2d of a surface or C_profile of a line, and the self-affine law."""
+    spectrum, fit = found.spectrum, found.fit
+    if spectrum is None:
+        axes.text(0.5, 0.5, "no spectrum", ha="center", transform=axes.transAxes)
+        return
+    of_surface = isinstance(spectrum, IsotropicSpectrum)
+    power = spectrum.C_2d if isinstance(spectrum, IsotropicSpectrum) else spectrum.C_profile
+    known = power > 0
+    axes.loglog(spectrum.q[known], power[known], ".", color="0.4", markersize=2)
+    if fit is not None and of_surface:
+        axes.loglog(spectrum.q, fit.values(spectrum.q), color="tab:red")
+    elif fit is not None and not fit.objections:
+        inside = (spectrum.q >= fit.q_low) & (spectrum.q <= (fit.q_high or fit.q_last))
+        law = fit.spectrum().C_profile(spectrum.q[inside])
+        axes.loglog(spectrum.q[inside], law, color="tab:red")
+    symbol = "$C_{2d}$ [m⁴]" if of_surface else "$C_{profile}$ [m³]"
+    axes.set(xlabel="wavenumber $q = 2\\pi/\\lambda$ [1/m]", ylabel=f"spectrum {symbol}")
+    if fit is not None:
+        low, high = fit.hurst_interval
+        axes.set_title(f"H = {fit.hurst:.2f} ({low:.2f} to {high:.2f})", fontsize=9)
+
+
+def _draw_loads(axes: Axes, x: Real, y: Real, resolved: NDArray[np.bool_]) -> None:
+    axes.loglog(x, y, color="0.5", linewidth=0.8)
+    axes.loglog(x[resolved], y[resolved], "o", color="k")
+    axes.loglog(x[~resolved], y[~resolved], "o", color="k", fillstyle="none")
+
+
+def _extent(surface: Surface) -> tuple[float, float, float, float]:
+    _, size = _prefixed(np.array(surface.sizes), "m")
+    return (0, surface.sizes[0] * size, 0, surface.sizes[1] * size)
+
+
+def _label_sides(axes: Axes, surface: Surface) -> None:
+    unit, _ = _prefixed(np.array(surface.sizes), "m")
+    axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
+
+
+def _thinned(heights: Real) -> Real:
+    """Every few points, as many as a picture can show."""
+    steps = [max(1, n // _MOST_PIXELS) for n in heights.shape]
+    return heights[:: steps[0], :: steps[1]]
+
+
+def _prefixed(values: Real, unit: str) -> tuple[str, float]:
+    """Choose a prefix for values in an SI unit; return the unit, and the factor to it."""
+    largest = float(np.nanmax(np.abs(values), initial=0.0))
+    power = 3 * int(np.floor(np.log10(largest) / 3)) if 0 < largest < np.inf else 0
+    power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
+    return _PREFIXES[power] + unit, 10.0**-power

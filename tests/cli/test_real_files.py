@@ -1,0 +1,163 @@
+"""The measured files as a new user meets them, and what comes out of them."""
+
+import json
+
+import numpy as np
+import pytest
+
+import roughline as rl
+
+PRESS = ("--materials", "steel,copper", "--load", "1 mN")
+
+
+@pytest.mark.parametrize(
+    ("name", "points", "told"),
+    [
+        ("al3d-1.al3d", [200, 296], "within 5% of the border"),
+        ("di-1.di", [512, 512], "151 spikes kept"),
+        ("opd-1.opd", [640, 480], "116 missing points (0.04%) filled: harmonic"),
+        ("dektak-1.csv", [9600], "a line scan shows one direction"),
+        ("mitutoyo_mock.xlsx", [960], "a line scan shows one direction"),
+    ],
+)
+def test_files_that_can_be_pressed(topographies, invoke, name, points, told):
+    code, out, errors = invoke("press", topographies / name, *PRESS, "--json")
+    assert code == 0, errors
+    found = json.loads(out)
+    assert found["body"]["points"] == points
+    assert any(told in note for note in found["notes"])
+    answers = {symbol: each["values"][0] for symbol, each in found["answers"].items()}
+    assert answers["F"] == pytest.approx(1e-3)
+    assert answers["p"] == pytest.approx(1e-3 / found["nominal_area"])
+    assert answers["k"] == found["curve"]["stiffness"][0]
+    # Barber's identity, by hand
+    steel, copper = rl.material("steel"), rl.material("copper")
+    whole = found["E_star"] * (steel.resistivity + copper.resistivity)
+    assert answers["R"] == pytest.approx(whole / (2 * answers["k"]), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("sur-3.sur", "233009 missing points of 262144 (89%)"),
+        ("xy-1.txt", "states no unit"),
+        ("di_corrupted.di", "is damaged or of a type that is not known"),
+    ],
+)
+@pytest.mark.parametrize("command", ["press", "info"])
+def test_files_that_cannot_be_used_say_why(topographies, invoke, name, told, command):
+    code, out, errors = invoke(command, topographies / name, *(PRESS if command == "press" else ()))
+    assert code == 2
+    assert out == ""
+    assert told in errors
+    assert len(errors.splitlines()) == 1
+
+
+def test_what_was_refused_can_be_allowed(topographies, invoke):
+    code, out, _ = invoke("press", topographies / "xy-1.txt", *PRESS, "--unit", "um", "--json")
+    assert code == 0
+    assert json.loads(out)["body"]["sizes"][0] == pytest.approx(187.19e-6, rel=1e-3)
+    code, out, _ = invoke("info", topographies / "sur-3.sur", "--max-missing", "0.95", "--json")
+    assert code == 0
+    notes = json.loads(out)["notes"]
+    assert any("233009 missing points (88.89%) filled" in note for note in notes)
+
+
+@pytest.mark.parametrize("name", ["opd-1.opd", "dektak-1.csv", "mitutoyo_mock.xlsx"])
+def test_info_fits_a_screen_and_json(topographies, invoke, tmp_path, name):
+    code, out, _ = invoke("info", topographies / name, "--out", tmp_path / "out")
+    assert code == 0
+    assert len(out.splitlines()) < 40
+    assert "Hurst exponent" in out
+    assert "missing points" in out
+    assert (tmp_path / "out" / "roughness.png").stat().st_size > 10_000
+    again = rl.read(tmp_path / "out" / "prepared.nc")
+    code, out, _ = invoke("info", topographies / name, "--json")
+    found = json.loads(out)
+    assert again.rms_height == pytest.approx(found["rms_height"], rel=1e-9)
+    low, high = found["self_affine"]["hurst_interval"]
+    assert low <= found["self_affine"]["hurst"] <= high
+
+
+def test_a_report_a_client_could_receive(topographies, invoke, tmp_path):
+    folder = tmp_path / "report"
+    code, out, errors = invoke(
+        *("press", topographies / "opd-1.opd", "--materials", "steel,copper", "--load", "10 mN"),
+        *("--theory", "persson", "--friction", "0.3", "--report", folder, "--resample", "160"),
+    )
+    assert code == 0, errors
+    page = (folder / "report.html").read_text(encoding="utf-8")
+    for text in (
+        "10 mN in all, 841.1 kPa over the nominal area",
+        "constriction resistance",
+        "harmonic",
+        "Assumptions",
+        "Barber 2003",
+        "steel (E = 211.9 GPa",
+        "roughline_version",
+        "persson",
+    ):
+        assert text in page, text
+    pdf = (folder / "report.pdf").read_bytes()
+    assert pdf.startswith(b"%PDF")
+    assert pdf.count(b"/Type /Page\n") == 1
+    assert "wrote" in out
+
+
+@pytest.mark.parametrize("unit", ["nm", "um", "mm"])
+def test_answers_do_not_depend_on_the_unit(tmp_path, invoke, unit):
+    """The same heights and sides in another unit give the same answers."""
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+    per_metre = {"nm": 1e9, "um": 1e6, "mm": 1e3, "m": 1.0}
+    answers = {}
+    for each in ("m", unit):
+        np.save(tmp_path / f"{each}.npy", surface.heights * per_metre[each])
+        code, out, errors = invoke(
+            *("press", tmp_path / f"{each}.npy", "--unit", each, "--size", "1 mm, 1 mm"),
+            *("--materials", "steel,copper", "--load", "2 MPa", "--frequency", "5 MHz", "--json"),
+        )
+        assert code == 0, errors
+        found = json.loads(out)["answers"]
+        answers[each] = np.array([item["values"][0] for item in found.values()])
+    assert answers[unit] == pytest.approx(answers["m"], rel=1e-12)
+
+
+def test_two_rough_bodies(tmp_path, invoke):
+    spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)
+    for i in (1, 2):
+        surface = spectrum.surface(64, i)
+        rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / f"{i}.nc")
+    code, out, errors = invoke(
+        *("press", tmp_path / "1.nc", "--against", tmp_path / "2.nc", *PRESS, "--json")
+    )
+    assert code == 0, errors
+    rms = json.loads(out)["body"]["rms_height"]
+    assert rms == pytest.approx(np.sqrt(2) * 1e-6, rel=0.25)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--materials", "steel"), "give two with a comma between"),
+        (("--materials", "steel,rigit"), 'did you mean "rigid"'),
+        (("--materials", "rigid,rigid"), "both materials are rigid"),
+        (("--materials", "steel,rigid", "--modulus", "1 GPa"), "either a contact modulus"),
+        ((), "either a contact modulus"),
+        (("--modulus", "1 GPa", "--report", "r"), "need two --materials"),
+        (("--materials", "steel,rigid", "--report", "r"), "a report needs a --load"),
+        (("--materials", "steel,rigid", "--load", "1 N", "--friction", "0.1"), "give --report too"),
+        (("--modulus", "1 GPa", "--theory", "hertz"), "no theory is called 'hertz'"),
+        (("--modulus", "1 GPa", "--crop", "0 um, 1 um"), "crop has 2 lengths; give 4"),
+        (("--modulus", "1 GPa", "--low-pass", "5"), "without a unit"),
+        (("--modulus", "1 GPa", "--against", "none.nc"), "none.nc does not exist"),
+        (("--modulus", "1 GPa", "--channel", "1"), "leave both out"),
+        (("--modulus", "1 GPa", "--max-missing", "2"), "most_missing is 2"),
+    ],
+)
+def test_questions_that_do_not_fit_together(tmp_path, invoke, arguments, message):
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(32, 1)
+    rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "map.nc")
+    code, _, errors = invoke("press", tmp_path / "map.nc", *arguments)
+    assert code == 2
+    assert message in errors
+    assert "Traceback" not in errors
