@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory robustness soak study published clean
+.PHONY: paper paper-full test check benchmark memory robustness soak fuzz study published clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -33,6 +33,9 @@ robustness: $(VENV)/installed
 
 soak: $(VENV)/installed
 	$(BIN)/python benchmarks/soak.py 100 1
+
+fuzz: $(VENV)/installed
+	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/laws/test_fuzz.py
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr

@@ -1,0 +1,129 @@
+"""Answers of whole problems whose solution is known: discs, spheres, flat squares."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.answers import Interface, answers, elastic_warnings, saturated_stiffness
+from roughline.interface import interface_stiffness
+
+PAIR = Interface(rl.material("steel"), rl.material("copper"))
+
+
+def by_symbol(found):
+    return {each.symbol: each for each in found}
+
+
+def sphere(n, size=1e-3, radius=5e-3):
+    x = (np.arange(n) + 0.5) / n * size - size / 2
+    return rl.Surface(-(x[:, np.newaxis] ** 2 + x**2) / (2 * radius), (size, size), unit="m")
+
+
+def disc(n, size=1e-3, radius=3e-4):
+    x = (np.arange(n) + 0.5) / n * size - size / 2
+    inside = x[:, np.newaxis] ** 2 + x**2 <= radius**2
+    return rl.Surface(np.where(inside, 0.0, -1e-4), (size, size), unit="m")
+
+
+def test_a_sphere():
+    surface, force, radius = sphere(256), 30.0, 5e-3
+    E_star = PAIR.E_star
+    curve = rl.press(surface, E_star=E_star, forces=[force])
+    found = by_symbol(answers(curve, surface.area, PAIR))
+    a = (3 * force * radius / (4 * E_star)) ** (1 / 3)
+    resistivities = 1.6e-7 + 1.68e-8
+    kappa = 2 * 50 * 401 / (50 + 401)
+    expected = {
+        "F": force,
+        "d": a**2 / radius,
+        "k": 2 * E_star * a,
+        "A": math.pi * a**2,
+        "p_c": force / (math.pi * a**2),
+        "R": resistivities / (4 * a),
+        "G": 2 * kappa * a,
+        "k_t": 2 * PAIR.G_star * a,
+        "p": force / 1e-6,
+    }
+    for symbol, value in expected.items():
+        assert found[symbol].values[0] == pytest.approx(value, rel=3e-3), symbol
+
+
+def test_a_disc():
+    surface = disc(256)
+    curve = rl.press(surface, E_star=PAIR.E_star, forces=[1.0])
+    found = by_symbol(answers(curve, surface.area, PAIR))
+    resistance = (1.6e-7 + 1.68e-8) / (4 * 3e-4)
+    assert found["R"].values[0] == pytest.approx(resistance, rel=5e-3)  # the staircase of the grid
+    kappa = 2 * 50 * 401 / (50 + 401)
+    assert found["G"].values[0] == pytest.approx(2 * kappa * 3e-4, rel=5e-3)
+
+
+def test_a_flat_square_has_no_interface_of_its_own():
+    flat = rl.Surface(np.zeros((64, 64)), (1e-3, 1e-3), "m")
+    saturated = saturated_stiffness(flat, PAIR.E_star)
+    assert saturated / (PAIR.E_star * 1e-3) == pytest.approx(1.14617, rel=1e-5)  # on 64 x 64
+    long = rl.Surface(np.zeros((32, 64)), (1e-3, 2e-3), "m")
+    assert saturated_stiffness(long, PAIR.E_star) > 1.4 * saturated
+
+
+def test_in_periodic_mode_the_stiffness_is_the_interfaces():
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6, q_high=1e5).surface(64, 1)
+    surface = rl.Surface(surface.heights, surface.sizes, "m")
+    curve = rl.press(surface, E_star=PAIR.E_star, forces=[5.0], periodic=True)
+    found = by_symbol(answers(curve, surface.area, PAIR))
+    assert "k_i" not in found
+    kappa = 2 * 50 * 401 / (50 + 401)
+    per_area = kappa * curve.stiffness[0] / surface.area / PAIR.E_star
+    assert found["h_c"].values[0] == pytest.approx(per_area, rel=1e-12)
+
+
+def test_errors_are_carried_on():
+    surface = sphere(64)
+    curve = rl.press(surface, E_star=PAIR.E_star, forces=[10.0, 30.0])
+    saturated = saturated_stiffness(surface, PAIR.E_star)
+    found = by_symbol(
+        answers(
+            curve,
+            surface.area,
+            PAIR,
+            saturated=saturated,
+            stiffness_error=0.01 * curve.stiffness,
+            area_error=0.02 * curve.area_fraction_corrected,
+        )
+    )
+    for symbol in ("k", "k/A_0", "R", "G", "k_t"):
+        each = found[symbol]
+        assert each.error / each.values == pytest.approx(0.01, rel=1e-9), symbol
+    for symbol in ("A", "A/A_0", "p_c", "p_c/H"):
+        each = found[symbol]
+        assert each.error / each.values == pytest.approx(0.02, rel=1e-9), symbol
+    # by a finite change of k
+    changed = interface_stiffness(1.0001 * curve.stiffness, saturated)
+    own = found["k_i"]
+    assert own.error == pytest.approx((changed - own.values) * 100, rel=0.01)
+    assert found["h_c"].error / found["h_c"].values == pytest.approx(own.error / own.values)
+
+
+def test_what_is_not_known_of_a_material_is_left_out():
+    surface = sphere(32)
+    glass = Interface(rl.material("glass"), rl.material("rigid"))
+    curve = rl.press(surface, E_star=glass.E_star, forces=[1.0])
+    found = by_symbol(answers(curve, surface.area, glass, frequency=1e6))
+    assert not {"R", "R_Holm", "G", "h_c", "|R|"} & found.keys()
+    assert found["p_c/H"].values[0] == pytest.approx(found["p_c"].values[0] / 5.5e9)
+    assert all(each.formula for each in found.values())
+
+
+def test_the_elastic_assumption_is_watched():
+    surface = sphere(64)
+    soft, hard = (
+        Interface(rl.material(f"steel hardness={hardness} GPa"), rl.material("rigid"))
+        for hardness in (1, 1000)
+    )
+    curve = rl.press(surface, E_star=soft.E_star, forces=[100.0])
+    told = elastic_warnings(answers(curve, surface.area, soft), None)
+    assert "of the softer body's hardness" in told[0]
+    assert elastic_warnings(answers(curve, surface.area, hard), 0.5) == []
+    assert "plasticity index is 3" in elastic_warnings([], 3.0)[0]

@@ -1,0 +1,74 @@
+"""Two rough bodies, and line scans that are pressed."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughline as rl
+
+
+def rough(seed, n=64, length=1e-3, unit="m"):
+    surface = rl.SelfAffine(hurst=0.8, length=length, rms_height=1e-6, q_high=6e4).surface(n, seed)
+    return rl.Surface(surface.heights, surface.sizes, unit)
+
+
+def test_heights_add_and_the_second_is_turned_over():
+    first, second = rough(1), rough(2)
+    both = rl.facing(first, second)
+    assert (both.heights == first.heights + second.heights[::-1]).all()
+    assert both.sizes == first.sizes
+    flat = rl.Surface(np.zeros((64, 64)), (1e-3, 1e-3), "m")
+    assert (rl.facing(first, flat).heights == first.heights).all()
+
+
+def test_other_grids_are_laid_on_the_first():
+    first, fine = rough(1, 64), rough(2, 192)
+    both = rl.facing(first, fine)
+    assert both.shape == (64, 64)
+    in_the_middle = fine.heights[::-1][1::3, 1::3]  # where the coarse cells have their centres
+    assert both.heights - first.heights == pytest.approx(in_the_middle, abs=1e-9)
+    small = rough(3, 32, 5e-4)
+    common = rl.facing(first, small)
+    assert common.sizes == pytest.approx((5e-4, 5e-4))
+    assert common.shape == (32, 32)
+
+
+def test_what_does_not_fit_is_refused():
+    with pytest.raises(rl.InputError, match="in m and mm: give both in one unit"):
+        rl.facing(rough(1), rough(2, unit="mm"))
+    with pytest.raises(rl.InputError, match="points in common: too few"):
+        rl.facing(rough(1), rl.Surface(np.eye(8), (1e-5, 1e-5), "m"))
+
+
+def test_two_equal_random_surfaces_are_as_one_of_root_two():
+    """Independent spectra add: the mean stiffness is that of sqrt(2) h."""
+    forces = np.array([0.01, 0.1]) * 1e-6
+    spectrum = rl.SelfAffine(
+        hurst=0.8, rms_height=1e-6, q_roll=4 * 2 * math.pi, q_high=24 * 2 * math.pi
+    )
+    pairs, ones = [], []
+    for seed in range(12):
+        pair = rl.facing(spectrum.surface(64, seed), spectrum.surface(64, 100 + seed))
+        pairs.append(rl.press(pair, E_star=1.0, forces=forces).stiffness)
+        one = spectrum.surface(64, 200 + seed).scaled(math.sqrt(2))
+        ones.append(rl.press(one, E_star=1.0, forces=forces).stiffness)
+    assert np.mean(pairs, axis=0) == pytest.approx(np.mean(ones, axis=0), rel=0.1)
+
+
+def test_a_line_scan_is_pressed_with_an_interval():
+    heights = rl.SelfAffine(hurst=0.8, rms_height=1e-6, length=1e-3, q_roll=4e4).surface(256, 3)
+    scan = rl.Line(heights.heights[10], 1e-3, "m", kind="profile")
+    forces = np.geomspace(1e-2, 1, 4)
+    found = rl.press_scan(scan, E_star=1e9, forces=forces)
+    again = rl.press_scan(scan, E_star=1e9, forces=forces)
+    assert (found.curve.stiffness == again.curve.stiffness).all()
+    assert (found.low < found.curve.stiffness).all()
+    assert (found.curve.stiffness < found.high).all()
+    assert (found.curve.force == forces).all()
+    assert found.curve.area_fraction is None
+    assert "one direction" in found.curve.warnings[0]
+    assert found.curve.settings["lines"] == 200
+    found.curve.to_dataset()
+    with pytest.raises(rl.InputError, match="this is a reduced line"):
+        rl.press_scan(rl.Line(scan.heights, 1e-3), E_star=1e9, forces=forces)
