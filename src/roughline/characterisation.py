@@ -16,7 +16,7 @@ from roughline.topography import Body, Line, Surface
 
 Real = NDArray[np.float64]
 
-_ALIKE = 0.7  # minor over major slope, from which on a surface counts as isotropic
+ALIKE = 0.7  # minor over major slope, from which on a surface counts as isotropic
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +88,8 @@ def roughness(body: Body) -> Roughness:
         remarks += fit.objections
     except InputError as error:
         remarks.append(str(error))
-    alike = _isotropy(body) if isinstance(body, Surface) else None
-    if alike is not None and alike < _ALIKE:
+    alike = isotropy(body) if isinstance(body, Surface) else None
+    if alike is not None and alike < ALIKE:
         remarks.append(
             f"slopes differ by direction, smallest over largest {alike:.2f}: a spectrum averaged "
             "over directions, and a line scan, stand for no such surface"
@@ -133,7 +133,7 @@ def _summits(heights: Real) -> Real:
     return inner[higher]
 
 
-def _isotropy(surface: Surface) -> float:
+def isotropy(surface: Surface) -> float:
     """Smallest over largest rms slope of all directions; NaN for a flat or a thin surface."""
     if min(surface.shape) < 2:
         return math.nan

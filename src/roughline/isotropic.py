@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +42,17 @@ class IsotropicSpectrum:
     rms_height: float
     modes: Real
     windowed: bool
+
+    def __add__(self, other: IsotropicSpectrum) -> IsotropicSpectrum:
+        """Spectrum of the sum of two independent surfaces, on the waves of the first."""
+        inside = (self.q >= other.q[0] * (1 - 1e-9)) & (self.q <= other.q[-1] * (1 + 1e-9))
+        added = np.where(inside, np.interp(self.q, other.q, other.C_2d), 0.0)
+        return replace(
+            self,
+            C_2d=self.C_2d + added,
+            rms_height=math.hypot(self.rms_height, other.rms_height),
+            windowed=self.windowed or other.windowed,
+        )
 
     @property
     def C_reduced(self) -> Real:

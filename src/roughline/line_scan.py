@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -37,7 +38,9 @@ class PressedScan:
     high: Real
 
 
-def press_scan(scan: Line, *, E_star: float, forces: ArrayLike, rng: int = 0) -> PressedScan:
+def press_scan(
+    scan: Line, *, E_star: float, forces: ArrayLike, against: Line | None = None, rng: int = 0
+) -> PressedScan:
     """Press a line scan with the reduced model.
 
     The scan's spectrum is turned into the surface's by Abel inversion, which assumes that the
@@ -52,6 +55,9 @@ def press_scan(scan: Line, *, E_star: float, forces: ArrayLike, rng: int = 0) ->
         Contact modulus. [pressure]
     forces : array_like, shape (loads,)
         Rising total forces on a square whose side is the scan's length. [force]
+    against : Line, optional
+        Scan of the second body, of kind "profile" and from another, independent surface; spectra
+        add. Waves that it does not carry are taken to be none. [length]
     rng : int, optional
         Root of all seeds.
 
@@ -60,13 +66,17 @@ def press_scan(scan: Line, *, E_star: float, forces: ArrayLike, rng: int = 0) ->
     InputError
         If the line is no profile, has no spectrum, or the forces cannot be used.
     """
-    spectrum = profile_spectrum(scan)
+    spectra = [profile_spectrum(each) for each in (scan, against) if each is not None]
     springs = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE * scan.heights.size)
     curves = []
     for i in range(LINES):
         seed = np.random.SeedSequence(rng, spawn_key=(i,))
-        other = np.random.SeedSequence(rng, spawn_key=(i, 1))  # phases know nothing of amplitudes
-        line = spectrum.drawn(other).surface().line(springs, seed)
+        drawn = [  # phases know nothing of amplitudes, and one body nothing of the other
+            spectrum.drawn(np.random.SeedSequence(rng, spawn_key=(i, 1 + which))).surface()
+            for which, spectrum in enumerate(spectra)
+        ]
+        both = drawn[0] if against is None else drawn[0] + drawn[1]
+        line = both.line(springs, seed)
         curves.append(press(replace(line, unit=scan.unit), E_star=E_star, forces=forces))
     stiffness = np.array([curve.stiffness for curve in curves])
     low, high = np.percentile(stiffness, [2.5, 97.5], axis=0)
@@ -76,7 +86,7 @@ def press_scan(scan: Line, *, E_star: float, forces: ArrayLike, rng: int = 0) ->
         depth=np.mean([curve.depth for curve in curves], axis=0),
         stiffness=stiffness.mean(axis=0),
         resolved=np.all([curve.resolved for curve in curves], axis=0),
-        rms_height=scan.rms_height,
+        rms_height=math.hypot(*(spectrum.rms_height for spectrum in spectra)),
         settings={
             "roughline_version": first.settings["roughline_version"],
             "model": "reduced",

@@ -101,6 +101,7 @@ def test_a_report_a_client_could_receive(topographies, invoke, tmp_path):
     pdf = (folder / "report.pdf").read_bytes()
     assert pdf.startswith(b"%PDF")
     assert pdf.count(b"/Type /Page\n") == 1
+    assert "±" in page  # the grid's error, as a report estimates it
     assert "wrote" in out
 
 
@@ -161,3 +162,11 @@ def test_questions_that_do_not_fit_together(tmp_path, invoke, arguments, message
     assert code == 2
     assert message in errors
     assert "Traceback" not in errors
+
+
+def test_a_surface_and_a_line_scan_do_not_go_together(topographies, invoke):
+    code, _, errors = invoke(
+        *("press", topographies / "al3d-1.al3d", "--against", topographies / "dektak-1.csv", *PRESS)
+    )
+    assert code == 2
+    assert "must both be surfaces, or both line scans" in errors

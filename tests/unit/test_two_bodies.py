@@ -72,3 +72,26 @@ def test_a_line_scan_is_pressed_with_an_interval():
     found.curve.to_dataset()
     with pytest.raises(rl.InputError, match="this is a reduced line"):
         rl.press_scan(rl.Line(scan.heights, 1e-3), E_star=1e9, forces=forces)
+
+
+def test_independent_spectra_add():
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-6, length=1e-3, q_roll=4e4)
+    first, second = (rl.isotropic_spectrum(spectrum.surface(128, i)) for i in (1, 2))
+    both = first + second
+    assert both.C_2d == pytest.approx(first.C_2d + second.C_2d)
+    assert both.rms_height == pytest.approx(math.sqrt(2) * 1e-6)
+    smooth = rl.isotropic_spectrum(spectrum.surface(128, 2).scaled(1e-9))
+    assert (first + smooth).C_2d == pytest.approx(first.C_2d)
+
+
+def test_two_line_scans_are_pressed_as_one_of_root_two():
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-6, length=1e-3, q_roll=4e4)
+    heights = spectrum.surface(256, 3).heights
+    one, other = (rl.Line(heights[i], 1e-3, "m", kind="profile") for i in (10, 120))
+    forces = [0.1, 1.0]
+    both = rl.press_scan(one, E_star=1e9, forces=forces, against=other)
+    alone = rl.press_scan(one, E_star=1e9, forces=forces)
+    assert both.curve.rms_height == pytest.approx(
+        math.hypot(one.detrended().rms_height, other.detrended().rms_height), rel=1e-6
+    )
+    assert (both.curve.stiffness < alone.curve.stiffness).all()

@@ -35,7 +35,9 @@ def press(
     against: Annotated[
         Path | None,
         typer.Option(
-            help="Topography of the second body [default: it is smooth].", rich_help_panel=BODIES
+            help="Topography of the second body, read and prepared like the first "
+            "[default: it is smooth].",
+            rich_help_panel=BODIES,
         ),
     ] = None,
     load: Annotated[
@@ -60,7 +62,11 @@ def press(
     ] = None,
     periodic: Annotated[
         bool,
-        typer.Option(help="Repeat the surface: results per nominal area.", rich_help_panel=BODIES),
+        typer.Option(
+            "--periodic",
+            help="Repeat the surface: results per nominal area.",
+            rich_help_panel=BODIES,
+        ),
     ] = False,
     friction: Annotated[
         float | None,
@@ -83,7 +89,9 @@ def press(
     grid_error: Annotated[
         bool,
         typer.Option(
-            help="Estimate discretisation errors from coarser grids.", rich_help_panel=ANSWERS
+            "--grid-error",
+            help="Estimate discretisation errors from coarser grids [a report does].",
+            rich_help_panel=ANSWERS,
         ),
     ] = False,
     report: Annotated[

@@ -81,7 +81,12 @@ Resample = Annotated[
     typer.Option(help="Points along the longer side to resample to.", rich_help_panel=PREPARATION),
 ]
 RemoveOutliers = Annotated[
-    bool, typer.Option(help="Remove spikes; they are counted always.", rich_help_panel=PREPARATION)
+    bool,
+    typer.Option(
+        "--remove-outliers",
+        help="Remove spikes; they are counted always.",
+        rich_help_panel=PREPARATION,
+    ),
 ]
 Hurst = Annotated[
     float | None, typer.Option(help="Hurst exponent, 0 to 1.", rich_help_panel=SPECTRUM)

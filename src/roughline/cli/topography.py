@@ -55,11 +55,14 @@ def generate(
     fractal_dimension: options.FractalDimension = None,
     n: options.Points = 512,
     seed: options.Seed = 0,
-    line: Annotated[bool, typer.Option(help="The reduced line instead of the surface.")] = False,
+    line: Annotated[
+        bool, typer.Option("--line", help="The reduced line instead of the surface.")
+    ] = False,
     roll_off: options.RollOff = None,
     cutoff: options.Cutoff = None,
     gaussian: Annotated[
-        bool, typer.Option(help="Gaussian amplitudes instead of random phases alone.")
+        bool,
+        typer.Option("--gaussian", help="Gaussian amplitudes instead of random phases alone."),
     ] = False,
     json: options.Json = False,
 ) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.answers import Answer, Interface, answers, elastic_warnings, saturated_stiffness
+from roughline.characterisation import ALIKE, isotropy
 from roughline.contact import press
 from roughline.curve import Curve, Status
 from roughline.errors import InputError
@@ -34,6 +35,8 @@ Progress = Callable[[int, int], None]
 _LARGE = 2**20  # points from which on the cost is told
 _LIGHTEST = 1e-3  # of the largest load, where a report's curve begins
 _CURVE_LOADS = 16  # of a report's curve
+DEFAULT_LOADS = 20
+_COARSENED_FROM = 64  # points a side from which on a report estimates the grid's error
 
 
 @dataclass(frozen=True)
@@ -195,75 +198,101 @@ def press_file(
     pair = Interface(*materials) if materials else None
     modulus = pair.E_star if pair else E_star
     assert modulus is not None
-    body = _body(source, against, preparation)
+    body, second = _bodies(source, against, preparation)
+    if whole_curve and isinstance(body, Surface) and min(body.shape) >= _COARSENED_FROM:
+        grid_error, body = True, _trimmed(body)
     if out is not None:
         make_folder(out)  # a folder that cannot be written is said before the work, not after
-    area = nominal_area(body)
-    forces, depths, n_loads = loading.forces(area), loading.heights(), loading.count
+    asked = loading.forces(nominal_area(body)) or []
     notes = _notes_on_loads(loading, body) + notes_on_body(body)
+    errors: tuple[Real | None, Real | None]
     if isinstance(body, Line) and body.kind == "profile":
-        if periodic or grid_error or depths:
+        if periodic or grid_error or loading.depths:
             raise InputError(
                 "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
                 "loads, through its spectrum"
             )
-        asked = forces or _default_forces(body, modulus, n_loads or 20)
-        forces = _with_curve(asked) if whole_curve else asked
-        scan = press_scan(body, E_star=modulus, forces=forces)
-        curve = scan.curve
-        stiffness_error: Real | None = (scan.high - scan.low) / 2
-        area_error: Real | None = None
+        forces = asked or _default_forces(body, modulus, loading.count or DEFAULT_LOADS)
+        forces = _with_curve(forces) if whole_curve else forces
+        scan = press_scan(body, E_star=modulus, forces=forces, against=second)
+        curve, errors = scan.curve, ((scan.high - scan.low) / 2, None)
     else:
-        asked = forces or []
-        forces = _with_curve(forces) if whole_curve and forces else forces
-        count = next((len(given) for given in (forces, depths, range(n_loads or 0)) if given), 0)
+        forces = _with_curve(asked) if whole_curve and asked else asked
+        wish = _Wish(modulus, forces, loading.heights() or [], loading.count, periodic, grid_error)
         if isinstance(body, Surface) and body.heights.size >= _LARGE:
-            cost = estimate(body.shape, count, periodic=periodic)
-            announce(f"{body.shape[0]} x {body.shape[1]} points, {count} loads: {cost}")
-        shown = _shown(count, asked, forces) if out is not None else False
-
-        def pressed(which: Body, fields: bool | list[int]) -> Curve:
-            return press(
-                which,
-                E_star=modulus,
-                n_loads=n_loads,
-                forces=forces,
-                depths=depths,
-                periodic=periodic,
-                fields=fields if isinstance(which, Surface) else False,
-                grid_error=grid_error,
-                throw=False,
-                progress=progress,
-            )
-
-        curve = pressed(body, shown)
-        stiffness_error, area_error = curve.stiffness_error, curve.area_fraction_error
-        if body.settings.get("missing_points") and against is None:
-            other = _body(replace(source, missing=Missing(source.missing).other), None, preparation)
-            moved, by_filling = _moved(curve, pressed(other, False))
+            cost = estimate(body.shape, wish.count, periodic=periodic)
+            announce(f"{body.shape[0]} x {body.shape[1]} points, {wish.count} loads: {cost}")
+        shown = forces.index(asked[-1]) if asked else 3 * wish.count // 4
+        curve = wish.press(body, [shown] if out is not None else False, progress)
+        errors = curve.stiffness_error, curve.area_fraction_error
+        if body.settings.get("missing_points") and isinstance(body, Surface):
+            other = prepared(source.read(Missing(source.missing).other), preparation)
+            assert isinstance(other, Surface)
+            if other.shape != body.shape:
+                other = _trimmed(other)
+            moved, changes = _moved(curve, wish.press(other, False, progress))
             notes.append(f"filled by {Missing(source.missing).other} instead: {moved}")
-            stiffness_error = _combined(stiffness_error, by_filling[0])
-            area_error = _combined(area_error, by_filling[1])
-    notes += curve.warnings
-    result = Pressed(
-        source,
-        body,
-        curve,
-        np.array([i for i, f in enumerate(curve.force) if not asked or np.isclose(f, asked).any()]),
-        pair,
-        notes=notes,
-    )
-    return _answered(result, modulus, periodic, frequency, theories, stiffness_error, area_error)
+            errors = _combined(errors[0], changes[0]), _combined(errors[1], changes[1])
+    indices = [i for i, f in enumerate(curve.force) if not asked or np.isclose(f, asked).any()]
+    result = Pressed(source, body, curve, np.array(indices), pair, notes=[*notes, *curve.warnings])
+    return _answered(result, modulus, periodic, frequency, theories, errors)
 
 
-def _body(source: Source, against: Source | None, preparation: Preparation | None) -> Body:
-    body = prepared(source.read(), preparation)
+@dataclass(frozen=True)
+class _Wish:
+    """Loads and settings, for the body and for the same body filled otherwise."""
+
+    E_star: float
+    forces: list[float]
+    depths: list[float]
+    n_loads: int | None
+    periodic: bool
+    grid_error: bool
+
+    @property
+    def count(self) -> int:
+        """Number of loads."""
+        return len(self.forces) or len(self.depths) or self.n_loads or 0
+
+    def press(self, body: Body, fields: list[int] | bool, progress: Progress | None) -> Curve:
+        """Press a body; loads that fail are marked."""
+        return press(
+            body,
+            E_star=self.E_star,
+            n_loads=self.n_loads,
+            forces=self.forces or None,
+            depths=self.depths or None,
+            periodic=self.periodic,
+            fields=fields if isinstance(body, Surface) else False,
+            grid_error=self.grid_error,
+            throw=False,
+            progress=progress,
+        )
+
+
+def _bodies(
+    source: Source, against: Source | None, preparation: Preparation | None
+) -> tuple[Body, Line | None]:
+    """The body to press, the sum of two surfaces; of two line scans both."""
+    first = prepared(source.read(), preparation)
     if against is None:
-        return body
+        return first, None
     second = prepared(against.read(), preparation)
-    if not (isinstance(body, Surface) and isinstance(second, Surface)):
-        raise InputError("two rough bodies must both be surfaces; of line scans, spectra add")
-    return facing(body, second)
+    if isinstance(first, Surface) and isinstance(second, Surface):
+        return facing(first, second), None
+    if (
+        isinstance(first, Line)
+        and isinstance(second, Line)
+        and first.kind == second.kind == "profile"
+    ):
+        return first, second
+    raise InputError("two rough bodies must both be surfaces, or both line scans")
+
+
+def _trimmed(surface: Surface) -> Surface:
+    """The surface without the last rows and columns that cannot be coarsened twice."""
+    nx, ny = (n - n % 4 for n in surface.shape)
+    return surface if (nx, ny) == surface.shape else surface.cropped((0, nx), (0, ny))
 
 
 def _answered(
@@ -272,14 +301,20 @@ def _answered(
     periodic: bool,
     frequency: float | None,
     theories: Sequence[str],
-    stiffness_error: Real | None,
-    area_error: Real | None,
+    errors: tuple[Real | None, Real | None],
 ) -> Pressed:
     """Add theories, answers and what the answers warn of."""
     body, curve = pressed.body, pressed.curve
-    spectral = isinstance(body, Surface) and bool(theories or pressed.pair)
     found = None
-    if spectral and isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0:
+    notes = pressed.notes
+    if isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0:
+        alike = isotropy(body)
+        if theories and alike < ALIKE:
+            notes = [
+                *notes,
+                f"theories assume equal directions; slopes differ, least {alike:.2f} "
+                "of the largest",
+            ]
         spectrum = isotropic_spectrum(body)
         found = moments(spectrum)
         lines = [theory(name, spectrum, E_star, curve.force / body.area) for name in theories]
@@ -288,7 +323,7 @@ def _answered(
             raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
         lines = []
     if pressed.pair is None:
-        return replace(pressed, theories=lines)
+        return replace(pressed, theories=lines, notes=notes)
     saturated = None
     if isinstance(body, Line):
         saturated = E_star * body.length
@@ -302,15 +337,15 @@ def _answered(
         rms_height=body.rms_height,
         rms_slope=found.rms_slope if found else None,
         frequency=frequency,
-        stiffness_error=stiffness_error,
-        area_error=area_error,
+        stiffness_error=errors[0],
+        area_error=errors[1],
     )
     index = None
     if found is not None and pressed.pair.hardness is not None:
         index = plasticity_index(
             E_star, pressed.pair.hardness, (found.summit_deviation, found.summit_radius)
         )
-    notes = pressed.notes + elastic_warnings(given, index)
+    notes = [*notes, *elastic_warnings(given, index)]
     if frequency is not None and pressed.pair.both("impedance") is None:
         notes.append("no reflection: the density of both materials is needed")
     return replace(pressed, answers=given, theories=lines, notes=notes)
@@ -356,13 +391,6 @@ def _with_curve(asked: list[float]) -> list[float]:
     curve = np.geomspace(_LIGHTEST * asked[-1], asked[-1], _CURVE_LOADS)
     apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
     return sorted({*asked, *apart})
-
-
-def _shown(count: int, asked: list[float], forces: list[float] | None) -> list[int]:
-    """Which load's fields the figures show."""
-    if asked and forces:
-        return [forces.index(asked[-1])]
-    return [3 * count // 4]
 
 
 def _moved(curve: Curve, other: Curve) -> tuple[str, tuple[Real, Real]]:

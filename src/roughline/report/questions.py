@@ -11,10 +11,16 @@ from roughline.materials import Material, material
 from roughline.preparation import Preparation
 from roughline.quantities import in_si
 from roughline.report.client import write_report
-from roughline.report.pressed import Announce, Loading, Pressed, Progress, Source, press_file
+from roughline.report.pressed import (
+    DEFAULT_LOADS,
+    Announce,
+    Loading,
+    Pressed,
+    Progress,
+    Source,
+    press_file,
+)
 from roughline.report.pressed_figures import write_pressed
-
-_COUNT = 20  # loads, where none are given
 
 
 def ask(
@@ -65,7 +71,7 @@ def ask(
         If the question does not fit together.
     """
     if count is None and not loads and not depths:
-        count = _COUNT
+        count = DEFAULT_LOADS
     if sum(given is not None for given in (count, loads or None, depths or None)) > 1:
         raise InputError("give one of --load, --depth and --loads")
     pair = _pair(materials) if materials is not None else None
