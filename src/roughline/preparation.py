@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from roughline.errors import InputError
 from roughline.missing import Missing
 from roughline.topography import MEASURED, Body, BodyType, Line, Surface, with_heights
-from roughline.trend import DEGREES, Trend
+from roughline.trend import DEGREES, Trend, without_trend
 
 Real = NDArray[np.float64]
-_SPIKE = 6.0  # in robust standard deviations of the heights about the median of their neighbours
-_LARGEST_SPIKE = 9  # points; larger ones are features of the surface
+_SPIKE = 5.0  # over what neighbours scatter by
+_NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
 _ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
 
 
@@ -104,22 +104,30 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
 
 
 def outliers(body: Body) -> NDArray[np.bool_]:
-    """Mark spikes: points six robust deviations off the median of their 5 or 5 x 5 neighbours.
+    """Mark spikes: points that stick far out of their neighbours.
 
-    The deviation is 1.4826 times the median absolute deviation from those medians. Spots of more
-    than nine points are steps, scratches or particles, and are not marked.
+    A point is marked if it is farther from the median of its neighbours than five times what
+    neighbours scatter by, in the median over the whole body. Neighbours are 5 x 5 points of a
+    surface, and 5, 25 and 101 of a line, whose points are often closer than its stylus is wide.
+    What is wider than half of the neighbours is a step, a scratch or a particle, and is not marked.
     """
     from scipy import ndimage  # here because it loads slowly
 
-    heights = body.heights
-    off = heights - ndimage.median_filter(heights, size=5, mode="nearest")
-    deviation = 1.4826 * float(np.median(np.abs(off)))
-    if deviation == 0:
-        return np.zeros(heights.shape, dtype=bool)
-    spots, _ = ndimage.label(np.abs(off) > _SPIKE * deviation)
-    sizes = np.bincount(spots.ravel())
-    sizes[0] = _LARGEST_SPIKE + 1  # what is no spot
-    return np.asarray(sizes[spots] <= _LARGEST_SPIKE)
+    heights = without_trend(body.heights, "tilt")
+    marked = np.zeros(heights.shape, dtype=bool)
+    for size in _NEIGHBOURS[heights.ndim]:
+        mean, square = (
+            ndimage.uniform_filter(values, size, mode="nearest") for values in (heights, heights**2)
+        )
+        scatter = math.sqrt(max(0.0, float(np.median(square - mean**2))))
+        off = np.abs(heights - ndimage.median_filter(heights, size=size, mode="nearest"))
+        spots, _ = ndimage.label(off > _SPIKE * scatter)
+        sizes = np.bincount(spots.ravel())
+        narrow = sizes <= (size // 2 + 1) ** heights.ndim
+        narrow[0] = False  # what is no spot
+        if scatter > 0:
+            marked |= narrow[spots]
+    return marked
 
 
 def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:

@@ -14,7 +14,7 @@ PRESS = ("--materials", "steel,copper", "--load", "1 mN")
     ("name", "points", "told"),
     [
         ("al3d-1.al3d", [200, 296], "within 5% of the border"),
-        ("di-1.di", [512, 512], "151 spikes kept"),
+        ("di-1.di", [512, 512], "21 spikes kept"),
         ("opd-1.opd", [640, 480], "116 missing points (0.04%) filled: harmonic"),
         ("dektak-1.csv", [9600], "a line scan shows one direction"),
         ("mitutoyo_mock.xlsx", [960], "a line scan shows one direction"),

@@ -72,6 +72,24 @@ def test_spikes_are_counted_and_removed_only_when_asked():
     assert not outliers(as_measured(np.zeros((8, 8)))).any()
 
 
+def test_wide_spikes_of_line_scans_are_found():
+    """A stylus is wider than the distance of points, so dust is some dozen points wide."""
+    x = np.arange(4000)
+    rng = np.random.default_rng(3)
+    clean = np.cumsum(rng.normal(size=x.size)) * 1e-9 + 1e-7 * np.sin(x / 700)
+    dust = sum(2e-7 * np.exp(-(((x - at) / 4) ** 2)) for at in (500, 1730, 3100))
+    scan = rl.Line(clean + dust, 1e-3, "m", {"origin": "instrument file"}, "profile")
+    assert not outliers(rl.Line(clean, 1e-3, kind="profile")).any()
+    found = outliers(scan)
+    assert all(found[at - 3 : at + 4].all() for at in (500, 1730, 3100))
+    assert found.sum() < 120
+    cleaned = prepared(scan, Preparation(remove_outliers=True))
+    assert (
+        np.abs(cleaned.heights - prepared(rl.Line(clean, 1e-3, "m", scan.settings)).heights).max()
+        < 5e-8
+    )
+
+
 def test_cropping_keeps_the_points_and_the_spacing():
     found = prepared(
         as_measured(ROUGH.heights), Preparation(crop=(0, 5e-4, 2.5e-4, 1e-3), trend="none")
@@ -130,3 +148,12 @@ def test_what_cannot_be_done_is_said(settings, message):
         prepared(as_measured(ROUGH.heights), Preparation(**settings))
     with pytest.raises(rl.InputError, match="give 1 of them"):
         prepared(rl.Line(np.arange(9.0), 1.0), Preparation(points=(4, 4)))
+
+
+@pytest.mark.parametrize("hurst", [0.2, 0.5, 0.8, 1.0])
+def test_random_roughness_has_no_spikes(hurst):
+    spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0)
+    for seed in range(5):
+        surface = spectrum.surface(256, seed, "gaussian")
+        assert not outliers(surface).any()
+        assert not outliers(rl.Line(surface.heights[7], 1.0, kind="profile")).any()

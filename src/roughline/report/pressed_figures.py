@@ -190,7 +190,7 @@ def draw_spectrum(axes: Axes, found: Roughness) -> None:
     axes.loglog(spectrum.q[known], power[known], ".", color="0.4", markersize=2)
     if fit is not None and of_surface:
         axes.loglog(spectrum.q, fit.values(spectrum.q), color="tab:red")
-    elif fit is not None and not fit.objections:
+    elif fit is not None and 0 <= fit.hurst <= 1:
         inside = (spectrum.q >= fit.q_low) & (spectrum.q <= (fit.q_high or fit.q_last))
         law = fit.spectrum().C_profile(spectrum.q[inside])
         axes.loglog(spectrum.q[inside], law, color="tab:red")
