@@ -147,7 +147,7 @@ def answers(
     own, own_error = k, dk
     if saturated is not None:
         own = interface.interface_stiffness(k, saturated)
-        own_error = _times(dk, (saturated / (saturated - k)) ** 2)
+        own_error = None if dk is None else dk * (own / k) ** 2
         found.append(
             Answer(
                 "interface stiffness",
@@ -285,6 +285,7 @@ def _thermal(
     conductivities = pair.both("conductivity")
     if conductivities is None:
         return []
+    kappa = interface.harmonic_conductivity(conductivities)
     per_area = interface.thermal_conductance(own / area, pair.E_star, conductivities)
     found = [
         Answer(
@@ -302,7 +303,7 @@ def _thermal(
             "h_c",
             "W/(m² K)",
             per_area,
-            None if own_error is None else per_area * own_error / own,
+            None if own_error is None else own_error * (kappa / (pair.E_star * area)),
             "kappa_s k_i / (E* A_0)",
             "solid spots alone, in vacuum",
             "Barber 2003",

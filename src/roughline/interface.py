@@ -9,18 +9,20 @@ import math
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from roughline.errors import InputError
 
 Real = NDArray[np.float64]
 Value = TypeVar("Value", float, NDArray[np.float64])
 
+_FULL = 1e-6  # of the saturated stiffness that is missing in what counts as full contact
+
 ELASTIC_UP_TO = 0.4
 """Mean contact pressure over hardness at which yield begins under a smooth asperity."""
 
 
-def interface_stiffness(stiffness: Value, saturated: float) -> Value:
+def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
     """Stiffness of the interface alone, 1 / k_interface = 1 / k - 1 / k_s.
 
     A free surface in full contact is as stiff as its flat punch, k_s, and that compliance belongs
@@ -32,8 +34,17 @@ def interface_stiffness(stiffness: Value, saturated: float) -> Value:
         Of the contact, below `saturated`. [force / length]
     saturated : float
         Of the flat punch of the same outline, on the same grid. [force / length]
+
+    Returns
+    -------
+    ndarray
+        Infinite in full contact, which is as stiff as the punch to one part in a million.
     """
-    return stiffness * saturated / (saturated - stiffness)
+    k = np.asarray(stiffness, dtype=np.float64)
+    left = saturated - k
+    with np.errstate(divide="ignore", invalid="ignore"):
+        own = np.where(left > _FULL * saturated, k * saturated / left, np.inf)
+    return np.where(np.isnan(left), np.nan, own)
 
 
 def electrical_resistance(

@@ -68,6 +68,29 @@ def test_a_flat_square_has_no_interface_of_its_own():
     assert saturated_stiffness(long, PAIR.E_star) > 1.4 * saturated
 
 
+def test_in_full_contact_the_interface_is_infinitely_stiff():
+    flat = rl.Surface(np.zeros((32, 32)), (1e-3, 1e-3), "m")
+    curve = rl.press(flat, E_star=PAIR.E_star, forces=[10.0])
+    saturated = saturated_stiffness(flat, PAIR.E_star)
+    given = answers(
+        curve,
+        flat.area,
+        PAIR,
+        saturated=saturated,
+        frequency=5e6,
+        stiffness_error=0.01 * curve.stiffness,
+    )
+    found = by_symbol(given)
+    assert np.isinf(found["k_i"].values).all()
+    assert np.isinf(found["h_c"].values).all()
+    steel, copper = PAIR.first.impedance, PAIR.second.impedance
+    bonded = abs(steel - copper) / (steel + copper)
+    assert found["|R|"].values[0] == pytest.approx(bonded)
+    assert found["R"].values[0] == pytest.approx(
+        PAIR.E_star * (1.6e-7 + 1.68e-8) / (2 * saturated), rel=1e-6
+    )
+
+
 def test_in_periodic_mode_the_stiffness_is_the_interfaces():
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6, q_high=1e5).surface(64, 1)
     surface = rl.Surface(surface.heights, surface.sizes, "m")
