@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughline.archives import refuse_bombs
 from roughline.errors import InputError, RoughlineError, StoreError, UnitError
@@ -77,6 +78,10 @@ def read(
         if channel is not None or sizes is not None:
             raise InputError(f"{path.name} has one channel and states its sizes; leave both out")
         return own
+    if path.suffix == ".npy":
+        if channel is not None:
+            raise InputError(f"{path.name} has one channel; leave it out")
+        return _read_array(path, unit, sizes, filling)
     refuse_bombs(path)
     return _read_instrument(path, unit, channel, sizes, filling)
 
@@ -228,6 +233,29 @@ def _read_instrument(
         ) from error
 
 
+def _read_array(
+    path: Path, unit: str | None, sizes: float | tuple[float, ...] | None, missing: Missing
+) -> Body:
+    """Read an array in NumPy's format, x along the first axis."""
+    try:
+        stored = np.load(path, mmap_mode="r", allow_pickle=False)
+        if stored.ndim not in (1, 2) or not np.can_cast(stored.dtype, np.float64, "same_kind"):
+            raise ValueError(f"{stored.ndim} dimensions of type {stored.dtype}")
+    except (ValueError, OSError, EOFError) as error:
+        reason = str(error).splitlines()[0][:120] if str(error) else type(error).__name__
+        raise InputError(
+            f"{path.name} holds no array of real heights ({reason}): save one or two dimensions"
+        ) from error
+    factor = _metres_per_file_unit(path, None, unit)
+    extent = _given_sizes(stored.shape, sizes, path)
+    heights, settings = _filled(np.array(stored, dtype=np.float64), path, missing)
+    heights *= factor
+    settings = {"origin": MEASURED, "file": path.name, "file_unit": str(unit), **settings}
+    if heights.ndim == 2:
+        return Surface(heights, (extent[0], extent[1]), "m", settings)
+    return Line(heights, extent[0], "m", settings, "profile")
+
+
 def _channel_of(reader: Any, wanted: int | str | None, path: Path) -> Any:
     """Find a channel of heights by number or name."""
     channels = reader.channels
@@ -258,7 +286,13 @@ def _sizes_in_file_units(
         if given is not None:
             raise InputError(f"{path.name} states its sizes; leave them out")
         return None
-    points = channel.nb_grid_pts
+    return tuple(size / factor for size in _given_sizes(channel.nb_grid_pts, given, path))
+
+
+def _given_sizes(
+    points: tuple[int, ...], given: float | tuple[float, ...] | None, path: Path
+) -> tuple[float, ...]:
+    """Sides of a file that states none. [m]"""
     if given is None:
         raise InputError(
             f"{path.name} states no sizes for its {' x '.join(map(str, points))} points; give "
@@ -272,7 +306,7 @@ def _sizes_in_file_units(
             f"sizes is {given!r}; {path.name} has {' x '.join(map(str, points))} points: give "
             f"{len(points)} positive length{'s' if len(points) > 1 else ''}"
         )
-    return tuple(size / factor for size in sizes)
+    return sizes
 
 
 def _metres_per_file_unit(path: Path, stated: str | None, given: str | None) -> float:
@@ -295,19 +329,8 @@ def _body_of(
         "file_unit": unit,
         "channel": channel,
     }
-    heights = topography.heights()
-    unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
-    if not unknown and not np.isfinite(np.ma.getdata(heights)).all():
-        heights = np.ma.masked_invalid(heights, copy=False)
-        unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
-    if unknown:
-        heights = missing.filled(heights, path.name)
-        settings |= {
-            "missing_points": unknown,
-            "missing_share": unknown / heights.size,
-            "filled": missing.method,
-        }
-    heights = np.array(heights, dtype=np.float64, copy=None)
+    heights, found = _filled(topography.heights(), path, missing)
+    settings |= found
     if factor != 1:
         heights = np.multiply(heights, factor, out=heights if heights.flags.writeable else None)
     sizes = tuple(factor * float(size) for size in topography.physical_sizes)
@@ -322,3 +345,22 @@ def _body_of(
             f"linear, to even spacing; it was {steps.min():.3g} to {steps.max():.3g} m"
         )
     return Line(heights, sizes[0], "m", settings, "profile")
+
+
+def _filled(
+    heights: Any, path: Path, missing: Missing
+) -> tuple[NDArray[np.float64], dict[str, str | int | float]]:
+    """Heights without missing points, and how many there were."""
+    unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+    if not unknown and not np.isfinite(np.ma.getdata(heights)).all():
+        heights = np.ma.masked_invalid(heights, copy=False)
+        unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+    settings: dict[str, str | int | float] = {}
+    if unknown:
+        heights = missing.filled(heights, path.name)
+        settings = {
+            "missing_points": unknown,
+            "missing_share": unknown / heights.size,
+            "filled": missing.method,
+        }
+    return np.array(heights, dtype=np.float64, copy=None), settings
