@@ -9,6 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
+from roughline.characterisation import ALIKE, isotropy
 from roughline.comparison import Comparison, compare
 from roughline.errors import InputError, StoreError
 from roughline.preparation import prepared
@@ -87,6 +88,11 @@ def compare_models(
             raise InputError(f"{body.file} holds a line; the models are compared on a surface")
         given = found
         what = f"{body.file}, {found.shape[0]} x {found.shape[1]} points, and lines of its spectrum"
+        if (alike := isotropy(found)) < ALIKE:
+            what += (
+                f"; its slopes differ by direction, least {alike:.2f} of the largest: a spectrum "
+                "averaged over directions stands for no such surface"
+            )
     else:
         given = body
         what = (
