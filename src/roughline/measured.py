@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -202,8 +206,7 @@ def _read_instrument(
         from SurfaceTopography.IO import open_topography
 
     try:
-        with warnings.catch_warnings(), open_topography(str(path)) as reader:
-            warnings.simplefilter("ignore")  # readers of damaged files talk a lot
+        with _silence(), open_topography(str(path)) as reader:
             chosen = _channel_of(reader, channel, path)
             refuse_beyond_memory(
                 _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
@@ -231,6 +234,19 @@ def _read_instrument(
         raise InputError(
             f"{path.name} cannot be read ({type(error).__name__}: {first_line}): export it again"
         ) from error
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Keep off the terminal what readers say of damaged files; some print them whole."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.disable(before)
 
 
 def _read_array(

@@ -1,5 +1,6 @@
 """Damaged files and senseless commands: one line and the right exit code, never more."""
 
+import logging
 import os
 import random
 import resource
@@ -64,6 +65,7 @@ def memory_is_bounded():
 
 def read_or_refuse(path):
     """Read a damaged file; anything but a body or one line of ours fails the test."""
+    assert not logging.root.manager.disable
     try:
         body = rl.read(path, most_missing=0.95)
     except RoughlineError as error:
@@ -78,7 +80,7 @@ def read_or_refuse(path):
 
 @pytest.mark.filterwarnings("ignore")  # what the readers and numpy say of nonsense
 @pytest.mark.parametrize("name", FILES)
-def test_damaged_files(topographies, tmp_path, name):
+def test_damaged_files(topographies, tmp_path, capfd, caplog, name):
     content, chance = (topographies / name).read_bytes(), random.Random(name)
     path = tmp_path / name
     count = 25 * FACTOR
@@ -87,6 +89,8 @@ def test_damaged_files(topographies, tmp_path, name):
         path.write_bytes(damaged(content, chance))
         read += read_or_refuse(path)
     assert read < count
+    assert capfd.readouterr() == ("", "")
+    assert not caplog.records
 
 
 @pytest.mark.filterwarnings("ignore")
