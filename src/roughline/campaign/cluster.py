@@ -74,12 +74,11 @@ def local(workers: int) -> Iterator[Cluster]:
     import dask  # here because they load slowly
     from distributed import Client, LocalCluster
 
-    with _quiet():
+    # for workers that are started later, too
+    settings = _UNDISTURBED | {_ENVIRONMENT: _KEEP_MEMORY}
+    with _quiet(), dask.config.set(settings):
         try:
-            with (
-                _deaf_to_interrupts(),
-                dask.config.set(_UNDISTURBED | {_ENVIRONMENT: _KEEP_MEMORY}),
-            ):
+            with _deaf_to_interrupts():
                 cluster = LocalCluster(
                     n_workers=workers,
                     threads_per_worker=1,
