@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from roughline.errors import ClusterError as ClusterError
     from roughline.errors import ConvergenceError as ConvergenceError
     from roughline.errors import InputError as InputError
+    from roughline.errors import Interrupted as Interrupted
     from roughline.errors import RoughlineError as RoughlineError
     from roughline.errors import StoreError as StoreError
     from roughline.errors import UnitError as UnitError
@@ -71,6 +72,7 @@ _HOMES = {
     "ClusterError": "errors",
     "ConvergenceError": "errors",
     "InputError": "errors",
+    "Interrupted": "errors",
     "RoughlineError": "errors",
     "StoreError": "errors",
     "UnitError": "errors",

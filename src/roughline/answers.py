@@ -1,4 +1,4 @@
-"""Engineering answers of a pressed body and two materials, each with its error and its formula."""
+"""Engineering answers of a pressed body and two materials: intervals and formulas beside each."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from roughline.materials import Material, contact_modulus, tangential_modulus
 from roughline.topography import Surface
 
 Real = NDArray[np.float64]
+Ends = tuple[ArrayLike, ArrayLike]
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,8 +29,8 @@ class Answer:
         What it is; the unit is SI.
     values : ndarray, shape (loads,)
         NaN where a load was not solved. [unit]
-    error : ndarray, shape (loads,), or None
-        What is known to be uncertain, as half the width of an interval. [unit]
+    low, high : ndarray, shape (loads,), or None
+        Ends of the interval that is known; what else is uncertain is not in it. [unit]
     formula : str
         How it follows.
     validity : str
@@ -42,7 +43,8 @@ class Answer:
     symbol: str
     unit: str
     values: Real
-    error: Real | None
+    low: Real | None
+    high: Real | None
     formula: str
     validity: str = ""
     source: str = ""
@@ -102,10 +104,12 @@ def answers(
     rms_height: float | None = None,
     rms_slope: float | None = None,
     frequency: float | None = None,
-    stiffness_error: ArrayLike | None = None,
-    area_error: ArrayLike | None = None,
+    stiffness_interval: Ends | None = None,
+    area_interval: Ends | None = None,
 ) -> list[Answer]:
     """Work out what follows from a curve.
+
+    An interval is carried on by evaluating each formula at its two ends.
 
     Parameters
     ----------
@@ -122,55 +126,49 @@ def answers(
         Of the sum of both surfaces, for the estimates of the literature. [m], [1]
     frequency : float, optional
         Of an ultrasonic wave. [Hz]
-    stiffness_error, area_error : array_like, shape (loads,), optional
-        Half widths of intervals of stiffness [N / m] and area fraction [1].
+    stiffness_interval, area_interval : tuple of array_like, shape (loads,), optional
+        Both ends, of stiffness [N / m] and of the area fraction [1].
     """
-    k, E_star = curve.stiffness, pair.E_star
-    dk = None if stiffness_error is None else np.asarray(stiffness_error, dtype=np.float64)
+    k = np.stack([curve.stiffness, *(stiffness_interval or ())])
+    pressure = curve.force / area
     found = [
-        Answer("normal force", "F", "N", curve.force, None, "given, or F(d)"),
-        Answer(
-            "mean pressure", "p", "Pa", curve.force / area, None, "F / A_0, A_0 the nominal area"
-        ),
-        Answer("approach since touch", "d", "m", curve.depth, None, "of remote points"),
-        Answer(
+        _answer("normal force", "F", "N", curve.force, "given, or F(d)"),
+        _answer("mean pressure", "p", "Pa", pressure, "F / A_0, A_0 the nominal area"),
+        _answer("approach since touch", "d", "m", curve.depth, "of remote points"),
+        _answer(
             "contact stiffness",
             "k",
             "N/m",
             k,
-            dk,
             "dF/dd at frozen contact, exact",
             "elastic, without friction or adhesion",
         ),
-        Answer("stiffness per area", "k/A_0", "N/m³", k / area, _times(dk, 1 / area), "k / A_0"),
+        _answer("stiffness per area", "k/A_0", "N/m³", k / area, "k / A_0"),
     ]
-    own, own_error = k, dk
+    own = k
     if saturated is not None:
         own = interface.interface_stiffness(k, saturated)
-        own_error = None if dk is None else dk * (own / k) ** 2
         found.append(
-            Answer(
+            _answer(
                 "interface stiffness",
                 "k_i",
                 "N/m",
                 own,
-                own_error,
                 "1/k_i = 1/k - 1/k_s, k_s of the flat punch",
                 "without the bodies' own compliance; uncertain near full contact",
             )
         )
     if curve.area_fraction_corrected is not None:
-        found += _areas(curve, area, pair, area_error)
-    found += _electric(curve, pair, dk)
-    found += _thermal(curve, area, pair, dk, own, own_error, rms_height, rms_slope)
-    ratio = pair.G_star / E_star
+        share = np.stack([curve.area_fraction_corrected, *(area_interval or ())])
+        found += _areas(curve.force, share, area, pair)
+    found += _electric(curve.force, k, pair)
+    found += _thermal(pressure, k, own / area, pair, rms_height, rms_slope)
     found.append(
-        Answer(
+        _answer(
             "tangential stiffness",
             "k_t",
             "N/m",
-            ratio * k,
-            _times(dk, ratio),
+            pair.G_star / pair.E_star * k,
             "k G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
             "before any slip; normal and tangential problems uncoupled",
             "Popov 2017, ch. 8",
@@ -179,12 +177,11 @@ def answers(
     impedances = pair.both("impedance")
     if frequency is not None and impedances is not None:
         found.append(
-            Answer(
+            _answer(
                 f"reflection at {frequency / 1e6:g} MHz",
                 "|R|",
                 "1",
                 interface.reflection(own / area, frequency, impedances),
-                None,
                 "|z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|, K = k_i / A_0",
                 "longitudinal plane waves much longer than the distances of contact spots",
                 "Tattersall 1973",
@@ -193,45 +190,51 @@ def answers(
     return found
 
 
-def _areas(
-    curve: Curve, area: float, pair: Interface, area_error: ArrayLike | None
-) -> list[Answer]:
-    assert curve.area_fraction_corrected is not None
-    share = curve.area_fraction_corrected
-    error = None if area_error is None else np.asarray(area_error, dtype=np.float64)
+def _answer(
+    name: str,
+    symbol: str,
+    unit: str,
+    rows: Real,
+    formula: str,
+    validity: str = "",
+    source: str = "",
+) -> Answer:
+    """Make an answer from values, or from rows of values and of both ends of their interval."""
+    values, *ends = np.atleast_2d(rows)
+    low, high = (np.minimum(*ends), np.maximum(*ends)) if ends else (None, None)
+    return Answer(name, symbol, unit, values, low, high, formula, validity, source)
+
+
+def _areas(force: Real, share: Real, area: float, pair: Interface) -> list[Answer]:
     with np.errstate(divide="ignore", invalid="ignore"):
-        pressure = curve.force / (share * area)
-        relative = None if error is None else error / share
+        pressure = force / (share * area)
     found = [
-        Answer(
+        _answer(
             "real contact area",
             "A",
             "m²",
             share * area,
-            _times(error, area),
             "cells in contact, corrected for the outline's steps",
             "falls with every finer wave; the grid's shortest is the last here",
             "Yastrebov, Anciaux and Molinari 2017",
         ),
-        Answer("contact area fraction", "A/A_0", "1", share, error, "A / A_0"),
-        Answer(
+        _answer("contact area fraction", "A/A_0", "1", share, "A / A_0"),
+        _answer(
             "mean contact pressure",
             "p_c",
             "Pa",
             pressure,
-            None if relative is None else pressure * relative,
             "F / A",
             "elastic; no body bears more than its hardness",
         ),
     ]
     if pair.hardness is not None:
         found.append(
-            Answer(
+            _answer(
                 "contact pressure over hardness",
                 "p_c/H",
                 "1",
                 pressure / pair.hardness,
-                None if relative is None else pressure / pair.hardness * relative,
                 "F / (A H), H of the softer body",
                 f"elastic below {interface.ELASTIC_UP_TO:g}, plastic near 1",
             )
@@ -239,18 +242,18 @@ def _areas(
     return found
 
 
-def _electric(curve: Curve, pair: Interface, dk: Real | None) -> list[Answer]:
+def _electric(force: Real, k: Real, pair: Interface) -> list[Answer]:
     resistivities = pair.both("resistivity")
     if resistivities is None:
         return []
-    resistance = interface.electrical_resistance(curve.stiffness, pair.E_star, resistivities)
+    with np.errstate(divide="ignore"):
+        resistance = interface.electrical_resistance(k, pair.E_star, resistivities)
     found = [
-        Answer(
+        _answer(
             "constriction resistance",
             "R",
             "ohm",
             resistance,
-            None if dk is None else resistance * dk / curve.stiffness,
             "E* (rho1 + rho2) / (2 k)",
             "clean metal; films add to it",
             "Barber 2003",
@@ -258,12 +261,11 @@ def _electric(curve: Curve, pair: Interface, dk: Real | None) -> list[Answer]:
     ]
     if pair.hardness is not None:
         found.append(
-            Answer(
+            _answer(
                 "Holm's estimate",
                 "R_Holm",
                 "ohm",
-                interface.holm_resistance(curve.force, pair.hardness, resistivities),
-                None,
+                interface.holm_resistance(force, pair.hardness, resistivities),
                 "(rho1 + rho2) / (4 a), pi a² = F / H",
                 "one plastic spot, whatever the roughness",
                 "Holm 1967",
@@ -273,37 +275,31 @@ def _electric(curve: Curve, pair: Interface, dk: Real | None) -> list[Answer]:
 
 
 def _thermal(
-    curve: Curve,
-    area: float,
+    pressure: Real,
+    k: Real,
+    own_per_area: Real,
     pair: Interface,
-    dk: Real | None,
-    own: Real,
-    own_error: Real | None,
     rms_height: float | None,
     rms_slope: float | None,
 ) -> list[Answer]:
     conductivities = pair.both("conductivity")
     if conductivities is None:
         return []
-    kappa = interface.harmonic_conductivity(conductivities)
-    per_area = interface.thermal_conductance(own / area, pair.E_star, conductivities)
     found = [
-        Answer(
+        _answer(
             "thermal conductance",
             "G",
             "W/K",
-            interface.thermal_conductance(curve.stiffness, pair.E_star, conductivities),
-            None if dk is None else interface.thermal_conductance(dk, pair.E_star, conductivities),
+            interface.thermal_conductance(k, pair.E_star, conductivities),
             "kappa_s k / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
             "solid spots alone, in vacuum",
             "Barber 2003",
         ),
-        Answer(
+        _answer(
             "interface conductance per area",
             "h_c",
             "W/(m² K)",
-            per_area,
-            None if own_error is None else own_error * (kappa / (pair.E_star * area)),
+            interface.thermal_conductance(own_per_area, pair.E_star, conductivities),
             "kappa_s k_i / (E* A_0)",
             "solid spots alone, in vacuum",
             "Barber 2003",
@@ -311,15 +307,13 @@ def _thermal(
     ]
     if not rms_height or not rms_slope:
         return found
-    pressure = curve.force / area
     shape = (rms_height, rms_slope, conductivities)
     found.append(
-        Answer(
+        _answer(
             "Mikic's elastic estimate",
             "h_Mikic",
             "W/(m² K)",
             interface.mikic_conductance(pressure, pair.E_star, *shape),
-            None,
             "1.55 kappa_s m/sigma (sqrt(2) p/(E* m))^0.94",
             "Gaussian heights, light loads, no large waves",
             "Mikic 1974",
@@ -327,12 +321,11 @@ def _thermal(
     )
     if pair.hardness is not None:
         found.append(
-            Answer(
+            _answer(
                 "plastic estimate",
                 "h_CMY",
                 "W/(m² K)",
                 interface.yovanovich_conductance(pressure, pair.hardness, *shape),
-                None,
                 "1.25 kappa_s m/sigma (p/H)^0.95",
                 "Gaussian heights, all contact plastic",
                 "Yovanovich 2005",
@@ -367,7 +360,3 @@ def elastic_warnings(found: Sequence[Answer], plasticity: float | None) -> list[
             "under repeated loads they deform elastically about their flattened shape"
         )
     return warnings
-
-
-def _times(error: Real | None, factor: float | Real) -> Real | None:
-    return None if error is None else np.asarray(error * factor)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.curve import Curve, Status
-from roughline.errors import ConvergenceError, InputError
+from roughline.errors import ConvergenceError, InputError, Interrupted
 from roughline.estimates import memory_for
 from roughline.grid_error import refuse_indivisible, with_grid_error
 from roughline.line_contact import press_line
@@ -84,6 +84,9 @@ def press(
         If the body, the modulus or the loads cannot be used.
     ConvergenceError
         With `throw`, if a load was not solved; it carries the curve.
+    Interrupted
+        On Ctrl-C between or in the loads of a surface; a KeyboardInterrupt that carries the curve
+        of the loads before.
     """
     _check_number("E_star", E_star, 0, np.inf, "a positive, finite contact modulus")
     _check_number("rtol", rtol, 1e-12, 1e-1, "a tolerance from 1e-12 to 0.1")
@@ -125,13 +128,22 @@ def press(
         body, E_star, loads, method, periodic=periodic, kept=kept, progress=progress
     )
     if grid_error:
-        curve = with_grid_error(
-            curve,
-            body,
-            lambda coarse: press_surface(
-                coarse, E_star, loads, method, periodic=periodic, kept=frozenset(), progress=None
-            ),
-        )
+        try:
+            curve = with_grid_error(
+                curve,
+                body,
+                lambda coarse: press_surface(
+                    coarse,
+                    E_star,
+                    loads,
+                    method,
+                    periodic=periodic,
+                    kept=frozenset(),
+                    progress=None,
+                ),
+            )
+        except KeyboardInterrupt:
+            raise Interrupted(curve) from None
     if throw and not curve.converged.all():
         raise ConvergenceError(_failure_message(curve), curve)
     return curve

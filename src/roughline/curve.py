@@ -30,6 +30,7 @@ class Status(enum.IntEnum):
     STALLED = 1
     MAX_ITERATIONS = 2
     NO_TANGENT = 3
+    INTERRUPTED = 4
 
     @property
     def reason(self) -> str:
@@ -39,6 +40,7 @@ class Status(enum.IntEnum):
             Status.STALLED: "stalled: the residuals stopped falling above the tolerance",
             Status.MAX_ITERATIONS: "max_iterations reached above the tolerance",
             Status.NO_TANGENT: "the stiffness equations did not converge",
+            Status.INTERRUPTED: "not solved: interrupted before",
         }[self]
 
 

@@ -40,3 +40,19 @@ class ConvergenceError(RoughlineError):
     def __init__(self, message: str, curve: Curve | None = None) -> None:
         super().__init__(message)
         self.curve = curve
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C came while loads were being solved.
+
+    Attributes
+    ----------
+    curve : Curve
+        The loads that were solved before; the others are NaN and marked in ``curve.status``.
+    """
+
+    def __init__(self, curve: Curve) -> None:
+        super().__init__(
+            f"interrupted: {int(curve.converged.sum())} of {curve.status.size} loads were solved"
+        )
+        self.curve = curve

@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from roughline._version import __version__
 from roughline.curve import RESOLVED_FROM, Curve, Fields, Status
+from roughline.errors import Interrupted
 from roughline.halfspace import operator as operators
 from roughline.halfspace.path import follow
 from roughline.halfspace.state import Contact, Method
@@ -51,6 +52,11 @@ def press_surface(
         Loads whose fields are kept.
     periodic, progress
         As for :func:`roughline.press`.
+
+    Raises
+    ------
+    Interrupted
+        On Ctrl-C.
     """
     units = _Units.of(surface, E_star, loads)
     make_operator = operators.periodic if periodic else operators.free
@@ -67,38 +73,45 @@ def press_surface(
         method,
     )
     count = loads.values.size
-    depth, force, stiffness, area, corrected, residual, edge = np.full((7, count), np.nan)
-    status = np.empty(count, dtype=np.int8)
+    values = np.full((7, count), np.nan)
+    status = np.full(count, Status.INTERRUPTED, dtype=np.int8)
     resolved = np.zeros(count, dtype=bool)
     convolutions = np.zeros(count, dtype=np.int64)
-    all_fields: list[Fields | None] = []
-    # the threads belong to the transforms: those of the linear algebra would spin beside them
-    with threadpool_limits(limits=1, user_api="blas"):
-        for i, (contact, tangent) in enumerate(path):
-            status[i] = Status[contact.outcome.name]
-            if tangent is not None and not tangent.converged:
-                status[i] = Status.NO_TANGENT
-            residual[i] = contact.residuals.worst
-            convolutions[i] = contact.convolutions + (tangent.convolutions if tangent else 0)
-            converged = status[i] == Status.CONVERGED
-            if tangent is not None and converged:
-                depth[i] = contact.depth * units.height
-                force[i] = contact.force * units.force
-                stiffness[i] = tangent.stiffness * units.force / units.height
-                touching = _touching(contact)
-                cells = int(np.count_nonzero(touching))
-                area[i] = cells / touching.size
-                corrected[i] = area[i] - _perimeter_correction(touching, periodic)
-                resolved[i] = cells >= RESOLVED_FROM
-                edge[i] = _edge_share(contact)
-            if kept:
-                keep = converged and i in kept
-                all_fields.append(_fields(contact, separation, units) if keep else None)
-            del contact, tangent  # so that the next load finds their memory free
-            if progress is not None:
-                progress(i + 1, count)
+    all_fields: list[Fields | None] = [None] * count if kept else []
+    interrupted = False
+    try:
+        # the threads belong to the transforms: those of the linear algebra would spin beside them
+        with threadpool_limits(limits=1, user_api="blas"):
+            for i, (contact, tangent) in enumerate(path):
+                outcome = Status[contact.outcome.name]
+                if tangent is not None and not tangent.converged:
+                    outcome = Status.NO_TANGENT
+                values[0, i] = contact.residuals.worst
+                convolutions[i] = contact.convolutions + (tangent.convolutions if tangent else 0)
+                if tangent is not None and outcome is Status.CONVERGED:
+                    touching = _touching(contact)
+                    cells = int(np.count_nonzero(touching))
+                    values[1:, i] = (
+                        contact.depth * units.height,
+                        contact.force * units.force,
+                        tangent.stiffness * units.force / units.height,
+                        cells / touching.size,
+                        cells / touching.size - _perimeter_correction(touching, periodic),
+                        _edge_share(contact),
+                    )
+                    resolved[i] = cells >= RESOLVED_FROM
+                    if i in kept:
+                        all_fields[i] = _fields(contact, separation, units)
+                status[i] = outcome
+                del contact, tangent  # so that the next load finds their memory free
+                if progress is not None:
+                    progress(i + 1, count)
+    except KeyboardInterrupt:
+        interrupted = True
+        values[:, status == Status.INTERRUPTED] = np.nan
+    residual, depth, force, stiffness, area, corrected, edge = values
     warnings = () if periodic else _edge_warnings(surface, edge)
-    return Curve(
+    curve = Curve(
         depth=depth,
         force=force,
         stiffness=stiffness,
@@ -125,6 +138,9 @@ def press_surface(
         warnings=warnings,
         fields=tuple(all_fields),
     )
+    if interrupted:
+        raise Interrupted(curve)
+    return curve
 
 
 @dataclass(frozen=True)

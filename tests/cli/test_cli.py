@@ -10,8 +10,9 @@ from typer.testing import CliRunner
 
 import roughline as rl
 from roughline import cli
-from roughline.report.pressed import Pressed, Source
+from roughline.report.pressed import Pressed
 from roughline.report.pressed_figures import write_pressed
+from roughline.report.source import Source
 
 
 def roughline(*arguments, timeout=120):
@@ -187,13 +188,64 @@ def test_a_wrong_call_is_exit_2(arguments):
 
 
 def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch):
-    import roughline.report.pressed as pressed
+    import roughline.report.pressing as pressing
 
-    original = pressed.press
-    monkeypatch.setattr(pressed, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
+    original = pressing.press
+    monkeypatch.setattr(pressing, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
     code, out, _ = invoke("press", surface_file, "--modulus", "1 GPa", "--loads", 6)
     assert code == 1
     assert "max_iterations reached" in " ".join(out.split())
+
+
+@pytest.mark.parametrize("where", ["--out", "--report"])
+def test_ctrl_c_keeps_the_loads_that_were_solved(
+    surface_file, invoke, monkeypatch, tmp_path, where
+):
+    import roughline.report.pressing as pressing
+
+    original = pressing.press
+
+    def press(*arguments, progress, **named):
+        def stop(done, total):
+            progress(done, total)
+            if done == 3:
+                raise KeyboardInterrupt
+
+        return original(*arguments, progress=stop, **named)
+
+    monkeypatch.setattr(pressing, "press", press)
+    folder = tmp_path / "pressed"
+    code, out, err = invoke(
+        *("press", surface_file, "--materials", "steel,copper", "--load", "1 N", "--load", "2 N"),
+        *("--load", "3 N", "--load", "4 N", "--theory", "persson", where, folder),
+    )
+    assert code == 130, err
+    assert "interrupted; the loads solved before are above" in err
+    assert "interrupted before" in " ".join(out.split())
+    assert {file.name for file in folder.iterdir()} >= {"curve.nc", "curve.png"}
+    assert not (folder / "report.html").exists()
+    with xarray.open_dataset(folder / "curve.nc", engine="h5netcdf") as data:
+        assert (data.status.values == 0).sum() == 3
+        assert np.isfinite(data.stiffness.values[:3]).all()
+
+
+@pytest.mark.parametrize("iterations", [1, 6])
+def test_a_report_with_loads_that_failed_says_so(
+    surface_file, invoke, monkeypatch, tmp_path, iterations
+):
+    import roughline.report.pressing as pressing
+
+    original = pressing.press
+    monkeypatch.setattr(
+        pressing, "press", lambda *a, **k: original(*a, **k, max_iterations=iterations)
+    )
+    code, out, err = invoke(
+        *("press", surface_file, "--materials", "steel,copper", "--load", "0.1 N"),
+        *("--load", "0.5 N", "--theory", "persson", "--friction", 0.3, "--report", tmp_path / "r"),
+    )
+    assert code == 1, err
+    assert "max_iterations reached" in " ".join(out.split())
+    assert "not solved" in (tmp_path / "r" / "report.html").read_text(encoding="utf-8")
 
 
 def test_figures_of_a_failed_load_show_the_others(surface_file, tmp_path):

@@ -78,7 +78,7 @@ def test_in_full_contact_the_interface_is_infinitely_stiff():
         PAIR,
         saturated=saturated,
         frequency=5e6,
-        stiffness_error=0.01 * curve.stiffness,
+        stiffness_interval=(0.99 * curve.stiffness, 1.01 * curve.stiffness),
     )
     found = by_symbol(given)
     assert np.isinf(found["k_i"].values).all()
@@ -102,31 +102,47 @@ def test_in_periodic_mode_the_stiffness_is_the_interfaces():
     assert found["h_c"].values[0] == pytest.approx(per_area, rel=1e-12)
 
 
-def test_errors_are_carried_on():
+def test_intervals_are_carried_on():
     surface = sphere(64)
     curve = rl.press(surface, E_star=PAIR.E_star, forces=[10.0, 30.0])
     saturated = saturated_stiffness(surface, PAIR.E_star)
+    low, high = 0.9 * curve.stiffness, 1.3 * curve.stiffness
+    share = curve.area_fraction_corrected
     found = by_symbol(
         answers(
             curve,
             surface.area,
             PAIR,
             saturated=saturated,
-            stiffness_error=0.01 * curve.stiffness,
-            area_error=0.02 * curve.area_fraction_corrected,
+            frequency=5e6,
+            stiffness_interval=(low, high),
+            area_interval=(0.5 * share, 1.5 * share),
         )
     )
-    for symbol in ("k", "k/A_0", "R", "G", "k_t"):
+
+    def ends(symbol):
         each = found[symbol]
-        assert each.error / each.values == pytest.approx(0.01, rel=1e-9), symbol
-    for symbol in ("A", "A/A_0", "p_c", "p_c/H"):
-        each = found[symbol]
-        assert each.error / each.values == pytest.approx(0.02, rel=1e-9), symbol
-    # by a finite change of k
-    changed = interface_stiffness(1.0001 * curve.stiffness, saturated)
+        return np.array([each.low / each.values, each.high / each.values])
+
+    def given(low, high):
+        return pytest.approx(np.array([[low, low], [high, high]]), rel=1e-9)
+
+    for symbol in ("k", "k/A_0", "G", "k_t"):
+        assert ends(symbol) == given(0.9, 1.3), symbol
+    assert ends("R") == given(1 / 1.3, 1 / 0.9)
+    for symbol in ("A", "A/A_0"):
+        assert ends(symbol) == given(0.5, 1.5), symbol
+    for symbol in ("p_c", "p_c/H"):
+        assert ends(symbol) == given(1 / 1.5, 1 / 0.5), symbol
     own = found["k_i"]
-    assert own.error == pytest.approx((changed - own.values) * 100, rel=0.01)
-    assert found["h_c"].error / found["h_c"].values == pytest.approx(own.error / own.values)
+    assert own.low == pytest.approx(interface_stiffness(low, saturated))
+    assert own.high == pytest.approx(interface_stiffness(high, saturated))
+    assert ends("h_c") == pytest.approx(ends("k_i"))
+    reflection = found["|R|"]
+    assert (reflection.low < reflection.values).all()
+    assert (reflection.values < reflection.high).all()
+    assert found["F"].low is None
+    assert found["R_Holm"].high is None
 
 
 def test_what_is_not_known_of_a_material_is_left_out():

@@ -146,7 +146,7 @@ def press(
     if threads is not None:
         set_threads(threads)
     source = options.source_of(file, unit, channel, size, fill, max_missing)
-    with interruptible("nothing is written"), load_progress() as progress:
+    with interruptible("no load was solved"), load_progress() as progress:
         result = ask(
             source,
             loads=load or [],
@@ -171,6 +171,9 @@ def press(
         print_json(of_pressed(result))
     else:
         print_pressed(result)
+    if result.interrupted:
+        with interruptible("the loads solved before are above"):
+            raise KeyboardInterrupt
     if not result.curve.converged.all():
         raise typer.Exit(1)
 

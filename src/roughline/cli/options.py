@@ -15,7 +15,7 @@ from roughline.errors import InputError
 
 if TYPE_CHECKING:
     from roughline.preparation import Preparation
-    from roughline.report.pressed import Source
+    from roughline.report.source import Source
     from roughline.spectra import SelfAffine
 
 FILE = "A file"
@@ -127,7 +127,7 @@ def source_of(
     max_missing: float,
 ) -> Source:
     """The file that the options describe."""
-    from roughline.report.pressed import Source
+    from roughline.report.source import Source
 
     sizes = tuple(lengths(size, "size")) if size else None
     return Source(file, unit, channel, sizes, fill.value, max_missing)

@@ -10,7 +10,7 @@ from roughline.characterisation import Roughness, roughness
 from roughline.quantities import engineering
 from roughline.report.page import Picture, Section, Table, render
 from roughline.report.pdf import write_pdf
-from roughline.report.pressed import Pressed, answer_table, quantity
+from roughline.report.pressed import Pressed
 from roughline.report.pressed_figures import (
     draw_area,
     draw_contact,
@@ -20,6 +20,7 @@ from roughline.report.pressed_figures import (
     draw_stiffness,
     write_pressed,
 )
+from roughline.report.pressed_tables import answer_table, quantity
 from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.topography import Line, Surface
 

@@ -14,7 +14,7 @@ from roughline.comparison import Comparison, compare
 from roughline.errors import InputError, StoreError
 from roughline.preparation import prepared
 from roughline.report.folder import make_folder
-from roughline.report.pressed import Source
+from roughline.report.source import Source
 from roughline.report.style import FORCE_LABEL, PAGE, SHADE, colours, new_figure, save, styled
 from roughline.spectra import SelfAffine
 from roughline.topography import Line, Surface

@@ -12,8 +12,8 @@ from roughline.measured import write
 from roughline.preparation import Preparation, prepared
 from roughline.quantities import engineering
 from roughline.report.folder import make_folder
-from roughline.report.pressed import Source, notes_on_body
 from roughline.report.pressed_figures import roughness_figure
+from roughline.report.source import Source, notes_on_body
 from roughline.report.style import save, styled
 from roughline.topography import Body, Surface
 

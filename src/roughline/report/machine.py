@@ -49,13 +49,16 @@ def of_pressed(pressed: Pressed) -> dict[str, Any]:
             )
         }
         | {"status": [Status(value).name.lower() for value in curve.status]},
+        "stiffness_interval": pressed.stiffness_interval,
+        "area_fraction_interval": pressed.area_interval,
         "asked": pressed.asked,
         "answers": {
             each.symbol: {
                 "name": each.name,
                 "unit": each.unit,
                 "values": each.values,
-                "error": each.error,
+                "low": each.low,
+                "high": each.high,
                 "formula": each.formula,
                 "validity": each.validity,
                 "source": each.source,

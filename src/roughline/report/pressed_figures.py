@@ -94,16 +94,9 @@ def draw_stiffness(axes: Axes, pressed: Pressed) -> None:
     force_unit, force = _prefixed(curve.force, "N")
     unit, stiffness = _prefixed(curve.stiffness, "N/m")
     _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve.resolved)
-    for each in pressed.answers:
-        if each.symbol == "k" and each.error is not None:
-            low = np.maximum(each.values - each.error, 0.1 * each.values)
-            axes.fill_between(
-                curve.force * force,
-                low * stiffness,
-                (each.values + each.error) * stiffness,
-                color="0.85",
-                zorder=-5,
-            )
+    if pressed.stiffness_interval is not None:
+        low, high = (end * stiffness for end in pressed.stiffness_interval)
+        axes.fill_between(curve.force * force, low, high, color="0.85", zorder=-5)
     for theory, dashes in zip(pressed.theories, _DASHES, strict=False):
         if theory.stiffness is not None:
             axes.plot(
@@ -131,9 +124,12 @@ def draw_area(axes: Axes, pressed: Pressed) -> None:
 def draw_partial_slip(axes: Axes, pressed: Pressed, friction: float) -> None:
     """Tangential force over displacement at the largest load, until the whole contact slides."""
     assert pressed.pair is not None
-    curve = pressed.curve
+    curve, solved = pressed.curve, pressed.curve.converged
+    if not solved[-1]:
+        axes.text(0.5, 0.5, "largest load not solved", ha="center", transform=axes.transAxes)
+        return
     moduli = pressed.pair.E_star, pressed.pair.G_star
-    displacement, force = partial_slip(curve.depth, curve.force, *moduli, friction)
+    displacement, force = partial_slip(curve.depth[solved], curve.force[solved], *moduli, friction)
     x_unit, x = _prefixed(displacement, "m")
     y_unit, y = _prefixed(force, "N")
     axes.plot(displacement * x, force * y, color="k")

@@ -11,16 +11,11 @@ from roughline.materials import Material, material
 from roughline.preparation import Preparation
 from roughline.quantities import in_si
 from roughline.report.client import write_report
-from roughline.report.pressed import (
-    DEFAULT_LOADS,
-    Announce,
-    Loading,
-    Pressed,
-    Progress,
-    Source,
-    press_file,
-)
+from roughline.report.loading import DEFAULT_LOADS, Loading
+from roughline.report.pressed import Pressed
 from roughline.report.pressed_figures import write_pressed
+from roughline.report.pressing import Announce, Progress, press_file
+from roughline.report.source import Source
 
 
 def ask(
@@ -49,9 +44,9 @@ def ask(
     Parameters
     ----------
     source, against, preparation, periodic, grid_error, theories, announce, progress
-        As for :func:`roughline.report.pressed.press_file`; `against` is read like `source`.
+        As for :func:`roughline.report.pressing.press_file`; `against` is read like `source`.
     loads, depths, count
-        As for :class:`roughline.report.pressed.Loading`; 20 loads if there is none of them.
+        As for :class:`roughline.report.loading.Loading`; 20 loads if there is none of them.
     modulus, frequency : str or None
         With units.
     materials : str or None
@@ -59,7 +54,7 @@ def ask(
     friction : float or None
         Coefficient of friction. [1]
     report : Path or None
-        Folder for a report; the largest load is its own.
+        Folder for a report; the largest load is its own. Interrupted, it gets the curve alone.
     out : Path or None
         Folder for curve and figures.
     command : str
@@ -98,7 +93,9 @@ def ask(
         progress=progress,
     )
     files: list[Path] = []
-    if report is not None:
+    if report is not None and result.interrupted:
+        files += write_pressed(result, report)  # a curve, but no answers to report yet
+    elif report is not None:
         files += write_report(result, report, command, friction)
     if out is not None:
         files += write_pressed(result, out)

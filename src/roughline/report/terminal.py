@@ -30,7 +30,8 @@ from roughline.curve import Status
 from roughline.quantities import engineering
 from roughline.report.compared import Compared, compared_table, verdict
 from roughline.report.described import Described, described_table
-from roughline.report.pressed import Pressed, answer_table, curve_table
+from roughline.report.pressed import Pressed
+from roughline.report.pressed_tables import answer_table, curve_table
 from roughline.theories import TheoryCurve
 from roughline.topography import Body, Surface
 
@@ -113,7 +114,7 @@ def print_pressed(pressed: Pressed) -> None:
         header, rows = answer_table(pressed)  # formulas are for the report
         console.print(_table(header[:-1], [row[:-1] for row in rows]))
     else:
-        console.print(_table(*curve_table(curve)))
+        console.print(_table(*curve_table(pressed)))
     if not curve.resolved[curve.converged].all():
         console.print("* fewer than ten points in contact: the grid decides, not the surface")
     for i in np.flatnonzero(~curve.converged):

@@ -1,0 +1,104 @@
+"""Compare estimated grid errors with grids four times finer: ``make grid-error``.
+
+Files given as arguments are pressed as well: the whole map is the finer grid, and its means of
+four by four points are the grid whose error is estimated.
+"""
+
+import argparse
+import math
+import sys
+
+import numpy as np
+
+import roughline as rl
+
+LOADS = np.geomspace(0.003, 1.0, 6)  # F / (E* h L)
+SPECTRA = {
+    "rough down to the grid": lambda n: {},
+    "roll-off at L / 6, rough down to the grid": lambda n: {"q_roll": 12 * math.pi},
+    "cutoff at 2.2 cells": lambda n: {"q_high": math.tau * n / 2.2},
+    "cutoff at 4 cells": lambda n: {"q_high": math.tau * n / 4},
+    "cutoff at 8 cells": lambda n: {"q_high": math.tau * n / 8},
+}
+NOISE = (0.03, 0.3)  # rms of white noise of the finest points, over the rms height
+
+
+def factors(surface, finer):
+    """Logarithms of the true and the claimed factors, of stiffness and of area."""
+    scale = finer.rms_height * finer.length
+    curve, truth = (
+        rl.press(each, E_star=1.0, forces=LOADS * scale, grid_error=each is surface)
+        for each in (surface, finer)
+    )
+    found = []
+    for name, error in (
+        ("stiffness", curve.stiffness_error),
+        ("area_fraction_corrected", curve.area_fraction_error),
+    ):
+        value, true = getattr(curve, name), getattr(truth, name)
+        missed = np.abs(np.log(true / value))
+        claimed = np.log1p(error / value)
+        found.append((missed[curve.resolved], claimed[curve.resolved]))
+    return found
+
+
+def coarsened(surface):
+    """Means of four by four points, of the largest part that has them sixteen times."""
+    nx, ny = (n - n % 16 for n in surface.shape)
+    whole = surface.cropped((0, nx), (0, ny))
+    return whole.coarsened().coarsened(), whole
+
+
+def cases(files, seeds):
+    """Kinds of surfaces, each with its grid and the finer one."""
+    for n, count in ((64, seeds), (128, seeds // 2)):
+        for hurst in (0.2, 0.4, 0.6, 0.8, 1.0):
+            for seed in range(count):
+                for kind, more in SPECTRA.items():
+                    spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, **more(n))
+                    yield (
+                        kind,
+                        spectrum.surface(n, 1000 + seed),
+                        spectrum.surface(4 * n, 1000 + seed),
+                    )
+    for share in NOISE:
+        for seed in range(seeds):
+            rough = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 1000 + seed)
+            noise = share * np.random.default_rng(seed).standard_normal(rough.shape)
+            grids = coarsened(rl.Surface(rough.heights + noise, rough.sizes))
+            yield f"white noise, {share:g} of the rms height", *grids
+    for file in files:
+        whole = rl.prepared(rl.read(file))
+        sides = [[(0, n // 2), (n // 2, n)] for n in whole.shape]
+        for rows in sides[0]:
+            for columns in sides[1]:
+                yield (
+                    f"quarters of {file.rsplit('/')[-1]}",
+                    *coarsened(whole.cropped(rows, columns)),
+                )
+
+
+def main():
+    """Print a table by kind of surface."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("files", nargs="*")
+    parser.add_argument("--seeds", type=int, default=6)
+    arguments = parser.parse_args()
+    found = {}
+    for kind, surface, finer in cases(arguments.files, arguments.seeds):
+        found.setdefault(kind, []).append(factors(surface, finer))
+        print(".", end="", file=sys.stderr, flush=True)
+    print(f"\nroughline {rl.__version__}, loads F / (E* h L) = 0.003 to 1\n")
+    print("| surfaces | loads | k: covered | missed | claimed | A: covered | missed | claimed |")
+    print("|---|---|---|---|---|---|---|---|")
+    for kind, rows in found.items():
+        cells = []
+        for quantity in (0, 1):
+            missed, claimed = (np.concatenate([row[quantity][i] for row in rows]) for i in (0, 1))
+            cells.append(f"{np.mean(missed <= claimed):.0%}")
+            cells += [f"{np.expm1(np.median(each)):.1%}" for each in (missed, claimed)]
+        print(f"| {kind} | {missed.size} | {' | '.join(cells)} |")
+
+
+if __name__ == "__main__":
+    main()
