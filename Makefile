@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory robustness soak fuzz study published clean
+.PHONY: paper paper-full test check benchmark memory grid-error robustness soak fuzz study published clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -27,6 +27,9 @@ benchmark: $(VENV)/installed
 memory: $(VENV)/installed
 	$(BIN)/python benchmarks/memory.py 4096
 	$(BIN)/python benchmarks/memory.py 8192
+
+grid-error: $(VENV)/installed
+	$(BIN)/python benchmarks/grid_error.py
 
 robustness: $(VENV)/installed
 	$(BIN)/python benchmarks/robustness.py

@@ -229,16 +229,11 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
         assert np.isfinite(data.stiffness.values[:3]).all()
 
 
-@pytest.mark.parametrize("iterations", [1, 6])
-def test_a_report_with_loads_that_failed_says_so(
-    surface_file, invoke, monkeypatch, tmp_path, iterations
-):
+def test_a_report_with_loads_that_failed_says_so(surface_file, invoke, monkeypatch, tmp_path):
     import roughline.report.pressing as pressing
 
     original = pressing.press
-    monkeypatch.setattr(
-        pressing, "press", lambda *a, **k: original(*a, **k, max_iterations=iterations)
-    )
+    monkeypatch.setattr(pressing, "press", lambda *a, **k: original(*a, **k, max_iterations=1))
     code, out, err = invoke(
         *("press", surface_file, "--materials", "steel,copper", "--load", "0.1 N"),
         *("--load", "0.5 N", "--theory", "persson", "--friction", 0.3, "--report", tmp_path / "r"),

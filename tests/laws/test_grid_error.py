@@ -50,6 +50,35 @@ def test_it_covers_a_rough_surface_refined_with_the_same_seed(hurst, q_high):
     assert (difference <= curve.area_fraction_error).all()
 
 
+@pytest.mark.slow
+def test_it_covers_nearly_all_of_many_rough_surfaces():
+    covered = {"stiffness": [], "area": []}
+    claimed = []
+    for seed in range(6):
+        for hurst in (0.2, 0.5, 0.8):
+            for q_high in (None, 2 * np.pi * 16):
+                spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_high=q_high)
+                forces = [0.01, 0.05, 0.2, 1.0]
+                coarse, fine = spectrum.surface(64, seed), spectrum.surface(256, seed)
+                curve = rl.press(coarse, E_star=1.0, forces=forces, grid_error=True)
+                finer = rl.press(fine, E_star=1.0, forces=forces)
+                k, area = curve.stiffness, curve.area_fraction_corrected
+                # the lower end of v is v / (1 + e / v)
+                for name, value, error, true in (
+                    ("stiffness", k, curve.stiffness_error, finer.stiffness),
+                    ("area", area, curve.area_fraction_error, finer.area_fraction_corrected),
+                ):
+                    inside = (value / (1 + error / value) <= true) & (true <= value + error)
+                    covered[name] += inside[curve.resolved].tolist()
+                claimed += (curve.stiffness_error / k)[curve.resolved].tolist()
+                # cells that touch overstate the area, and finer waves take away from it
+                assert (finer.area_fraction_corrected <= curve.area_fraction).all()
+    assert len(claimed) >= 100
+    assert np.mean(covered["stiffness"]) >= 0.95
+    assert np.mean(covered["area"]) >= 0.95
+    assert np.median(claimed) < 0.15
+
+
 def test_grids_that_cannot_be_halved_twice_are_refused():
     surface = rl.Surface(np.random.default_rng(0).normal(size=(30, 32)), (1.0, 1.0))
     with pytest.raises(rl.InputError, match="30 x 32: crop it to multiples of 4, at least 16"):

@@ -91,4 +91,6 @@ def _with_interval(
     half_width = max(value - low, high - value) / value
     if half_width < _NARROW:
         return f"{shown} ± {half_width:.1%}"
-    return f"{shown} ({write(low, 3)} to {write(high, 3) if np.isfinite(high) else 'infinite'})"
+    first, last = (write(end, 3) if np.isfinite(end) else "infinite" for end in ends)
+    number, _, unit = first.partition(" ")
+    return f"{shown} ({number if last.endswith(f' {unit}') else first} to {last})"
