@@ -81,3 +81,44 @@ def test_impedance_of_steel_is_the_textbook_value():
     assert Material("x", 1e9, 0.5, density=1e3).impedance is None
     assert materials()["rigid"].impedance is None
     assert math.isinf(materials()["rigid"].shear_modulus)
+
+
+# Second sources: elastic constants from N. E. Dowling, "Mechanical Behavior of Materials", table
+# 5.2; resistivities at 20 °C from R. A. Serway, "Principles of Physics", 2nd ed. (1998), and others.
+DOWLING = {
+    "aluminium": (70.3, 0.345),
+    "alumina": (400, 0.22),
+    "brass": (101, 0.350),
+    "copper": (130, 0.343),
+    "fused-silica": (70, 0.18),
+    "glass": (69, 0.20),
+    "pmma": (2.7, 0.35),
+    "steel": (212, 0.293),
+    "titanium": (120, 0.361),
+    "tungsten": (411, 0.280),
+}
+RESISTIVITIES = {
+    "silver": 1.59e-8,
+    "copper": 1.68e-8,
+    "gold": 2.44e-8,
+    "aluminium": 2.82e-8,
+    "tungsten": 5.60e-8,
+    "zinc": 5.90e-8,
+    "nickel": 6.99e-8,
+    "tin": 1.09e-7,
+    "steel": 1.43e-7,
+    "titanium": 4.20e-7,
+    "stainless-steel": 6.9e-7,
+}
+
+
+@pytest.mark.parametrize("name", DOWLING)
+def test_moduli_agree_with_a_second_table(name):
+    E, nu = DOWLING[name]
+    assert rl.material(name).E == pytest.approx(E * 1e9, rel=0.12)
+    assert rl.material(name).nu == pytest.approx(nu, abs=0.045)
+
+
+@pytest.mark.parametrize("name", RESISTIVITIES)
+def test_resistivities_agree_with_a_second_table(name):
+    assert rl.material(name).resistivity == pytest.approx(RESISTIVITIES[name], rel=0.13)

@@ -148,9 +148,13 @@ def compared_figure(result: Comparison, tolerance: float) -> Figure:
     left, right = figure.subplots(1, 2)
     force = result.force_bar
     dark, light = colours(2)
-    many = "mean of " if result.surfaces > 1 else ""
+    count = result.surfaces
     for mean, colour, label in (
-        (result.full, dark, f"full model, {many}{result.surfaces} surface(s)"),
+        (
+            result.full,
+            dark,
+            "full model" + (f", mean of {count} surfaces" if count > 1 else ", one surface"),
+        ),
         (result.reduced, light, f"reduced model, mean of {result.lines} lines"),
     ):
         left.loglog(force, mean.mean, color=colour, marker="o", label=label)

@@ -110,11 +110,13 @@ def draw_stiffness(axes: Axes, pressed: Pressed) -> None:
 
 
 def draw_area(axes: Axes, pressed: Pressed) -> None:
-    """Contact area over force, and theories beside it."""
+    """Contact area over force with its interval, and theories beside it."""
     curve, area = pressed.curve, pressed.area
     assert curve.area_fraction_corrected is not None
     force_unit, force = _prefixed(curve.force, "N")
     _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve.resolved)
+    if pressed.area_interval is not None:
+        axes.fill_between(curve.force * force, *pressed.area_interval, color="0.85", zorder=-5)
     for theory, dashes in zip(pressed.theories, _DASHES, strict=False):
         axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
         axes.legend()
@@ -134,8 +136,7 @@ def draw_partial_slip(axes: Axes, pressed: Pressed, friction: float) -> None:
     y_unit, y = _prefixed(force, "N")
     axes.plot(displacement * x, force * y, color="k")
     axes.set(
-        xlabel=f"tangential displacement $u_x$ [{x_unit}]",
-        ylabel=f"tangential force $Q$ [{y_unit}]",
+        xlabel=f"slip displacement $u_x$ [{x_unit}]", ylabel=f"tangential force $Q$ [{y_unit}]"
     )
 
 

@@ -12,7 +12,7 @@ from roughline.quantities import engineering
 from roughline.report.pressed import Ends, Pressed
 
 _NARROW = 0.1  # half width of an interval up to which it is written as ±
-_ENGINEERING = ("N", "m", "Pa", "N/m", "ohm")
+_ENGINEERING = ("N", "m", "Pa", "N/m", "ohm", "W/K")
 
 
 def curve_table(pressed: Pressed) -> tuple[list[str], list[list[str]]]:
