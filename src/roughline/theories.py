@@ -183,8 +183,8 @@ def _persson(
         special.erf(pressure / (E_star * whole)),
         stiffness,
         gap,
-        "all loads, Gaussian random surfaces; area about 20-30 % low at light loads; where few "
-        "asperities touch (finite size) it is too compliant or too stiff",
+        "all loads, Gaussian random surfaces; area 20-30 % low at light loads; stiffness within "
+        "20 % from 4 to 60 % contact; where few asperities touch (finite size) too compliant",
     )
 
 

@@ -158,3 +158,23 @@ def test_bad_questions_get_one_line():
         theory("persson", rl.SelfAffine(hurst=0.8, rms_height=1.0), 1.0, 1.0)
     with pytest.raises(rl.InputError, match="mean planes cross"):
         theory("greenwood-williamson", SPECTRUM, 1.0, 100.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hurst", [0.5, 0.8])
+@pytest.mark.parametrize("roll", [2, 8, 16])
+def test_persson_against_the_full_model_from_4_to_60_per_cent_contact(hurst, roll):
+    spectrum = rl.SelfAffine(
+        hurst=hurst, rms_height=1e-3, q_roll=math.tau * roll, q_high=math.tau * 48
+    )
+    surface = spectrum.surface(256, 3)
+    p = surface.rms_slope * np.array([0.02, 0.05, 0.1, 0.2, 0.4])
+    curve = rl.press(surface, E_star=1.0, forces=p, periodic=True)
+    persson = rl.theory("persson", rl.isotropic_spectrum(surface), 1.0, p)
+    assert 0.04 < curve.area_fraction_corrected[0] < 0.05
+    assert 0.6 < curve.area_fraction_corrected[-1] < 0.66
+    ratio = persson.stiffness / curve.stiffness
+    assert ((ratio > 0.8) & (ratio < 1.2)).all()
+    area = persson.area_fraction / curve.area_fraction_corrected
+    assert ((area > 0.68) & (area < 0.93)).all()
+    assert area[-1] > area[0] + 0.1  # it comes nearer towards full contact
