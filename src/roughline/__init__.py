@@ -10,6 +10,7 @@ from roughline._version import __version__
 
 if TYPE_CHECKING:
     from roughline.averages import average as average
+    from roughline.body_file import write as write
     from roughline.characterisation import roughness as roughness
     from roughline.comparison import Comparison as Comparison
     from roughline.comparison import compare as compare
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from roughline.materials import contact_modulus as contact_modulus
     from roughline.materials import material as material
     from roughline.measured import read as read
-    from roughline.measured import write as write
     from roughline.power_law import PowerLaw as PowerLaw
     from roughline.power_law import find_window as find_window
     from roughline.power_law import fit_power_law as fit_power_law
@@ -80,7 +80,7 @@ _HOMES = {
     "estimate": "estimates",
     "set_threads": "fft",
     "read": "measured",
-    "write": "measured",
+    "write": "body_file",
     "PowerLaw": "power_law",
     "fit_power_law": "power_law",
     "find_window": "power_law",

@@ -47,13 +47,15 @@ class Missing:
         """The other method, to see what the choice does."""
         return "nearest" if self.method == "harmonic" else "harmonic"
 
-    def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> NDArray[np.float64]:
-        """Return the heights with all points known.
+    def completed(
+        self, heights: Any, name: str
+    ) -> tuple[NDArray[np.float64], dict[str, str | int | float]]:
+        """Return the heights with all points known, and how many were not, for the settings.
 
         Parameters
         ----------
-        heights : masked array, shape (nx, ny) or (n,)
-            Heights, unknown ones masked.
+        heights : array or masked array, shape (nx, ny) or (n,)
+            Heights; unknown ones are masked or not finite.
         name : str
             Whose they are, for the message.
 
@@ -62,6 +64,22 @@ class Missing:
         InputError
             If more than the largest share is missing.
         """
+        unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+        if not unknown and not np.isfinite(np.ma.getdata(heights)).all():
+            heights = np.ma.masked_invalid(heights, copy=False)
+            unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+        settings: dict[str, str | int | float] = {}
+        if unknown:
+            heights = self.filled(heights, name)
+            settings = {
+                "missing_points": unknown,
+                "missing_share": unknown / heights.size,
+                "filled": self.method,
+            }
+        return np.array(heights, dtype=np.float64, copy=None), settings
+
+    def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> NDArray[np.float64]:
+        """Return masked heights with all points known; as :meth:`completed`, without the count."""
         mask = np.ma.getmaskarray(heights)
         unknown = int(np.count_nonzero(mask))
         if unknown > self.most * mask.size or unknown == mask.size:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import functools
+import math
 import re
 from typing import TYPE_CHECKING
 
-from roughline.errors import UnitError
+import numpy as np
+
+from roughline.errors import InputError, UnitError
 
 if TYPE_CHECKING:
     import pint
@@ -110,3 +113,63 @@ def engineering(value: float, unit: str, digits: int = 4) -> str:
     """Write an SI value with a prefix, such as 1.234e-6 m as "1.234 µm"."""
     quantity = _registry().Quantity(value, unit)
     return f"{quantity.to_compact():.{digits}g~P}"
+
+
+def metres_per_file_unit(name: str, stated: str | None, given: str | None) -> float:
+    """Return the metres in the unit that a file states, or else in the one that is given.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for the message.
+    stated, given : str or None
+        By the file, by the caller.
+
+    Raises
+    ------
+    UnitError
+        If both or neither says a unit, or it is none of length.
+    """
+    if stated and given:
+        raise UnitError(f"{name} states its unit, {stated}; leave unit = {given} out")
+    if not stated and not given:
+        raise UnitError(
+            f"{name} states no unit; say which its lengths have, such as unit = um "
+            "(command line: --unit um)"
+        )
+    return metres_per(stated or str(given))
+
+
+def given_sizes(
+    name: str, points: tuple[int, ...], given: float | tuple[float, ...] | None
+) -> tuple[float, ...]:
+    """Return the sides of a file that states none, one for each axis; one number makes a square.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for the message.
+    points : tuple of int
+        Along each axis.
+    given : float, tuple of float or None
+        What the caller says. [m]
+
+    Raises
+    ------
+    InputError
+        If nothing, or not as many positive lengths as there are axes, is given.
+    """
+    if given is None:
+        raise InputError(
+            f"{name} states no sizes for its {' x '.join(map(str, points))} points; give "
+            "them, such as sizes = (1e-3, 1e-3) (command line: --size 1mm,1mm)"
+        )
+    sizes = tuple(np.atleast_1d(np.asarray(given, dtype=float)).tolist())
+    if len(sizes) == 1 and len(set(points)) == 1:
+        sizes *= len(points)
+    if len(sizes) != len(points) or not all(0 < size < math.inf for size in sizes):
+        raise InputError(
+            f"sizes is {given!r}; {name} has {' x '.join(map(str, points))} points: give "
+            f"{len(points)} positive length{'s' if len(points) > 1 else ''}"
+        )
+    return sizes

@@ -67,7 +67,7 @@ def generate(
     json: options.Json = False,
 ) -> None:
     """Generate a random self-affine surface, or its reduced line, and write it to a file."""
-    from roughline.measured import write
+    from roughline.body_file import write
     from roughline.report.machine import of_generated
     from roughline.report.terminal import print_generated
 

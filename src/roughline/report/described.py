@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from roughline.body_file import write
 from roughline.characterisation import Roughness, roughness
-from roughline.measured import write
 from roughline.preparation import Preparation, prepared
 from roughline.quantities import engineering
 from roughline.report.folder import make_folder
