@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from roughline import interface
 from roughline.contact import press
 from roughline.curve import Curve
-from roughline.materials import Material, contact_modulus, tangential_modulus
+from roughline.materials import Interface
 from roughline.topography import Surface
 
 Real = NDArray[np.float64]
@@ -48,44 +48,6 @@ class Answer:
     formula: str
     validity: str = ""
     source: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class Interface:
-    """Two bodies of given materials in contact.
-
-    Parameters
-    ----------
-    first, second : Material
-        The rough body and the one that it is pressed into; which is which does not matter.
-    """
-
-    first: Material
-    second: Material
-
-    @property
-    def E_star(self) -> float:
-        """Contact modulus. [Pa]"""
-        return contact_modulus(self.first, self.second)
-
-    @property
-    def G_star(self) -> float:
-        """Tangential contact modulus. [Pa]"""
-        return tangential_modulus(self.first, self.second)
-
-    @property
-    def hardness(self) -> float | None:
-        """Hardness of the softer body, None if it is not known of both. [Pa]
-
-        A rigid body never yields.
-        """
-        known = [each.hardness for each in (self.first, self.second) if not math.isinf(each.E)]
-        return min(value for value in known if value) if known and all(known) else None
-
-    def both(self, quantity: str) -> tuple[float, float] | None:
-        """Return a property of both, None unless both are known."""
-        first, second = getattr(self.first, quantity), getattr(self.second, quantity)
-        return None if first is None or second is None else (first, second)
 
 
 def saturated_stiffness(surface: Surface, E_star: float) -> float:

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.answers import Interface, answers, elastic_warnings, saturated_stiffness
+from roughline.answers import answers, elastic_warnings, saturated_stiffness
 from roughline.interface import interface_stiffness
+from roughline.materials import Interface
 
 PAIR = Interface(rl.material("steel"), rl.material("copper"))
 

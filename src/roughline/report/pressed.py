@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.answers import Answer, Interface
+from roughline.answers import Answer
 from roughline.curve import Curve
+from roughline.materials import Interface
 from roughline.report.loading import nominal_area
 from roughline.report.source import Source
 from roughline.theories import TheoryCurve

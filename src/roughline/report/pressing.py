@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.answers import Interface, answers, elastic_warnings, saturated_stiffness
+from roughline.answers import answers, elastic_warnings, saturated_stiffness
 from roughline.characterisation import ALIKE, isotropy
 from roughline.contact import press
 from roughline.curve import Curve
@@ -18,7 +18,7 @@ from roughline.estimates import estimate
 from roughline.interface import plasticity_index
 from roughline.isotropic import isotropic_spectrum
 from roughline.line_scan import press_scan
-from roughline.materials import Material
+from roughline.materials import Interface, Material
 from roughline.missing import Missing
 from roughline.preparation import Preparation, prepared
 from roughline.report.folder import make_folder
