@@ -103,7 +103,7 @@ class Curve:
         Convolutions that each load took, its stiffness included; None for a line.
     stiffness_error, area_fraction_error : ndarray, shape (loads,), or None
         Estimated discretisation errors of `stiffness` and `area_fraction_corrected`, if asked
-        for.
+        for; a value v with error e lies between v / (1 + e / v) and v + e.
     warnings : sequence of str
         What to know before the numbers are used; empty where there is nothing to say.
     fields : sequence of Fields

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 import roughline as rl
 from roughline import cli
+from roughline.materials import materials
 from roughline.report.pressed import Pressed
 from roughline.report.pressed_figures import write_pressed
 from roughline.report.source import Source
@@ -40,6 +41,12 @@ def test_help_and_version():
         assert command in done.stdout
         assert roughline(command, "--help").returncode == 0
     assert roughline("--version").stdout == f"roughline {rl.__version__}\n"
+
+
+def test_the_help_of_press_names_every_material():
+    page = " ".join(roughline("press", "--help").stdout.replace("│", " ").split())
+    for name in materials():
+        assert f"{name}," in page or f"{name}." in page, name
 
 
 def test_a_generated_surface_is_pressed(surface_file, invoke, tmp_path):

@@ -127,8 +127,19 @@ def press(
     goes through its spectrum to the reduced model. A load in newtons is the total force on the
     nominal area; one in pascals is the mean pressure over it. Depth counts from first touch.
 
-    With two materials: contact stiffness, real contact area, electrical and thermal contact
-    conductance, tangential stiffness, each with its formula; with --report, a page to send.
+    With two materials it prints contact stiffness, real contact area, contact pressure over
+    hardness, electrical and thermal contact conductance and tangential stiffness; with --report it
+    writes them with their formulas, the surface, the preparation, the assumptions and this command
+    on one page, as HTML and PDF. A value is followed by ± or by both ends of its interval: what
+    the grid, filled points or a single line scan leave open. A star marks fewer than ten points in
+    contact, where the grid decides.
+
+    Materials by name: alumina, aluminium, brass, copper, fused-silica, glass, gold, nickel, pmma,
+    ptfe, rigid, silicon, silver, stainless-steel, steel, tin, titanium, tungsten, zinc. Others by
+    value, or a name with some values changed: E, nu, hardness, resistivity, conductivity, density.
+
+    Exit codes: 0; 1 if a load was not solved to the tolerance, which is said and shown as missing;
+    2 for input that cannot be used; 130 after Ctrl-C, with the loads solved until then.
 
     Examples
     --------
@@ -137,6 +148,9 @@ def press(
     roughline press scan.x3p --materials steel,copper --load "10 N" --report contact
 
     roughline press scan.sur --against other.sur --materials "E=3 GPa nu=0.38, rigid" --load "2 MPa"
+
+    roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
+    "steel hardness=6 GPa, gold" --load "1 N" --load "10 N" --theory persson --grid-error
     """
     from roughline.fft import set_threads
     from roughline.report.machine import of_pressed

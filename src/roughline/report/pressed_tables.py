@@ -90,7 +90,7 @@ def _with_interval(
     low, high = ends
     half_width = max(value - low, high - value) / value
     if half_width < _NARROW:
-        return f"{shown} ± {half_width:.1%}"
+        return f"{shown} ± {100 * half_width:.2g}%"
     first, last = (write(end, 3) if np.isfinite(end) else "infinite" for end in ends)
     number, _, unit = first.partition(" ")
     return f"{shown} ({number if last.endswith(f' {unit}') else first} to {last})"
