@@ -144,12 +144,23 @@ def theory(
         If there is no theory of that name, a pressure is not positive, or the spectrum has no
         upper end.
     """
-    if name not in THEORIES:
-        raise InputError(f"no theory is called {name!r}; there are {', '.join(THEORIES)}")
+    refuse_unknown(name)
     pressures = np.atleast_1d(np.asarray(pressure, dtype=np.float64))
     if not ((pressures > 0) & np.isfinite(pressures)).all():
         raise InputError(f"pressures must be positive and finite; {pressures.min()} is among them")
     return THEORIES[name](spectrum, E_star, pressures)
+
+
+def refuse_unknown(name: str) -> None:
+    """Refuse a name that no theory has.
+
+    Raises
+    ------
+    InputError
+        With the names that there are.
+    """
+    if name not in THEORIES:
+        raise InputError(f"no theory is called {name!r}; there are {', '.join(THEORIES)}")
 
 
 def _persson(

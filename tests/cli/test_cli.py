@@ -254,7 +254,7 @@ def test_figures_of_a_failed_load_show_the_others(surface_file, tmp_path):
     surface = rl.read(surface_file)
     curve = rl.press(surface, E_star=1e9, n_loads=6, fields=True, max_iterations=12, throw=False)
     assert not curve.converged.all()
-    pressed = Pressed(Source(surface_file), surface, curve, np.arange(6))
+    pressed = Pressed(Source(surface_file), [surface], surface, curve, np.arange(6))
     files = write_pressed(pressed, tmp_path / "figures")
     assert all(file.stat().st_size > 0 for file in files)
     assert np.isfinite(curve.stiffness).any()

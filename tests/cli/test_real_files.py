@@ -140,6 +140,31 @@ def test_two_rough_bodies(tmp_path, invoke):
     assert rms == pytest.approx(np.sqrt(2) * 1e-6, rel=0.25)
 
 
+def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke):
+    spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)
+    for name, seed, hole in (("whole", 1, False), ("holed", 2, True)):
+        heights = spectrum.surface(64, seed).heights.copy()
+        if hole:
+            highest = np.unravel_index(heights.argmax(), heights.shape)
+            heights[highest] = np.nan
+            heights[3, 4:8] = np.nan
+        np.save(tmp_path / f"{name}.npy", heights)
+    code, out, errors = invoke(
+        *("press", tmp_path / "whole.npy", "--against", tmp_path / "holed.npy", "--unit", "m"),
+        *("--size", "1 mm", "--materials", "steel,copper", "--load", "300 N"),
+        *("--report", tmp_path / "report"),
+    )
+    assert code == 0, errors
+    said = " ".join(out.split())
+    assert "second body: 5 missing points (0.12%) filled: harmonic" in said
+    assert "first body: 5 missing" not in said
+    moved = re.search(r"filled by nearest instead: stiffness moves by up to (\S+)%", said)
+    assert moved
+    assert float(moved[1]) > 0
+    page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    assert "Preparation of the first body: detrended: tilt; of the second: detrended: tilt" in page
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -152,6 +177,14 @@ def test_two_rough_bodies(tmp_path, invoke):
         (("--materials", "steel,rigid", "--report", "r"), "a report needs a --load"),
         (("--materials", "steel,rigid", "--load", "1 N", "--friction", "0.1"), "give --report too"),
         (("--modulus", "1 GPa", "--theory", "hertz"), "no theory is called 'hertz'"),
+        (
+            ("--materials", "steel,rigid", "--load", "1 N", "--frequency=-5 MHz"),
+            'frequency is "-5 MHz"; a positive one',
+        ),
+        (
+            ("--materials", "steel,rigid", "--load", "1 N", "--friction", "0", "--report", "r"),
+            "the coefficient of friction is 0.0; a positive one",
+        ),
         (("--modulus", "1 GPa", "--crop", "0 um, 1 um"), "crop has 2 lengths; give 4"),
         (("--modulus", "1 GPa", "--low-pass", "5"), "without a unit"),
         (("--modulus", "1 GPa", "--against", "none.nc"), "none.nc does not exist"),
@@ -166,6 +199,28 @@ def test_questions_that_do_not_fit_together(tmp_path, invoke, arguments, message
     assert code == 2
     assert message in errors
     assert "Traceback" not in errors
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--theory", "hertz"),
+        ("--frequency=-5 MHz",),
+        ("--friction", "0", "--report", "r"),
+        ("--trend", "none", "--crop", "0 um, 100 um, 0 um, 100 um", "--theory", "persson"),
+    ],
+)
+def test_nothing_is_refused_after_the_work(tmp_path, invoke, monkeypatch, arguments):
+    def not_yet(*_, **__):
+        raise AssertionError("pressed before the question was understood")
+
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(32, 1)
+    rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "map.nc")
+    monkeypatch.setattr("roughline.report.pressing.press", not_yet)
+    code, _, _ = invoke(
+        "press", tmp_path / "map.nc", "--materials", "steel,rigid", "--load", "1 N", *arguments
+    )
+    assert code == 2
 
 
 def test_a_surface_and_a_line_scan_do_not_go_together(topographies, invoke):

@@ -22,7 +22,7 @@ from roughline.report.pressed_figures import (
 )
 from roughline.report.pressed_tables import answer_table, quantity
 from roughline.report.style import PAGE, new_figure, save, styled
-from roughline.topography import Line, Surface
+from roughline.topography import Body, Line, Surface
 
 ASSUMPTIONS = (
     "Linear elastic half-spaces, small slopes, no friction in the normal problem, no adhesion, "
@@ -169,22 +169,15 @@ def _surface(pressed: Pressed, described: Roughness | None) -> str:
     else:
         sides = " x ".join(engineering(size, "m") for size in body.sizes)
         what = f"{body.shape[0]} x {body.shape[1]} points on {sides}"
-    done = [
-        f"{name.replace('_', ' ')}: {body.settings[name]}"
-        for name in (
-            "cropped",
-            "outliers_removed",
-            "detrended",
-            "low_pass",
-            "resampled",
-            "resampled_to",
-            "filled",
-        )
-        if name in body.settings
-    ]
+    if len(pressed.parts) == 1:
+        done = f"Preparation: {_preparation(body)}."
+    else:
+        first, second = map(_preparation, pressed.parts)
+        done = f"Preparation of the first body: {first}; of the second: {second}."
+        what += ", two bodies together" if isinstance(body, Surface) else ", the first of two"
     text = (
         f"{what}; rms height {engineering(body.rms_height, 'm')}, rms slope {body.rms_slope:.3g}. "
-        f"Preparation: {', '.join(done) or 'none'}."
+        f"{done}"
     )
     if described is not None and described.fit is not None:
         low, high = described.fit.hurst_interval
@@ -192,6 +185,24 @@ def _surface(pressed: Pressed, described: Roughness | None) -> str:
     if described is not None and described.remarks:
         text += " " + " ".join(_sentence(remark) for remark in described.remarks)
     return text
+
+
+def _preparation(body: Body) -> str:
+    steps = (
+        "cropped",
+        "outliers_removed",
+        "detrended",
+        "low_pass",
+        "resampled",
+        "resampled_to",
+        "filled",
+    )
+    done = [
+        f"{name.replace('_', ' ')}: {body.settings[name]}"
+        for name in steps
+        if name in body.settings
+    ]
+    return ", ".join(done) or "none"
 
 
 def _sentence(text: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -28,8 +29,10 @@ class Pressed:
     ----------
     source : Source
         The file.
+    parts : sequence of Surface or Line
+        The topographies of the first body and, if that is rough, of the second, prepared. [m]
     body : Surface or Line
-        What was pressed, in metres: prepared, and the sum of both where there are two.
+        What was pressed: the sum of two surfaces, or the first body. [m]
     curve : Curve
         Its curve; a load that did not converge is marked.
     asked : ndarray of int
@@ -52,6 +55,7 @@ class Pressed:
     """
 
     source: Source
+    parts: Sequence[Body]
     body: Body
     curve: Curve
     asked: NDArray[np.intp]

@@ -20,7 +20,7 @@ from roughline.isotropic import isotropic_spectrum
 from roughline.line_scan import press_scan
 from roughline.materials import Interface, Material
 from roughline.missing import Missing
-from roughline.preparation import Preparation, prepared
+from roughline.preparation import Preparation
 from roughline.report.folder import make_folder
 from roughline.report.loading import (
     DEFAULT_LOADS,
@@ -30,10 +30,9 @@ from roughline.report.loading import (
     with_curve,
 )
 from roughline.report.pressed import Ends, Pressed, Real
-from roughline.report.source import Source, notes_on_body
-from roughline.theories import TheoryCurve, moments, theory
+from roughline.report.source import Source, notes_on_parts, read_parts, together
+from roughline.theories import TheoryCurve, moments, refuse_unknown, theory
 from roughline.topography import Body, Line, Surface
-from roughline.two_bodies import facing
 
 Announce = Callable[[str], None]
 Progress = Callable[[int, int], None]
@@ -97,10 +96,16 @@ def press_file(
     """
     if (E_star is None) == (materials is None):
         raise InputError("give either a contact modulus (--modulus) or two materials (--materials)")
+    for name in theories:
+        refuse_unknown(name)
     pair = Interface(*materials) if materials else None
     modulus = pair.E_star if pair else E_star
     assert modulus is not None
-    body, second = _bodies(source, against, preparation)
+    sources = [each for each in (source, against) if each is not None]
+    parts = read_parts(sources, preparation)
+    body = together(parts)
+    if theories and not _has_spectrum(body):
+        raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
     if whole_curve and isinstance(body, Surface) and min(body.shape) >= _COARSENED_FROM:
         grid_error, body = True, _trimmed(body)
     if out is not None:
@@ -114,8 +119,10 @@ def press_file(
             )
         forces = asked or default_forces(body, modulus, loading.count or DEFAULT_LOADS)
         forces = with_curve(forces) if whole_curve else forces
+        second = parts[1] if len(parts) > 1 else None
+        assert second is None or isinstance(second, Line)
         scan = press_scan(body, E_star=modulus, forces=forces, against=second)
-        result = Pressed(source, body, scan.curve, _indices(forces, asked, len(forces)))
+        result = Pressed(source, parts, body, scan.curve, _indices(forces, asked, len(forces)))
         result = replace(result, stiffness_interval=(scan.low, scan.high))
     else:
         forces = with_curve(asked) if whole_curve and asked else asked
@@ -126,11 +133,27 @@ def press_file(
         shown = forces.index(asked[-1]) if asked else 3 * wish.count // 4
         curve, interrupted = wish.press(body, [shown] if out is not None else False, progress)
         indices = _indices(forces, asked, curve.status.size)
-        result = Pressed(source, body, curve, indices, interrupted=interrupted)
-        result = _with_intervals(result, wish, preparation, progress)
-    notes = [*loading.meaning(body), *notes_on_body(body), *result.notes, *result.curve.warnings]
+        result = Pressed(source, parts, body, curve, indices, interrupted=interrupted)
+        result = _with_intervals(result, wish, sources, preparation)
+    notes = [
+        *loading.meaning(body),
+        *notes_on_parts(parts),
+        *result.notes,
+        *result.curve.warnings,
+    ]
     result = replace(result, pair=pair, notes=notes)
     return _answered(result, modulus, periodic, frequency, theories)
+
+
+def _trimmed(surface: Surface) -> Surface:
+    """The surface without the last rows and columns that cannot be coarsened twice."""
+    nx, ny = (n - n % 4 for n in surface.shape)
+    return surface if (nx, ny) == surface.shape else surface.cropped((0, nx), (0, ny))
+
+
+def _has_spectrum(body: Body) -> bool:
+    """Whether it is a surface with enough points and some roughness."""
+    return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
 
 
 @dataclass(frozen=True)
@@ -177,34 +200,33 @@ def _indices(forces: list[float], asked: list[float], count: int) -> NDArray[np.
 
 
 def _with_intervals(
-    pressed: Pressed, wish: _Wish, preparation: Preparation | None, progress: Progress | None
+    pressed: Pressed, wish: _Wish, sources: Sequence[Source], preparation: Preparation | None
 ) -> Pressed:
     """Add what the grid leaves open, and what another way to fill missing points changes."""
     curve, body = pressed.curve, pressed.body
     errors = [curve.stiffness_error, curve.area_fraction_error]
     most_area = curve.area_fraction  # whole cells overstate, and finer waves take away
-    if (
-        not pressed.interrupted
-        and body.settings.get("missing_points")
-        and isinstance(body, Surface)
-        and curve.area_fraction_corrected is not None
-    ):
+    filled = any(part.settings.get("missing_points") for part in pressed.parts)
+    if filled and not pressed.interrupted and isinstance(body, Surface):
         filling = Missing(pressed.source.missing).other
-        other = prepared(pressed.source.read(filling), preparation)
+        other = together(read_parts(sources, preparation, filling))
         assert isinstance(other, Surface)
         if other.shape != body.shape:
             other = _trimmed(other)
-        moved, interrupted = wish.press(other, False, progress)
+        moved, interrupted = wish.press(other, False, None)
+        assert most_area is not None
+        assert curve.area_fraction_corrected is not None
         assert moved.area_fraction_corrected is not None
         changes = [
             np.abs(moved.stiffness - curve.stiffness),
             np.abs(moved.area_fraction_corrected - curve.area_fraction_corrected),
         ]
-        values = (curve.stiffness, curve.area_fraction_corrected)
         with np.errstate(invalid="ignore", divide="ignore"):
             shares = [
                 float(np.nanmax(change / value, initial=0.0))
-                for change, value in zip(changes, values, strict=True)
+                for change, value in zip(
+                    changes, (curve.stiffness, curve.area_fraction_corrected), strict=True
+                )
             ]
         note = (
             f"filled by {filling} instead: stiffness moves by up to {shares[0]:.2%}, "
@@ -214,7 +236,6 @@ def _with_intervals(
             change if error is None else np.hypot(error, change)
             for error, change in zip(errors, changes, strict=True)
         ]
-        assert most_area is not None
         most_area = most_area + changes[1]
         pressed = replace(pressed, notes=[note], interrupted=interrupted)
     return replace(
@@ -233,31 +254,6 @@ def _ends(value: Real | None, error: Real | None, most: Real | None = None) -> E
         return value / (1 + error / value), high if most is None else np.minimum(high, most)
 
 
-def _bodies(
-    source: Source, against: Source | None, preparation: Preparation | None
-) -> tuple[Body, Line | None]:
-    """The body to press, the sum of two surfaces; of two line scans both."""
-    first = prepared(source.read(), preparation)
-    if against is None:
-        return first, None
-    second = prepared(against.read(), preparation)
-    if isinstance(first, Surface) and isinstance(second, Surface):
-        return facing(first, second), None
-    if (
-        isinstance(first, Line)
-        and isinstance(second, Line)
-        and first.kind == second.kind == "profile"
-    ):
-        return first, second
-    raise InputError("two rough bodies must both be surfaces, or both line scans")
-
-
-def _trimmed(surface: Surface) -> Surface:
-    """The surface without the last rows and columns that cannot be coarsened twice."""
-    nx, ny = (n - n % 4 for n in surface.shape)
-    return surface if (nx, ny) == surface.shape else surface.cropped((0, nx), (0, ny))
-
-
 def _answered(
     pressed: Pressed,
     E_star: float,
@@ -270,7 +266,7 @@ def _answered(
     found = None
     lines: list[TheoryCurve] = []
     notes = pressed.notes
-    if isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0:
+    if isinstance(body, Surface) and _has_spectrum(body):
         alike = isotropy(body)
         if theories and alike < ALIKE:
             notes = [
@@ -283,8 +279,6 @@ def _answered(
         pressures = curve.force[curve.converged] / body.area
         if pressures.size:
             lines = [theory(name, spectrum, E_star, pressures) for name in theories]
-    elif theories:
-        raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
     if pressed.pair is None:
         return replace(pressed, theories=lines, notes=notes)
     saturated = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -76,6 +77,11 @@ def ask(
         raise InputError('a report needs a --load, such as "10 N"')
     if friction is not None and report is None:
         raise InputError("partial slip is drawn in a report: give --report too")
+    hertz = in_si(frequency, "Hz", "frequency") if frequency is not None else None
+    if hertz is not None and not 0 < hertz < math.inf:
+        raise InputError(f'frequency is "{frequency}"; a positive one is needed')
+    if friction is not None and not 0 < friction < math.inf:
+        raise InputError(f"the coefficient of friction is {friction}; a positive one is needed")
     result = press_file(
         source,
         Loading(loads, depths, count),
@@ -85,7 +91,7 @@ def ask(
         preparation=preparation,
         periodic=periodic,
         grid_error=grid_error,
-        frequency=in_si(frequency, "Hz", "frequency") if frequency is not None else None,
+        frequency=hertz,
         theories=theories,
         whole_curve=report is not None,
         out=report or out,

@@ -1,13 +1,17 @@
-"""A topography file: what is needed to read it, and what to say of what was read."""
+"""Topography files: what is needed to read them, two together, and what to say of them."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from roughline.errors import InputError
 from roughline.measured import read, suspicions
 from roughline.missing import Filling
-from roughline.topography import Body
+from roughline.preparation import Preparation, prepared
+from roughline.topography import Body, Line, Surface
+from roughline.two_bodies import facing
 
 
 @dataclass(frozen=True)
@@ -47,3 +51,44 @@ def notes_on_body(body: Body) -> list[str]:
     if body.settings.get("outliers_removed"):
         notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")
     return notes + suspicions(body)
+
+
+def read_parts(
+    sources: Sequence[Source], preparation: Preparation | None, filling: Filling | None = None
+) -> list[Body]:
+    """Read and prepare each topography; missing points are filled as stated or otherwise."""
+    return [prepared(each.read(filling), preparation) for each in sources]
+
+
+def together(parts: Sequence[Body]) -> Body:
+    """Return the body to press: the sum of two surfaces, or the first of two line scans.
+
+    Raises
+    ------
+    InputError
+        If one is a surface and the other is not, or they have too little in common.
+    """
+    if len(parts) == 1:
+        return parts[0]
+    first, second = parts
+    if isinstance(first, Surface) and isinstance(second, Surface):
+        return facing(first, second)
+    if (
+        isinstance(first, Line)
+        and isinstance(second, Line)
+        and first.kind == second.kind == "profile"
+    ):
+        return first
+    raise InputError("two rough bodies must both be surfaces, or both line scans")
+
+
+def notes_on_parts(parts: Sequence[Body]) -> list[str]:
+    """Say of each topography what :func:`notes_on_body` says."""
+    if len(parts) == 1:
+        return notes_on_body(parts[0])
+    names = ("first", "second")
+    return [
+        f"{which} body: {note}"
+        for which, part in zip(names, parts, strict=True)
+        for note in notes_on_body(part)
+    ]
