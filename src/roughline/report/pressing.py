@@ -229,8 +229,8 @@ def _with_intervals(
                 )
             ]
         note = (
-            f"filled by {filling} instead: stiffness moves by up to {shares[0]:.2%}, "
-            f"area by {shares[1]:.2%}"
+            f"filled by {filling} instead: stiffness moves by up to {100 * shares[0]:.2g}%, "
+            f"area by {100 * shares[1]:.2g}%"
         )
         errors = [
             change if error is None else np.hypot(error, change)
