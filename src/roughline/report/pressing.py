@@ -134,7 +134,7 @@ def press_file(
         curve, interrupted = wish.press(body, [shown] if out is not None else False, progress)
         indices = _indices(forces, asked, curve.status.size)
         result = Pressed(source, parts, body, curve, indices, interrupted=interrupted)
-        result = _with_intervals(result, wish, sources, preparation)
+        result = _with_intervals(result, wish, sources, preparation, progress)
     notes = [
         *loading.meaning(body),
         *notes_on_parts(parts),
@@ -200,7 +200,11 @@ def _indices(forces: list[float], asked: list[float], count: int) -> NDArray[np.
 
 
 def _with_intervals(
-    pressed: Pressed, wish: _Wish, sources: Sequence[Source], preparation: Preparation | None
+    pressed: Pressed,
+    wish: _Wish,
+    sources: Sequence[Source],
+    preparation: Preparation | None,
+    progress: Progress | None,
 ) -> Pressed:
     """Add what the grid leaves open, and what another way to fill missing points changes."""
     curve, body = pressed.curve, pressed.body
@@ -213,7 +217,7 @@ def _with_intervals(
         assert isinstance(other, Surface)
         if other.shape != body.shape:
             other = _trimmed(other)
-        moved, interrupted = wish.press(other, False, None)
+        moved, interrupted = wish.press(other, False, progress)
         assert most_area is not None
         assert curve.area_fraction_corrected is not None
         assert moved.area_fraction_corrected is not None
