@@ -195,10 +195,10 @@ def test_a_wrong_call_is_exit_2(arguments):
 
 
 def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch):
-    import roughline.report.pressing as pressing
+    import roughline.report.curves as curves
 
-    original = pressing.press
-    monkeypatch.setattr(pressing, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
+    original = curves.press
+    monkeypatch.setattr(curves, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
     code, out, _ = invoke("press", surface_file, "--modulus", "1 GPa", "--loads", 6)
     assert code == 1
     assert "max_iterations reached" in " ".join(out.split())
@@ -208,9 +208,9 @@ def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch)
 def test_ctrl_c_keeps_the_loads_that_were_solved(
     surface_file, invoke, monkeypatch, tmp_path, where
 ):
-    import roughline.report.pressing as pressing
+    import roughline.report.curves as curves
 
-    original = pressing.press
+    original = curves.press
 
     def press(*arguments, progress, **named):
         def stop(done, total):
@@ -220,7 +220,7 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
 
         return original(*arguments, progress=stop, **named)
 
-    monkeypatch.setattr(pressing, "press", press)
+    monkeypatch.setattr(curves, "press", press)
     folder = tmp_path / "pressed"
     code, out, err = invoke(
         *("press", surface_file, "--materials", "steel,copper", "--load", "1 N", "--load", "2 N"),
@@ -237,10 +237,10 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
 
 
 def test_a_report_with_loads_that_failed_says_so(surface_file, invoke, monkeypatch, tmp_path):
-    import roughline.report.pressing as pressing
+    import roughline.report.curves as curves
 
-    original = pressing.press
-    monkeypatch.setattr(pressing, "press", lambda *a, **k: original(*a, **k, max_iterations=1))
+    original = curves.press
+    monkeypatch.setattr(curves, "press", lambda *a, **k: original(*a, **k, max_iterations=1))
     code, out, err = invoke(
         *("press", surface_file, "--materials", "steel,copper", "--load", "0.1 N"),
         *("--load", "0.5 N", "--theory", "persson", "--friction", 0.3, "--report", tmp_path / "r"),

@@ -165,6 +165,16 @@ def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke
     assert "Preparation of the first body: detrended: tilt; of the second: detrended: tilt" in page
 
 
+def test_points_filled_before_are_not_said_to_matter_nothing(topographies, invoke, tmp_path):
+    code, _, errors = invoke("info", topographies / "opd-1.opd", "--out", tmp_path)
+    assert code == 0, errors
+    code, out, errors = invoke("press", tmp_path / "prepared.nc", *PRESS, "--resample", "64")
+    assert code == 0, errors
+    said = " ".join(out.split())
+    assert "116 missing points (0.04%) filled: harmonic" in said
+    assert "filled before the file was written" in said
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -216,7 +226,7 @@ def test_nothing_is_refused_after_the_work(tmp_path, invoke, monkeypatch, argume
 
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(32, 1)
     rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "map.nc")
-    monkeypatch.setattr("roughline.report.pressing.press", not_yet)
+    monkeypatch.setattr("roughline.report.curves.press", not_yet)
     code, _, _ = invoke(
         "press", tmp_path / "map.nc", "--materials", "steel,rigid", "--load", "1 N", *arguments
     )

@@ -12,10 +12,11 @@ from roughline.materials import Material, material
 from roughline.preparation import Preparation
 from roughline.quantities import in_si
 from roughline.report.client import write_report
+from roughline.report.curves import Progress
 from roughline.report.loading import DEFAULT_LOADS, Loading
 from roughline.report.pressed import Pressed
 from roughline.report.pressed_figures import write_pressed
-from roughline.report.pressing import Announce, Progress, press_file
+from roughline.report.pressing import Announce, press_file
 from roughline.report.source import Source
 
 
