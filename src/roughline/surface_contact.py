@@ -110,7 +110,7 @@ def press_surface(
         interrupted = True
         values[:, status == Status.INTERRUPTED] = np.nan
     residual, depth, force, stiffness, area, corrected, edge = values
-    warnings = () if periodic else _edge_warnings(surface, edge)
+    warnings = () if periodic else _edge_warnings(surface, force, edge)
     curve = Curve(
         depth=depth,
         force=force,
@@ -207,13 +207,14 @@ def _edge_share(contact: Contact) -> float:
     return float(contact.pressure[within < EDGE_WIDTH].sum() / contact.pressure.sum())
 
 
-def _edge_warnings(surface: Surface, edge: Field) -> tuple[str, ...]:
+def _edge_warnings(surface: Surface, force: Field, edge: Field) -> tuple[str, ...]:
     beyond = np.flatnonzero(edge > EDGE_SHARE)
     if not surface.is_cut_out or not beyond.size:
         return ()
     return (
-        f"from load {beyond[0] + 1} of {edge.size} on, up to {edge[beyond].max():.0%} of the force "
-        f"is carried within {EDGE_WIDTH:.0%} of the border, where this surface was cut out of a "
+        f"at forces of {force[beyond[0]]:.3g} to {force[beyond[-1]]:.3g}"
+        f"{' N' if surface.unit == 'm' else ''}, up to {edge[beyond].max():.0%} of the force is "
+        f"carried within {EDGE_WIDTH:.0%} of the border, where this surface was cut out of a "
         "larger one: what lies beyond would share the load, so depth, stiffness and area are those "
         "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or "
         "periodic=True",
