@@ -52,7 +52,10 @@ class Interrupted(KeyboardInterrupt):
     """
 
     def __init__(self, curve: Curve) -> None:
-        super().__init__(
-            f"interrupted: {int(curve.converged.sum())} of {curve.status.size} loads were solved"
-        )
+        super().__init__(curve)
         self.curve = curve
+
+    def __str__(self) -> str:
+        """Say how far it came."""
+        solved, loads = int(self.curve.converged.sum()), self.curve.status.size
+        return f"interrupted: {solved} of {loads} loads were solved"

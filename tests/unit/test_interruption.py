@@ -1,5 +1,7 @@
 """Ctrl-C while a surface is pressed: the loads that were solved stay."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -77,6 +79,8 @@ def test_an_interrupted_curve_can_be_written(tmp_path):
     with pytest.raises(rl.Interrupted) as caught:
         pressed(progress=stop_after(1))
     caught.value.curve.write(tmp_path / "curve.nc")
+    travelled = pickle.loads(pickle.dumps(caught.value))  # between processes
+    assert travelled.curve.status.tolist() == caught.value.curve.status.tolist()
     data = caught.value.curve.to_dataset()
     assert "interrupted" in data.status.attrs["flag_meanings"]
     assert np.isnan(data.pressure.values[1:]).all()

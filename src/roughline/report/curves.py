@@ -18,6 +18,8 @@ from roughline.topography import Body, Surface
 
 Progress = Callable[[int, int], None]
 
+_SMALL = 0.001  # changes below this are not told from none [%]
+
 
 @dataclass(frozen=True)
 class Wish:
@@ -130,8 +132,8 @@ def filled_otherwise(
         _combined(found.stiffness_error, stiffness),
         _combined(found.area_error, area),
         found.most_area + area,
-        f"filled by {filling} instead: stiffness moves by up to {share:.2g}%, "
-        f"area by {area_share:.2g}%",
+        f"filled by {filling} instead: stiffness moves by {_at_most(share)}, "
+        f"area by {_at_most(area_share)}",
     )
 
 
@@ -148,6 +150,10 @@ def _change(before: Real | None, after: Real | None) -> tuple[Real, float]:
     change = np.abs(after - before)
     with np.errstate(invalid="ignore", divide="ignore"):
         return change, 100 * float(np.nanmax(change / before, initial=0.0))
+
+
+def _at_most(per_cent: float) -> str:
+    return f"up to {per_cent:.2g}%" if per_cent >= _SMALL else f"less than {_SMALL}%"
 
 
 def _combined(error: Real | None, change: Real) -> Real:

@@ -50,6 +50,7 @@ def render(title: str, lead: str, sections: Sequence[Section]) -> str:
     """Return the page as HTML."""
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["verdict_class"] = _verdict_class
+    environment.filters["value_and_interval"] = _value_and_interval
     source = files("roughline.report").joinpath("page.html.jinja").read_text(encoding="utf-8")
     return environment.from_string(source).render(title=title, lead=lead, sections=sections)
 
@@ -76,6 +77,12 @@ def _markdown_table(table: Table) -> str:
     ]
     cells = [[cell.replace("|", "\\|") for cell in row] for row in (*lines, *table.rows)]
     return "\n".join(f"| {' | '.join(row)} |" for row in cells)
+
+
+def _value_and_interval(cell: str) -> list[str]:
+    """Where a number may be broken in two lines: before the bracket with its interval."""
+    value, bracket, interval = cell.partition(" (")
+    return [value, f"({interval}"] if bracket else [value]
 
 
 def _verdict_class(verdict: str) -> str:
