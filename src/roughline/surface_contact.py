@@ -62,7 +62,7 @@ def press_surface(
     make_operator = operators.periodic if periodic else operators.free
     dx, dy = surface.spacing
     operator = make_operator(surface.shape, (dx / units.length, dy / units.length), 1.0)
-    separation = surface.heights.max() - surface.heights
+    separation = np.subtract(surface.heights.max(), surface.heights, order="C")
     separation /= units.height
     path = follow(
         operator,

@@ -270,7 +270,10 @@ def _checked_heights(heights: Any, dimensions: int) -> NDArray[np.float64]:
         array = np.asarray(heights)
         if np.iscomplexobj(array):
             raise TypeError("complex")
-        array = np.ascontiguousarray(array, dtype=np.float64).view()
+        array = np.asarray(array, dtype=np.float64)
+        if not array.flags.f_contiguous:  # instruments' maps often run along y first; left so
+            array = np.ascontiguousarray(array)
+        array = array.view()
     except (TypeError, ValueError) as error:
         raise InputError(f"the heights are not an array of real numbers ({error})") from error
     if array.ndim != dimensions:
@@ -320,7 +323,7 @@ def _rms(values: NDArray[np.float64], mean: float = 0.0, largest: float | None =
         largest = float(np.abs(values).max(initial=0.0))
     if largest == 0.0:
         return 0.0
-    flat, total = values.reshape(-1), 0.0
+    flat, total = values.ravel(order="K"), 0.0
     for start in range(0, flat.size, _BLOCK):
         deviations = (flat[start : start + _BLOCK] - mean) / largest
         total += float(np.einsum("i,i->", deviations, deviations))

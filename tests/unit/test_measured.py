@@ -1,5 +1,6 @@
 """Files in and out: metres always, one clear line otherwise."""
 
+import tracemalloc
 import zipfile
 from dataclasses import replace
 
@@ -256,3 +257,28 @@ def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path):
         archive.writestr("main.xml", b"0" * 2**28)
     with pytest.raises(rl.InputError, match="would unpack to 268"):
         rl.read(path)
+
+
+@pytest.mark.parametrize("kind", ["nc", "npy", "x3p"])
+def test_large_maps_open_without_two_copies(tmp_path, kind):
+    from SurfaceTopography import Topography
+    from SurfaceTopography.IO.X3P import write_x3p
+
+    path = tmp_path / f"map.{kind}"
+    heights = np.random.default_rng(0).normal(size=(1200, 900)) * 1e-6
+    if kind == "nc":
+        rl.write(rl.Surface(heights, (1e-3, 1e-3), "m"), path)
+        asked = {}
+    elif kind == "npy":
+        np.save(path, heights)
+        asked = {"unit": "m", "sizes": (1e-3, 1e-3)}
+    else:
+        write_x3p(Topography(heights, (1e-3, 1e-3), unit="m"), path)
+        asked = {}
+    rl.read(path, **asked)  # loads what loads slowly
+    tracemalloc.start()
+    surface = rl.read(path, **asked)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert surface.heights == pytest.approx(heights, abs=1e-18)
+    assert peak < 1.5 * heights.nbytes

@@ -110,3 +110,35 @@ def test_impossible_surfaces_are_refused(heights, sizes, message):
 def test_impossible_lines_are_refused(heights, length, kind, message):
     with pytest.raises(rl.InputError, match=message):
         rl.Line(heights, length, kind=kind)
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_heights_in_either_order_are_not_copied(order):
+    heights = np.asarray(wave(), order=order)
+    assert np.shares_memory(rl.Surface(heights, (1.0, 1.0)).heights, heights)
+    assert not np.shares_memory(rl.Surface(heights[::2, ::2], (1.0, 1.0)).heights, heights)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_the_order_in_memory_changes_nothing(periodic):
+    made = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, 3).heights[:, :48]
+    surfaces = [rl.Surface(np.array(made, order=order), (1.0, 0.75)) for order in "CF"]
+    first, second = (
+        rl.press(
+            surface,
+            E_star=1.0,
+            forces=[0.01, 0.1, 1.0],
+            periodic=periodic,
+            fields=True,
+            grid_error=True,
+        )
+        for surface in surfaces
+    )
+    for name in ("depth", "force", "stiffness", "area_fraction", "stiffness_error"):
+        assert getattr(first, name) == pytest.approx(getattr(second, name), rel=1e-9), name
+    assert (first.fields[1].contact == second.fields[1].contact).all()
+    for name in ("rms_height", "rms_slope", "rms_curvature"):
+        expected = pytest.approx(getattr(surfaces[1], name), rel=1e-13)
+        assert getattr(surfaces[0], name) == expected
+    spectra = [rl.isotropic_spectrum(surface).C_2d for surface in surfaces]
+    assert spectra[0] == pytest.approx(spectra[1], rel=1e-9)
