@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from roughline import interface
 from roughline.contact import press
@@ -16,7 +16,7 @@ from roughline.materials import Interface
 from roughline.topography import Surface
 
 Real = NDArray[np.float64]
-Ends = tuple[ArrayLike, ArrayLike]
+Ends = tuple[Real, Real]
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +88,7 @@ def answers(
         Of the sum of both surfaces, for the estimates of the literature. [m], [1]
     frequency : float, optional
         Of an ultrasonic wave. [Hz]
-    stiffness_interval, area_interval : tuple of array_like, shape (loads,), optional
+    stiffness_interval, area_interval : tuple of ndarray, shape (loads,), optional
         Both ends, of stiffness [N / m] and of the area fraction [1].
     """
     k = np.stack([curve.stiffness, *(stiffness_interval or ())])

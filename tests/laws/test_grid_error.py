@@ -54,7 +54,7 @@ def test_it_covers_a_rough_surface_refined_with_the_same_seed(hurst, q_high):
 def test_it_covers_nearly_all_of_many_rough_surfaces():
     covered = {"stiffness": [], "area": []}
     claimed = []
-    for seed in range(6):
+    for seed in range(2000, 2006):  # others than those on which the factors were chosen
         for hurst in (0.2, 0.5, 0.8):
             for q_high in (None, 2 * np.pi * 16):
                 spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_high=q_high)

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from roughline.cli import options
-from roughline.cli.options import interruptible, print_json
+from roughline.cli.options import end_interrupted, interruptible, print_json
 
 LOADS = "Loads"
 BODIES = "Bodies"
@@ -160,7 +160,7 @@ def press(
     if threads is not None:
         set_threads(threads)
     source = options.source_of(file, unit, channel, size, fill, max_missing)
-    with interruptible("no load was solved"), load_progress() as progress:
+    with interruptible("there is no result"), load_progress() as progress:
         result = ask(
             source,
             loads=load or [],
@@ -186,8 +186,7 @@ def press(
     else:
         print_pressed(result)
     if result.interrupted:
-        with interruptible("the loads solved before are above"):
-            raise KeyboardInterrupt
+        end_interrupted("the loads solved before are above")
     if not result.curve.converged.all():
         raise typer.Exit(1)
 

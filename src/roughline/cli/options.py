@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
@@ -211,5 +211,10 @@ def interruptible(kept: str) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        typer.echo(f"interrupted; {kept}", err=True)
-        raise typer.Exit(130) from None
+        end_interrupted(kept)
+
+
+def end_interrupted(kept: str) -> NoReturn:
+    """End with exit code 130 and a word on what is kept."""
+    typer.echo(f"interrupted; {kept}", err=True)
+    raise typer.Exit(130) from None

@@ -28,7 +28,7 @@ ASSUMPTIONS = (
     "Linear elastic half-spaces, small slopes, no friction in the normal problem, no adhesion, "
     "static loads.",
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
-    "them the real contact area; stiffness and conductance depend on them little.",
+    "them the real contact area; stiffness and conductance depend on them less.",
     "Intervals are those of the grid and of filled points, or of what a line scan leaves open; "
     "the scatter of material data and of other places on the part comes on top.",
 )

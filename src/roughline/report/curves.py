@@ -7,12 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughline.answers import Ends
 from roughline.contact import press
 from roughline.curve import Curve
 from roughline.errors import Interrupted
 from roughline.missing import Missing
 from roughline.preparation import Preparation
-from roughline.report.pressed import Ends, Real
+from roughline.report.pressed import Real
 from roughline.report.source import Source, read_parts, together
 from roughline.topography import Body, Surface
 
@@ -22,7 +23,7 @@ _SMALL = 0.001  # changes below this are not told from none [%]
 
 
 @dataclass(frozen=True)
-class Wish:
+class Run:
     """Loads and settings, for the body and for the same body filled otherwise."""
 
     E_star: float
@@ -95,9 +96,9 @@ class Solved:
         return _ends(self.curve.area_fraction_corrected, self.area_error, self.most_area)
 
 
-def solved(wish: Wish, body: Body, fields: list[int] | bool, progress: Progress | None) -> Solved:
-    """Press a body; what its grid leaves open is known if the wish says so."""
-    curve, interrupted = wish.press(body, fields, progress)
+def solved(run: Run, body: Body, fields: list[int] | bool, progress: Progress | None) -> Solved:
+    """Press a body; what its grid leaves open is known if the run says so."""
+    curve, interrupted = run.press(body, fields, progress)
     # whole cells overstate an area, and finer waves take away from it
     return Solved(
         curve, interrupted, curve.stiffness_error, curve.area_fraction_error, curve.area_fraction
@@ -106,7 +107,7 @@ def solved(wish: Wish, body: Body, fields: list[int] | bool, progress: Progress 
 
 def filled_otherwise(
     found: Solved,
-    wish: Wish,
+    run: Run,
     body: Surface,
     sources: Sequence[Source],
     preparation: Preparation | None,
@@ -122,7 +123,7 @@ def filled_otherwise(
     if np.array_equal(other.heights, body.heights):
         note = "the points were filled before the file was written: what that changes is not known"
         return replace(found, note=note)
-    moved, interrupted = wish.press(other, False, progress)
+    moved, interrupted = run.press(other, False, progress)
     stiffness, share = _change(curve.stiffness, moved.stiffness)
     area, area_share = _change(curve.area_fraction_corrected, moved.area_fraction_corrected)
     assert found.most_area is not None

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.answers import Answer
+from roughline.answers import Answer, Ends
 from roughline.curve import Curve
 from roughline.materials import Interface
 from roughline.report.loading import nominal_area
@@ -18,7 +18,6 @@ from roughline.theories import TheoryCurve
 from roughline.topography import Body
 
 Real = NDArray[np.float64]
-Ends = tuple[Real, Real]
 
 
 @dataclass(frozen=True, eq=False)

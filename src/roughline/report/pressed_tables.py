@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from roughline.answers import Answer
+from roughline.answers import Answer, Ends
 from roughline.curve import Status
 from roughline.quantities import engineering
-from roughline.report.pressed import Ends, Pressed
+from roughline.report.pressed import Pressed
 
 _NARROW = 0.1  # half width of an interval up to which it is written as ±
 _ENGINEERING = ("N", "m", "Pa", "N/m", "ohm", "W/K")

@@ -18,7 +18,7 @@ from roughline.isotropic import isotropic_spectrum
 from roughline.line_scan import press_scan
 from roughline.materials import Interface, Material
 from roughline.preparation import Preparation
-from roughline.report.curves import Progress, Wish, filled_otherwise, solved, trimmed
+from roughline.report.curves import Progress, Run, filled_otherwise, solved, trimmed
 from roughline.report.folder import make_folder
 from roughline.report.loading import (
     DEFAULT_LOADS,
@@ -123,15 +123,15 @@ def press_file(
         result = Pressed(source, parts, body, scan.curve, indices, (scan.low, scan.high))
     else:
         forces = with_curve(asked) if whole_curve and asked else asked
-        wish = Wish(modulus, forces, loading.heights() or [], loading.count, periodic, grid_error)
+        run = Run(modulus, forces, loading.heights() or [], loading.count, periodic, grid_error)
         if isinstance(body, Surface) and body.heights.size >= _LARGE:
-            cost = estimate(body.shape, wish.count, periodic=periodic)
-            announce(f"{body.shape[0]} x {body.shape[1]} points, {wish.count} loads: {cost}")
-        shown = forces.index(asked[-1]) if asked else 3 * wish.count // 4
-        found = solved(wish, body, [shown] if out is not None else False, progress)
+            cost = estimate(body.shape, run.count, periodic=periodic)
+            announce(f"{body.shape[0]} x {body.shape[1]} points, {run.count} loads: {cost}")
+        shown = forces.index(asked[-1]) if asked else 3 * run.count // 4
+        found = solved(run, body, [shown] if out is not None else False, progress)
         filled = any(part.settings.get("missing_points") for part in parts)
         if filled and isinstance(body, Surface) and not found.interrupted:
-            found = filled_otherwise(found, wish, body, sources, preparation, progress)
+            found = filled_otherwise(found, run, body, sources, preparation, progress)
         result = Pressed(
             source,
             parts,
