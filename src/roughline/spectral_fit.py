@@ -22,7 +22,7 @@ _HURSTS = np.linspace(-0.49, 1.5, 200)
 _CANDIDATES = 80  # roll-offs and cutoffs tried, evenly in their logarithms
 _SMEARED = (1, 4)  # rings that a cutoff half fills: the one it falls in, and those of a Hann window
 _JUMPS = 20  # largest jumps of the spectrum, tried as its end as well
-_BINS_PER_DECADE = 8  # of the free spectrum beyond the cutoff
+_BINS_PER_DECADE = 10  # of deviations from the law, and of the free spectrum beyond its end
 _CORRELATED = 2.2  # modes that a Hann window makes of one, in each direction
 _LEVEL = 0.975  # of profile likelihoods; 95 in 100 hold the truth, as ends are chosen as well
 _FLOOR = 1e-14  # of the largest power: rounding
@@ -35,7 +35,8 @@ _MOST_SCATTER = 0.15  # rms of log10 of the spectrum about the law
 class SelfAffineFit:
     """A plateau, then a power law, up to where it ends.
 
-    Intervals are of 95 %, and allow for deviations of 10 % from the law that no sample explains.
+    Intervals are of 95 %, and allow for deviations of 10 % from the law, in each tenth of a decade,
+    that no sample explains.
 
     Attributes
     ----------
@@ -152,7 +153,10 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     power = np.maximum(power, _FLOOR * power.max())
     halves = modes / 2  # the other half are their conjugates
     correlated = _CORRELATED ** (1 if cut else 2) if spectrum.windowed else 1.0
-    weight = 1 / (correlated / halves + _DESCRIPTION**2)
+    # a deviation is shared by the rings of its bin: else the shortest waves, whose rings are many,
+    # would decide alone
+    bins = _bins(q)
+    weight = 1 / (correlated / halves + _DESCRIPTION**2 * np.bincount(bins)[bins])
     smeared = _SMEARED[spectrum.windowed]
     deviance, rolls, ends, q_ends = _deviances(q, power, weight, smeared, cut)
     best = np.unravel_index(np.argmin(deviance), deviance.shape)
@@ -266,7 +270,7 @@ def _free_deviance(q: Real, power: Real, weight: Real) -> float:
     """Deviance of a spectrum with a level for each bin, and the price of these levels."""
     if q.size == 0:
         return 0.0
-    bins = np.floor(_BINS_PER_DECADE * np.log10(q / q[0])).astype(np.intp)
+    bins = _bins(q)
     sums, means, logs = (
         np.bincount(bins, values) for values in (weight, weight * power, weight * np.log(power))
     )
@@ -274,6 +278,11 @@ def _free_deviance(q: Real, power: Real, weight: Real) -> float:
     own = sums[there] * np.log(means[there] / sums[there]) - logs[there]
     price = math.log(weight.sum() + 1) * (np.count_nonzero(there) + 1)
     return float(2 * own.sum() + price)
+
+
+def _bins(q: Real) -> NDArray[np.intp]:
+    """Numbers of the bins of equal ratios that wavenumbers fall in."""
+    return np.floor(_BINS_PER_DECADE * np.log10(q / q[0])).astype(np.intp)
 
 
 def _spaced(first: int, last: int) -> NDArray[np.intp]:

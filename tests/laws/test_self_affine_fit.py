@@ -95,6 +95,56 @@ def test_what_is_not_self_affine_is_said():
         fit_self_affine(isotropic_spectrum(rl.Surface(noise.heights[:12, :12], (1.0, 1.0))))
 
 
+def off_the_law(spectrum, fit):
+    """Rms over tenths of a decade of the logarithm of the spectrum over the fitted law.
+
+    Of those with 40 modes or more: chance leaves less than .1 there.
+    """
+    law = fit.values(spectrum.q)
+    inside = np.isfinite(law) & (spectrum.modes > 0)
+    tenths = np.unique(np.floor(10 * np.log10(spectrum.q[inside])), return_inverse=True)[1]
+    modes, power, expected = (
+        np.bincount(tenths, spectrum.modes[inside] * values[inside])
+        for values in (np.ones(law.size), spectrum.C_2d, law)
+    )
+    known = modes >= 40
+    return np.sqrt(np.mean(np.log10(power[known] / expected[known]) ** 2))
+
+
+def binned_hurst(spectrum, fit):
+    """H by least squares over tenths of a decade of the power law that was found."""
+    inside = (spectrum.q >= fit.q_roll) & (spectrum.q <= fit.q_high) & (spectrum.modes > 0)
+    q, power = spectrum.q[inside], spectrum.C_2d[inside]
+    tenths = np.floor(10 * np.log10(q)).astype(int)
+    means = [
+        [np.log(values[tenths == tenth].mean()) for tenth in np.unique(tenths)]
+        for values in (q, power)
+    ]
+    return -np.polyfit(*means, 1)[0] / 2 - 1
+
+
+def test_all_decades_of_a_measured_map_count(topographies):
+    surface = rl.prepared(rl.read(topographies / "opd-1.opd"))
+    spectrum = isotropic_spectrum(surface)
+    fit = fit_self_affine(spectrum)
+    assert fit.hurst_interval[0] <= binned_hurst(spectrum, fit) <= fit.hurst_interval[1]
+    assert off_the_law(spectrum, fit) < 0.2
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("hursts", [(0.1, 0.6), (0.9, 0.4), (0.3, 1.0)])
+def test_where_the_slope_changes_the_law_is_near_or_refused(hursts, seed):
+    n, (long, short) = 256, hursts
+    waves = rl.SelfAffine(hurst=long, rms_height=1.0, q_roll=4 * Q_0).surface(n, seed, "gaussian")
+    q = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2))
+    steeper = np.maximum(1.0, q / 25) ** -(short - long)
+    heights = np.fft.ifft2(np.fft.fft2(waves.heights) * steeper).real
+    spectrum = isotropic_spectrum(rl.Surface(heights, (1.0, 1.0)))
+    fit = fit_self_affine(spectrum)
+    assert min(hursts) - 0.1 < fit.hurst < max(hursts) + 0.1
+    assert fit.objections or off_the_law(spectrum, fit) < 0.2
+
+
 def test_units_are_neutral():
     surface = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_roll=8 * Q_0).surface(128, 3)
     one = fit_self_affine(isotropic_spectrum(surface))
