@@ -56,6 +56,7 @@ def test_a_scheduler_that_does_not_answer(plan, tmp_path, address, monkeypatch):
     with pytest.raises(rl.ClusterError, match="no Dask scheduler answers at") as caught:
         campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
     assert "\n" not in str(caught.value)
+    assert dask.config.get("scheduler", None) is None  # the caller's Dask is left as it was
 
 
 def test_a_scheduler_without_workers(plan, tmp_path, monkeypatch):
@@ -126,3 +127,10 @@ def test_workers_that_are_gone_for_good_are_replaced():
         while not here.cores():
             assert time.monotonic() < deadline, "no new worker"
             time.sleep(0.2)
+
+
+def test_the_callers_dask_is_left_alone():
+    with cluster.local(1) as workers:
+        assert workers.cores() == 1
+        assert dask.config.get("scheduler", None) is None
+    assert dask.config.get("scheduler", None) is None

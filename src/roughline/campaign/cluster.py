@@ -89,7 +89,7 @@ def local(workers: int) -> Iterator[Cluster]:
                 )
         except (OSError, RuntimeError, TimeoutError) as error:
             raise ClusterError(f"workers on this machine do not start ({error})") from error
-        with cluster, Client(cluster) as client:
+        with cluster, Client(cluster, set_as_default=False) as client:
             # a worker that dies while it starts is given up by Dask, unless asked again
             yield Cluster(client, client.dashboard_link, lambda: cluster.scale(workers))
 
@@ -107,7 +107,8 @@ def remote(address: str) -> Iterator[Cluster]:
 
     with _quiet():
         try:
-            client = Client(address, timeout=_PATIENCE / 3)
+            # a default one that fails leaves its mark on whatever asks Dask for a scheduler later
+            client = Client(address, timeout=_PATIENCE / 3, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             raise ClusterError(
                 f"no Dask scheduler answers at {address}; start one with `dask scheduler`, or "

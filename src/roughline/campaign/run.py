@@ -219,7 +219,8 @@ class _Campaign:
         from distributed import wait
 
         while True:
-            with suppress(TimeoutError, CancelledError):  # both are looked at below
+            # both exceptions are looked at below
+            with self.cluster.client.as_current(), suppress(TimeoutError, CancelledError):
                 wait(list(self.pending), timeout=_GLANCE, return_when="FIRST_COMPLETED")
             finished = [future for future in self.pending if future.status != "pending"]
             if any(future.status in ("cancelled", "lost") for future in finished):
