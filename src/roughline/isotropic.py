@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from roughline import fft, synthesis
 from roughline.errors import InputError
+from roughline.leakage import RING_HALF_WIDTH
 from roughline.topography import Line, Settings, Surface
 
 Real = NDArray[np.float64]
@@ -34,6 +35,8 @@ class IsotropicSpectrum:
         How many modes each mean is of; 0 where it lies between its neighbours. [1]
     windowed : bool
         Whether a Hann window was laid over the heights.
+    aspect : float
+        Lx / Ly. [1]
     """
 
     q: Real
@@ -42,6 +45,7 @@ class IsotropicSpectrum:
     rms_height: float
     modes: Real
     windowed: bool
+    aspect: float = 1.0
 
     def __add__(self, other: IsotropicSpectrum) -> IsotropicSpectrum:
         """Spectrum of the sum of two independent surfaces, on the waves of the first."""
@@ -121,8 +125,7 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     )
     along = np.hypot(qx[:, np.newaxis], qy).ravel() / q_low
     ring = np.rint(along).astype(np.intp)
-    # wider rings would smear the steep spectrum where it matters most, at its long waves
-    inside = np.abs(along - ring) <= 0.25
+    inside = np.abs(along - ring) <= RING_HALF_WIDTH
     last = int(min(np.pi / spacing for spacing in surface.spacing) / q_low - 0.5)
     counts, sums = (
         np.bincount(ring[inside], weights=weights, minlength=last + 1)[1 : last + 1]
@@ -139,4 +142,5 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
         rms_height=rms,
         modes=counts.astype(np.float64),
         windowed=surface.is_cut_out,
+        aspect=surface.sizes[0] / surface.sizes[1],
     )

@@ -1,4 +1,4 @@
-"""A line scan pressed: through the surface's spectrum to reduced lines, with an interval."""
+"""A line scan pressed: through the surfaces that it may be cut from, with an interval."""
 
 from __future__ import annotations
 
@@ -10,8 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from roughline.contact import press
 from roughline.curve import Curve
+from roughline.isotropic import IsotropicSpectrum
 from roughline.profile import profile_spectrum
+from roughline.scan_bins import ScanBins
+from roughline.spectral_fit import SelfAffineFit, fit_self_affine
 from roughline.topography import Line
+from roughline.trust import trust_map
 
 Real = NDArray[np.float64]
 
@@ -27,10 +31,11 @@ class PressedScan:
     Attributes
     ----------
     curve : Curve
-        Means over the lines; of a square with the scan's length as its side.
+        Medians over the lines; of a square with the scan's length as its side.
     low, high : ndarray, shape (loads,)
         95 % interval of the stiffness of one such surface: what the scan leaves open of the
-        spectrum, and what random phases do. [force / length]
+        spectrum, what random phases do, and by how much the full model differs from the reduced
+        one. [force / length]
     """
 
     curve: Curve
@@ -43,9 +48,9 @@ def press_scan(
 ) -> PressedScan:
     """Press a line scan with the reduced model.
 
-    The scan's spectrum is turned into the surface's by Abel inversion, which assumes that the
-    surface is alike in all directions. Each of 200 lines has random phases and a spectrum that
-    another scan of the same surface might have had.
+    Each of 200 lines belongs to a surface that the scan may be cut from: its spectrum follows a
+    self-affine law and deviates from it, as likely as the scan makes both, and its phases are
+    random. The surface is assumed to be alike in all directions.
 
     Parameters
     ----------
@@ -66,34 +71,34 @@ def press_scan(
     InputError
         If the line is no profile, has no spectrum, or the forces cannot be used.
     """
-    spectra = [profile_spectrum(each) for each in (scan, against) if each is not None]
+    scans = [each for each in (scan, against) if each is not None]
     springs = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE * scan.heights.size)
+    surfaces = [
+        surfaces_of(each, np.random.SeedSequence(rng, spawn_key=(LINES, which)))
+        for which, each in enumerate(scans)
+    ]
     curves = []
-    for i in range(LINES):
-        seed = np.random.SeedSequence(rng, spawn_key=(i,))
-        drawn = [  # phases know nothing of amplitudes, and one body nothing of the other
-            spectrum.drawn(np.random.SeedSequence(rng, spawn_key=(i, 1 + which))).surface()
-            for which, spectrum in enumerate(spectra)
-        ]
+    for i, drawn in enumerate(zip(*surfaces, strict=True)):
         both = drawn[0] if against is None else drawn[0] + drawn[1]
-        line = both.line(springs, seed)
+        line = both.line(springs, np.random.SeedSequence(rng, spawn_key=(i,)))
         curves.append(press(replace(line, unit=scan.unit), E_star=E_star, forces=forces))
     stiffness = np.array([curve.stiffness for curve in curves])
-    low, high = np.percentile(stiffness, [2.5, 97.5], axis=0)
+    # of so many draws, ranks by Weibull's rule hold another in 95 of 100 cases
+    low, high = np.percentile(stiffness, [2.5, 97.5], axis=0, method="weibull")
     first = curves[0]
-    mean = replace(
+    median = replace(
         first,
-        depth=np.mean([curve.depth for curve in curves], axis=0),
-        stiffness=stiffness.mean(axis=0),
+        depth=np.median([curve.depth for curve in curves], axis=0),
+        stiffness=np.median(stiffness, axis=0),
         resolved=np.all([curve.resolved for curve in curves], axis=0),
-        rms_height=math.hypot(*(spectrum.rms_height for spectrum in spectra)),
+        rms_height=float(np.median([curve.rms_height for curve in curves])),
         settings={
             "roughline_version": first.settings["roughline_version"],
             "model": "reduced",
             "control": "forces",
             "lines": LINES,
             "seed": rng,
-            "spectrum": "Abel inversion of the line scan's",
+            "spectrum": "of surfaces that the line scan may be cut from",
             **scan.settings_as_body(),
         },
         warnings=(
@@ -101,4 +106,41 @@ def press_scan(
             "the square of the scan's length, is assumed",
         ),
     )
-    return PressedScan(mean, low, high)
+    less, more = _full_over_reduced(median, fit_self_affine(profile_spectrum(scan)))
+    return PressedScan(median, low * less, high * more)
+
+
+def surfaces_of(scan: Line, rng: np.random.SeedSequence) -> list[IsotropicSpectrum]:
+    """Draw the spectra of surfaces that a scan may be cut from, one for each line."""
+    spectrum = profile_spectrum(scan)
+    q_low = 2 * math.pi / scan.length
+    found = []
+    for power in ScanBins.of(spectrum).surfaces(LINES, np.random.default_rng(rng)):
+        m = np.arange(1.0, power.size + 1)
+        found.append(
+            IsotropicSpectrum(
+                q=q_low * m,
+                C_2d=power / q_low**2,
+                length=scan.length,
+                rms_height=math.sqrt(2 * math.pi * float(m @ power)),
+                modes=np.zeros(m.size),
+                windowed=False,
+            )
+        )
+    return found
+
+
+def _full_over_reduced(curve: Curve, fit: SelfAffineFit) -> tuple[Real, Real]:
+    """Factors between which the full model's stiffness is over the reduced one's, by the map.
+
+    At the nearest place of the map, for spectra and loads that are beyond it.
+    """
+    table = trust_map()
+    dimension = float(np.clip(3 - fit.hurst, *table.fractal_dimensions[[0, -1]]))
+    roll_off = float(
+        np.clip((fit.q_roll or fit.q_low) / fit.q_low, *table.roll_off_ratios[[0, -1]])
+    )
+    loads = np.clip(curve.force_bar, *table.force_bars[[0, -1]])
+    found = [table.at(dimension, load, roll_off) for load in loads]
+    low, high = (np.array([1 + getattr(each, end) for each in found]) for end in ("low", "high"))
+    return np.minimum(low, 1.0), np.maximum(high, 1.0)

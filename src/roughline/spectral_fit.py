@@ -7,26 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special, stats
+from scipy import stats
 
 from roughline.errors import InputError
 from roughline.isotropic import IsotropicSpectrum
+from roughline.map_rings import MapRings
 from roughline.profile import ProfileSpectrum
+from roughline.scan_bins import ScanBins
+from roughline.self_affine_laws import Indices, Laws
 from roughline.spectra import SelfAffine
 
 Real = NDArray[np.float64]
 Interval = tuple[float, float]
 
-_DESCRIPTION = 0.1  # deviations from the law that still count as following it
-_HURSTS = np.linspace(-0.49, 1.5, 200)
-_CANDIDATES = 80  # roll-offs and cutoffs tried, evenly in their logarithms
-_SMEARED = (1, 4)  # rings that a cutoff half fills: the one it falls in, and those of a Hann window
-_JUMPS = 20  # largest jumps of the spectrum, tried as its end as well
-_BINS_PER_DECADE = 10  # of deviations from the law, and of the free spectrum beyond its end
-_CORRELATED = 2.2  # modes that a Hann window makes of one, in each direction
 _LEVEL = 0.975  # of profile likelihoods; 95 in 100 hold the truth, as ends are chosen as well
-_FLOOR = 1e-14  # of the largest power: rounding
-_LEAST_MEANS = 12
+_TRIED = 200  # of the likely laws, for what they say of the rms height
 _LEAST_RANGE = 3.0  # of wavenumbers under the power law, to speak of a law
 _MOST_SCATTER = 0.15  # rms of log10 of the spectrum about the law
 
@@ -47,7 +42,7 @@ class SelfAffineFit:
     q_roll : float or None
         Roll-off wavenumber; None if the law goes on to the longest waves. [1 / length]
     q_roll_interval : tuple of float
-        Its interval, which begins at the longest waves if there may be none. [1 / length]
+        Its interval, which begins at zero if there may be none. [1 / length]
     q_high : float or None
         Where the power law ends, by a cutoff, a filter or noise; None if it goes on to the
         shortest waves. [1 / length]
@@ -56,9 +51,10 @@ class SelfAffineFit:
     C_0 : float
         Value on the plateau, and at q_roll. [length⁴]
     rms_height : float
-        Of the surface. [length]
+        Of the surface's waves up to the length of the piece: what the piece has, with what the
+        removed mean plane took and without what longer waves added, both by the law. [length]
     rms_interval : tuple of float
-        For surfaces of the same origin and size; long waves are few. [length]
+        Its interval; long waves are few. [length]
     scatter : float
         Rms of log10 of the spectrum about the law, beyond what chance explains. [1]
     q_low : float
@@ -122,7 +118,8 @@ class SelfAffineFit:
 def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffineFit:
     """Fit a self-affine law with roll-off and cutoff by maximum likelihood.
 
-    The mean over the modes of a ring has a gamma distribution (Whittle's likelihood); for each
+    The mean over the modes of a ring has a gamma distribution (Whittle's likelihood); its
+    expectation is the law smeared as the piece's window and removed mean plane smear it. For each
     slope, roll-off and end the level follows in closed form. Beyond its end the spectrum is free,
     at a cost for each value that it takes there. The law of a profile is that of the surface's
     straight cuts.
@@ -142,149 +139,54 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     P. Whittle, "Estimation and information in stationary time series", Ark. Mat. 2, 423-434
     (1953).
     """
-    cut = isinstance(spectrum, ProfileSpectrum)
-    mean = spectrum.C_profile if isinstance(spectrum, ProfileSpectrum) else spectrum.C_2d
-    known = spectrum.modes > 0
-    q, power, modes = (array[known] for array in (spectrum.q, mean, spectrum.modes))
-    if q.size < _LEAST_MEANS:
-        raise InputError(
-            f"the spectrum has {q.size} wavenumbers; a fit needs {_LEAST_MEANS}: take more points"
-        )
-    power = np.maximum(power, _FLOOR * power.max())
-    halves = modes / 2  # the other half are their conjugates
-    correlated = _CORRELATED ** (1 if cut else 2) if spectrum.windowed else 1.0
-    # a deviation is shared by the rings of its bin: else the shortest waves, whose rings are many,
-    # would decide alone
-    bins = _bins(q)
-    weight = 1 / (correlated / halves + _DESCRIPTION**2 * np.bincount(bins)[bins])
-    smeared = _SMEARED[spectrum.windowed]
-    deviance, rolls, ends, q_ends = _deviances(q, power, weight, smeared, cut)
-    best = np.unravel_index(np.argmin(deviance), deviance.shape)
-    hurst, roll, end = _HURSTS[best[0]], rolls[best[1]], ends[best[2]]
-    within = deviance <= deviance[best] + stats.chi2.ppf(_LEVEL, 1)
-    spans = [np.flatnonzero(within.any(axis=other)) for other in ((1, 2), (0, 2), (0, 1))]
-    step = _HURSTS[1] - _HURSTS[0]
-    inside = slice(0, end + 1 - smeared)
-    if cut:
-        t = np.minimum(1.0, (q / q[roll]) ** 2)
-        beta = _incomplete_beta(t) - _incomplete_beta((q / q_ends[best[2]]) ** 2)
-        laws = _log_cut(q, q[roll], beta)
-    else:
-        laws = _log_law(q, q[roll])
-    law = np.exp(laws[best[0], inside])
-    C_0 = float((weight[inside] * power[inside] / law).sum() / weight[inside].sum())
-    misfit = np.log10(power[inside] / (C_0 * law))
-    by_chance = (correlated / halves[inside]) / math.log(10) ** 2
-    shares = weight[inside] / weight[inside].sum()
-    spread = math.sqrt(2 * float((modes * power**2).sum())) / float((modes * power).sum())
-    spread = 1.96 * min(spread * math.sqrt(correlated), 1.0) / 2  # of the rms, not of its square
-    last = q.size - 1
+    means = (
+        ScanBins.of(spectrum) if isinstance(spectrum, ProfileSpectrum) else MapRings.of(spectrum)
+    )
+    q_low, last = 2 * math.pi / spectrum.length, float(means.means.q[-1])
+    laws = means.laws()
+    best = laws.best
+    hurst, roll, end = laws.values(*best)
+    likely = laws.within(stats.chi2.ppf(_LEVEL, 1))
+    hursts, rolls, ends = (np.unique(indices) for indices in likely)
+    step = laws.hursts[1] - laws.hursts[0]
+    first_roll = laws.rolls[max(rolls[0] - 1, 0)] if laws.rolls[rolls[0]] > 1 else 0.0
+    last_roll = laws.rolls[min(rolls[-1] + 1, laws.rolls.size - 1)]
+    first_end = (laws.ends - laws.margins)[ends].min()
+    last_end = (laws.ends + laws.margins)[ends].max()
+    deviations = means.means.deviations(means.log_powers(hurst, roll, end) + laws.log_level[best])
+    rms = spectrum.rms_height * _rms_factors(means, laws, likely)
     return SelfAffineFit(
-        hurst=float(hurst),
-        hurst_interval=(float(_HURSTS[spans[0][0]] - step), float(_HURSTS[spans[0][-1]] + step)),
-        q_roll=float(q[roll]) if roll > 0 else None,
-        q_roll_interval=(
-            float(q[max(rolls[max(spans[1][0] - 1, 0)], 0)]),
-            float(q[rolls[min(spans[1][-1] + 1, rolls.size - 1)]]),
+        hurst=hurst,
+        hurst_interval=(
+            float(laws.hursts[hursts[0]] - step),
+            float(laws.hursts[hursts[-1]] + step),
         ),
-        q_high=float(q[end - smeared // 2]) if end < last else None,
-        q_high_interval=(
-            float(q[max(ends[max(spans[2][0] - 1, 0)] - smeared, 0)]),
-            float(q[min(ends[min(spans[2][-1] + 1, ends.size - 1)] + 1, last)]),
-        ),
-        C_0=C_0,
-        rms_height=spectrum.rms_height,
-        rms_interval=(
-            spectrum.rms_height * math.exp(-spread),
-            spectrum.rms_height * math.exp(spread),
-        ),
-        scatter=math.sqrt(max(0.0, float(shares @ (misfit**2 - by_chance)))),
-        q_low=float(q[0]),
-        q_last=float(q[-1]),
+        q_roll=q_low * roll if roll > 1 else None,
+        q_roll_interval=(q_low * float(first_roll), q_low * float(max(last_roll, 1.0))),
+        q_high=q_low * end if end < last else None,
+        q_high_interval=(q_low * float(min(first_end, last)), q_low * float(min(last_end, last))),
+        C_0=math.exp(laws.log_level[best]) * max(1.0, 1 / roll) ** (-2 * (hurst + 1)) / q_low**2,
+        rms_height=float(rms[0]),
+        rms_interval=(float(rms[1]), float(rms[2])),
+        scatter=deviations.scatter / math.log(10),
+        q_low=float(spectrum.q[0]),
+        q_last=q_low * last,
     )
 
 
-def _deviances(
-    q: Real, power: Real, weight: Real, smeared: int, cut: bool
-) -> tuple[Real, NDArray[np.intp], NDArray[np.intp], Real]:
-    """Deviance, and cost of what lies beyond, over exponents, roll-offs and ends.
+def _rms_factors(means: MapRings | ScanBins, laws: Laws, likely: tuple[Indices, ...]) -> Real:
+    """Rms height of a surface as large as the piece over that of the piece, with both ends.
 
-    With the roll-offs and ends that were tried, and the wavenumber at each end.
+    The mean square of a piece has about a gamma distribution, whose shape is that of its powers.
     """
-    last = q.size - 1
-    rolls = _spaced(0, last // 2)
-    least = min(_LEAST_MEANS // 2, last)
-    jumps = least + np.argsort(-np.abs(np.diff(np.log(power[least:]))))[:_JUMPS]
-    ends = np.union1d(_spaced(least, last), jumps)
-    q_ends = np.sqrt(q[ends] * q[np.minimum(ends + 1, last)])
-    if cut:  # waves beyond the shortest one seen add to a cut, if there are any
-        ends, q_ends = np.append(ends, last), np.append(q_ends, math.inf)
-    beyond = np.array([_free_deviance(q[e + 1 :], power[e + 1 :], weight[e + 1 :]) for e in ends])
-    beta = [_incomplete_beta((q / end) ** 2) for end in q_ends] if cut else []
-    deviance = np.full((_HURSTS.size, rolls.size, ends.size), np.inf)
-    for j, roll in enumerate(rolls):
-        usable = ends > roll + 2  # else no power law is left
-        if not cut:
-            own = _law_deviances(_log_law(q, q[roll]), power, weight)
-            deviance[:, j, usable] = own[:, ends[usable] - smeared]
-            continue
-        up_to_roll = _incomplete_beta(np.minimum(1.0, (q / q[roll]) ** 2))
-        for k in np.flatnonzero(usable):
-            inside = slice(0, ends[k] + 1 - smeared)
-            log_law = _log_cut(q[inside], q[roll], (up_to_roll - beta[k])[:, inside])
-            own = _law_deviances(log_law, power[inside], weight[inside])
-            deviance[:, j, k] = own[:, -1]
-    return deviance + beyond, rolls, ends, q_ends
-
-
-def _law_deviances(log_law: Real, power: Real, weight: Real) -> Real:
-    """Deviance from laws, each at its best level, over (law, number of means less one)."""
-    total = np.cumsum(weight)
-    level = np.cumsum(weight * power * np.exp(-log_law), axis=1) / total
-    return 2 * (
-        np.cumsum(weight * log_law, axis=1)
-        + total * np.log(level)
-        - np.cumsum(weight * np.log(power))
-    )
-
-
-def _log_law(q: Real, q_roll: float) -> Real:
-    """Logarithm of C_2d with a plateau of one, over (hurst, q)."""
-    return np.outer(-2 * (_HURSTS + 1), np.log(np.maximum(1.0, q / q_roll)))
-
-
-def _log_cut(q: Real, q_roll: float, beta: Real) -> Real:
-    """Logarithm of its straight cut, as in :meth:`Band.cut`, for all exponents at once."""
-    decay = 2 * (_HURSTS[:, np.newaxis] + 1)
-    plateau = 2 * np.sqrt(np.maximum(q_roll**2 - q**2, 0.0))
-    return np.log(plateau + q * (q / q_roll) ** -decay * np.maximum(beta, _FLOOR))
-
-
-def _incomplete_beta(t: Real) -> Real:
-    """B(t; (decay - 1) / 2, 1 / 2) over (hurst, t)."""
-    a = _HURSTS[:, np.newaxis] + 0.5
-    return np.asarray(special.beta(a, 0.5) * special.betainc(a, 0.5, np.minimum(t, 1.0)))
-
-
-def _free_deviance(q: Real, power: Real, weight: Real) -> float:
-    """Deviance of a spectrum with a level for each bin, and the price of these levels."""
-    if q.size == 0:
-        return 0.0
-    bins = _bins(q)
-    sums, means, logs = (
-        np.bincount(bins, values) for values in (weight, weight * power, weight * np.log(power))
-    )
-    there = sums > 0
-    own = sums[there] * np.log(means[there] / sums[there]) - logs[there]
-    price = math.log(weight.sum() + 1) * (np.count_nonzero(there) + 1)
-    return float(2 * own.sum() + price)
-
-
-def _bins(q: Real) -> NDArray[np.intp]:
-    """Numbers of the bins of equal ratios that wavenumbers fall in."""
-    return np.floor(_BINS_PER_DECADE * np.log10(q / q[0])).astype(np.intp)
-
-
-def _spaced(first: int, last: int) -> NDArray[np.intp]:
-    """Whole numbers from first to last, evenly in their logarithms."""
-    return np.unique(np.rint(np.geomspace(first + 1, last + 1, _CANDIDATES)).astype(np.intp)) - 1
+    some = np.unique(np.linspace(0, likely[0].size - 1, _TRIED).astype(np.intp))
+    factors = []
+    for law in (laws.best, *zip(*(indices[some] for indices in likely), strict=True)):
+        values = laws.values(*law)
+        whole, piece = means.mean_square(*values)
+        power = means.modes * np.exp(means.log_powers(*values))
+        shape = power.sum() ** 2 / (2 * (power**2 / means.modes).sum())
+        chance = stats.gamma.ppf([0.975, 0.025], shape) / shape
+        factors.append(whole / piece / np.array([1.0, *chance]))
+    best, low, high = factors[0][0], np.min(factors, axis=0)[1], np.max(factors, axis=0)[2]
+    return np.sqrt([best, low, high])

@@ -14,58 +14,107 @@ Q_0 = 2 * math.pi
 TRIALS = 200
 
 
-def random_spectrum(rng, n):
+def random_spectrum(rng, n, hursts=(0.1, 0.95), without=1.0):
     """H, with or without a roll-off, and with or without a cutoff below the grid's."""
-    roll = rng.choice([1.0, rng.uniform(4, 16)])
+    roll = rng.choice([without, rng.uniform(4, 16)])
     cutoff = rng.choice([n / 2, rng.uniform(0.35, 0.8) * n / 2])
-    return rng.uniform(0.1, 0.95), roll, cutoff
+    return rng.uniform(*hursts), roll, cutoff
 
 
-def found(fit, hurst, roll, cutoff, last):
+def lattice_rms(hurst, roll, cutoff, C_0):
+    """Rms height of the waves of a unit square, by the law."""
+    m = np.fft.fftfreq(2 * int(cutoff) + 2, 1 / (2 * int(cutoff) + 2))
+    q = np.hypot(m[:, np.newaxis], m)
+    q = q[(q > 0) & (q <= cutoff)]
+    return math.sqrt(C_0 * Q_0**2 * (np.maximum(1, q / roll) ** (-2 * (hurst + 1))).sum())
+
+
+def found(fit, hurst, roll, cutoff, last, rms=1.0):
     """Whether each parameter lies in its interval; a ring or bin holds all waves up to the next."""
     return (
         fit.hurst_interval[0] <= hurst <= fit.hurst_interval[1],
         fit.q_roll_interval[0] <= roll * Q_0 * (1 + 1e-9) and roll * Q_0 <= fit.q_roll_interval[1],
         fit.q_high_interval[0] <= cutoff * Q_0 <= fit.q_high_interval[1] * last,
-        fit.rms_interval[0] <= 1 <= fit.rms_interval[1],
+        fit.rms_interval[0] <= rms <= fit.rms_interval[1],
     )
 
 
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
-@pytest.mark.parametrize("origin", ["generated", "instrument file"])
-def test_maps_are_recovered_in_95_of_100(amplitudes, origin):
+def test_whole_surfaces_are_recovered_in_95_of_100(amplitudes):
     n, rng, hits, quiet = 128, np.random.default_rng(7), np.zeros(4), 0
     for seed in range(TRIALS):
         hurst, roll, cutoff = random_spectrum(rng, n)
         q_high = None if cutoff == n / 2 else cutoff * Q_0
         spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_roll=roll * Q_0, q_high=q_high)
-        heights = spectrum.surface(n, seed, amplitudes).heights
-        surface = rl.Surface(heights, (1.0, 1.0), settings={"origin": origin})
-        fit = fit_self_affine(isotropic_spectrum(surface))
+        fit = fit_self_affine(isotropic_spectrum(spectrum.surface(n, seed, amplitudes)))
         hits += found(fit, hurst, roll, cutoff, last=1 + 1 / (n / 2 - 1))
         quiet += not any("off the law" in text for text in fit.objections)
     assert (hits >= 0.95 * TRIALS).all(), hits
     assert quiet >= 0.95 * TRIALS
 
 
-def gaussian_profile(rng, n, spectrum):
-    """A cut with independent Gaussian modes of the exact spectrum C_profile."""
-    power = spectrum.C_profile(np.arange(1, n // 2) * Q_0) * Q_0
+PARENT = 4  # sides of a piece in the surface that it is cut from
+
+
+def tilted_piece(rng, n, seed, hursts, amplitudes="gaussian"):
+    """A piece with a tilt, as an instrument has it, and what its surface was made of."""
+    hurst, roll, cutoff = random_spectrum(rng, n, hursts, without=1 / PARENT)
+    spectrum = rl.SelfAffine(
+        hurst=hurst, length=PARENT, C_0=1.0, q_roll=roll * Q_0 * (1 + 1e-12), q_high=cutoff * Q_0
+    )
+    heights = spectrum.surface(PARENT * n, seed, amplitudes).heights
+    first, second = rng.integers(0, (PARENT - 1) * n, 2)
+    x = np.linspace(-1, 1, n)
+    tilt = rng.normal(size=2) * heights.std()
+    piece = (
+        heights[first : first + n, second : second + n] + tilt[0] * x[:, np.newaxis] + tilt[1] * x
+    )
+    surface = rl.Surface(piece, (1.0, 1.0), settings={"origin": "instrument file"})
+    return surface, (hurst, roll, cutoff), lattice_rms(hurst, roll, cutoff, 1.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hursts", [(0.1, 0.4), (0.4, 0.7), (0.7, 0.95)])
+def test_tilted_pieces_are_recovered(hursts):
+    """In 93 of 100 at least; of 67 trials, a rate of 95 % misses 8 or more in 2 % of tests."""
+    n, trials, rng = 128, TRIALS // 3, np.random.default_rng(9)
+    hits, off = np.zeros(4), []
+    for seed in range(trials):
+        surface, law, rms = tilted_piece(rng, n, seed, hursts)
+        fit = fit_self_affine(isotropic_spectrum(surface))
+        hits += found(fit, *law, last=1 + 1 / (n / 2 - 1), rms=rms)
+        off.append(fit.hurst - law[0])
+    assert (hits >= trials - 7).all(), hits
+    assert abs(np.mean(off)) < 0.03
+
+
+def piece_of_a_cut(rng, n, spectrum, longer):
+    """Piece of a cut with independent Gaussian modes of the exact spectrum C_profile."""
+    power = spectrum.C_profile(np.arange(1, longer * n // 2) * Q_0 / longer) * Q_0 / longer
     modes = np.sqrt(power / 2) * (rng.normal(size=power.size) + 1j * rng.normal(size=power.size))
-    return rl.Line(np.fft.irfft([0, *modes, 0], n) * n, 1.0, kind="profile")
+    whole = np.fft.irfft([0, *modes, 0], longer * n) * longer * n
+    return whole[:n] + rng.normal() * np.linspace(-1, 1, n)
 
 
-def test_line_scans_are_recovered_in_95_of_100():
-    n, rng, hits = 2048, np.random.default_rng(8), np.zeros(4)
+@pytest.mark.parametrize("n", [256, 2048])
+def test_line_scans_are_recovered_in_93_of_100(n):
+    """Of 100 trials, a rate of 95 % misses 10 or more in 3 % of tests."""
+    rng, hits, longer = np.random.default_rng(8), np.zeros(4), 8
     trials = TRIALS // 2
     for _ in range(trials):
-        hurst, roll, cutoff = random_spectrum(rng, n)
+        hurst, roll, cutoff = random_spectrum(rng, n, without=1 / longer)
         spectrum = rl.SelfAffine(
-            hurst=hurst, rms_height=1.0, q_roll=roll * Q_0, q_high=cutoff * Q_0
+            hurst=hurst,
+            length=longer,
+            C_0=1.0,
+            q_roll=roll * Q_0 * (1 + 1e-12),
+            q_high=cutoff * Q_0,
         )
-        fit = fit_self_affine(profile_spectrum(gaussian_profile(rng, n, spectrum)))
-        hits += found(fit, hurst, roll, cutoff, last=1.12)  # 20 bins a decade
-    assert (hits >= 0.95 * trials).all(), hits
+        scan = rl.Line(piece_of_a_cut(rng, n, spectrum, longer), 1.0, kind="profile")
+        fit = fit_self_affine(profile_spectrum(scan))
+        rms = lattice_rms(hurst, roll, cutoff, 1.0)
+        hits += found(fit, hurst, roll, cutoff, last=1.12, rms=rms)  # 20 bins a decade
+    assert (hits >= trials - 9).all(), hits
 
 
 def test_intervals_are_not_idle():

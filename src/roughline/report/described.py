@@ -120,9 +120,9 @@ def described_table(described: Described) -> list[tuple[str, str]]:
 
 
 def _wavelength(q: float | None, interval: tuple[float, float], otherwise: str) -> str:
-    longest, shortest = (engineering(2 * np.pi / end, "m", 3) for end in interval)
+    longest, shortest = (engineering(2 * np.pi / end, "m", 3) if end else "" for end in interval)
     shown = otherwise if q is None else engineering(2 * np.pi / q, "m", 3)
-    return f"{shown} ({shortest} to {longest})"
+    return f"{shown} ({shortest} {f'to {longest}' if longest else 'or longer'})"
 
 
 def _span(interval: tuple[float, float]) -> str:

@@ -1,0 +1,221 @@
+"""How a window and the removal of the mean plane smear the spectrum of a piece of a surface.
+
+A piece of a larger surface holds no whole waves. After its plane is removed and a Hann window is
+laid over it, each wave of the surface appears in several modes of the piece. Wavenumbers are in
+units of the piece's q_low = 2 pi / L here, in which its modes are 1 apart.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Real = NDArray[np.float64]
+Modes = NDArray[np.intp]
+Sides = tuple[float, float]
+
+RING_HALF_WIDTH = 0.25
+"""Modes this near to a ring's wavenumber belong to it; wider rings would smear a steep spectrum."""
+LONGEST = 1 / 16
+"""Wavenumber of the longest waves that leave a trace in a piece. [q_low]"""
+
+LONGER = np.geomspace(LONGEST, 0.5, 13)
+"""Ends of the ranges of waves that are longer than the piece. [q_low]"""
+
+LONG_WAVES = 8
+"""Wavenumber up to which a line scan's waves are those of a cosine series. [q_low]"""
+
+_MODES = 48  # from the longest; beyond, a power law is smeared by less than 0.3 %
+_PLANE_MATTERS = 12  # rings in which the removed plane is followed
+_REACH = 8  # modes; farther away, a window lets less than 1e-6 of a wave appear
+_STEP = 0.25  # the other ranges
+_DIRECTIONS = 24  # of waves, over a quarter of a circle
+_OF_A_RING = 24  # modes that stand for the others of a large ring
+
+
+@dataclass(frozen=True, eq=False)
+class Leakage:
+    """Expected power in the longest modes of a piece, from the waves of its surface.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (waves + 1,)
+        Ends of the ranges of waves. [q_low]
+    waves : ndarray, shape (waves,)
+        Their middles. [q_low]
+    response : ndarray, shape (rings or functions, waves)
+        Power in each ring of a map, or of each function of a scan, for a spectrum of one in a
+        range of waves: C_2d for a map, C_profile for a scan. [1]
+    kept : ndarray, shape (waves,)
+        Share of the waves' mean square that is left without the mean plane. [1]
+    """
+
+    edges: Real
+    waves: Real
+    response: Real
+    kept: Real
+
+
+@lru_cache(maxsize=8)
+def map_leakage(aspect: float = 1.0) -> Leakage:
+    """Leakage into the longest rings of a map, the mean over all directions.
+
+    Parameters
+    ----------
+    aspect : float
+        Lx / Ly. [1]
+    """
+    sides = _sides(aspect)
+    reach = _REACH / min(sides)
+    edges = _edges(_MODES + reach)
+    waves, widths = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
+    response, kept = np.zeros((_MODES, waves.size)), np.ones(waves.size)
+    low = waves < _PLANE_MATTERS + reach
+    means, kept[low] = _without_plane(waves[low], sides)
+    response[:_PLANE_MATTERS, low] = 2 * math.pi * waves[low] * widths[low] * means
+    offset, power = _patch(8)
+    mx, my, ring = ring_modes(sides, _MODES)
+    for k in range(_PLANE_MATTERS + 1, _MODES + 1):
+        some = np.flatnonzero(ring == k)
+        some = some[:: -(-some.size // _OF_A_RING)]
+        for x, y in zip(mx[some], my[some], strict=True):
+            q = np.hypot((x + offset[:, np.newaxis]) / sides[0], (y + offset) / sides[1])
+            wave = LONGER.size - 1 + ((q - LONGER[-1]) / _STEP).astype(np.intp)
+            found = np.bincount(wave.ravel(), power.ravel(), minlength=waves.size)
+            response[k - 1] += found[: waves.size] / some.size
+    return Leakage(edges, waves, response, kept)
+
+
+@lru_cache(maxsize=1)
+def scan_leakage() -> Leakage:
+    """Leakage into the longest waves of a line scan, those of a cosine series.
+
+    Its functions are sqrt(2) cos(pi k (x + 1/2)) over a unit length, k = 2, 3, ..., with the
+    wavenumbers k / 2.
+    """
+    edges = np.append(LONGER, np.arange(LONGER[-1] + _STEP / 2, 4 * LONG_WAVES, _STEP / 2))
+    waves, widths = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
+    k = np.arange(2, 2 * LONG_WAVES + 1)[:, np.newaxis]
+    turn = np.exp(0.5j * np.pi * k)
+    left = (turn * np.sinc(waves + k / 2) + np.conj(turn) * np.sinc(waves - k / 2)) / math.sqrt(2)
+    # the slope of exp(2 pi i q x) over a unit length is -6i / pi sinc'(q)
+    ramp = np.where(k % 2, -2 * math.sqrt(2) / (np.pi * k) ** 2, 0.0)
+    left -= ramp * -6j / math.pi * sinc_slope(waves)
+    removed = np.sinc(waves) ** 2 + 3 / math.pi**2 * sinc_slope(waves) ** 2
+    return Leakage(edges, waves, 2 * np.abs(left) ** 2 * widths, 1 - removed)
+
+
+@lru_cache(maxsize=8)
+def power_inside(aspect: float = 1.0) -> tuple[Real, Real]:
+    """Share of a ring's power that comes from waves inside an end of the spectrum.
+
+    Far from the longest waves, where it depends on the distance to the end alone.
+
+    Parameters
+    ----------
+    aspect : float
+        Lx / Ly of the map. [1]
+
+    Returns
+    -------
+    distance, share : ndarray
+        Wavenumber of the end less the ring's, rising [q_low]; the share rises from 0 to 1. [1]
+    """
+    sides = _sides(aspect)
+    far, steps = 200.0, 16
+    offset, power = _patch(steps)
+    reach = math.hypot(*(_REACH / side for side in sides)) + 1
+    edges = np.arange(-reach, reach + 1 / steps, 1 / steps)
+    share = np.zeros(edges.size - 1)
+    angles = (np.arange(steps) + 0.5) / steps * math.pi / 2
+    for ring in far + RING_HALF_WIDTH * np.linspace(-1, 1, 5):
+        for angle in angles:
+            x, y = ring * math.cos(angle), ring * math.sin(angle)
+            q = np.hypot(x + offset[:, np.newaxis] / sides[0], y + offset / sides[1])
+            share += np.histogram(q - far, edges, weights=power)[0]
+    return edges, np.append(0.0, np.cumsum(share)) / share.sum()
+
+
+def ring_modes(sides: Sides, rings: int) -> tuple[Modes, Modes, Modes]:
+    """Numbers along x and y >= 0, and ring, of the modes that belong to rings."""
+    most = [int((rings + 0.5) * side) for side in sides]
+    mx, my = np.meshgrid(np.arange(-most[0], most[0] + 1), np.arange(most[1] + 1), indexing="ij")
+    along = np.hypot(mx / sides[0], my / sides[1])
+    ring = np.rint(along).astype(np.intp)
+    own = (np.abs(along - ring) <= RING_HALF_WIDTH) & (ring >= 1) & (ring <= rings)
+    return mx[own], my[own], ring[own]
+
+
+def hann(distance: Real) -> Real:
+    """Amplitude that a wave leaves in a mode at a distance, under a Hann window of mean square 1.
+
+    The Fourier transform of the window about its middle.
+    """
+    around = (np.sinc(distance - 1) + np.sinc(distance + 1)) / 2
+    return math.sqrt(2 / 3) * (np.sinc(distance) + around)
+
+
+def hann_slope(distance: Real) -> Real:
+    """Its derivative."""
+    around = (sinc_slope(distance - 1) + sinc_slope(distance + 1)) / 2
+    return math.sqrt(2 / 3) * (sinc_slope(distance) + around)
+
+
+def sinc_slope(distance: Real) -> Real:
+    """Derivative of sin(pi x) / (pi x)."""
+    other = np.where(distance == 0, 1.0, distance)
+    slope = (np.cos(np.pi * other) - np.sinc(other)) / other
+    return np.where(distance == 0, 0.0, slope)
+
+
+def _without_plane(q: Real, sides: Sides) -> tuple[Real, Real]:
+    """Power of waves in the longest rings, over (ring, q), and what is left of their square.
+
+    The mean and the slopes of exp(2 pi i (x + y)) over a unit square are products of sinc and of
+    its derivative, and so are the transforms of the plane that they make.
+    """
+    along_x, along_y, ring = ring_modes(sides, _PLANE_MATTERS)
+    mx, my = (along.astype(np.float64) for along in (along_x, along_y))
+    tilted = 3 / math.pi**2  # 12 / (2 pi)², from the transform of x over its mean square
+    power, kept = np.zeros((mx.size, q.size)), np.zeros(q.size)
+    angles = (np.arange(_DIRECTIONS) + 0.5) / _DIRECTIONS * math.pi / 2
+    for angle in angles:
+        for sign in (1, -1):
+            x, y = (
+                sign * side * q * of_angle
+                for side, of_angle in zip(sides, (math.cos(angle), math.sin(angle)), strict=True)
+            )
+            left = hann(mx[:, np.newaxis] - x) * hann(my[:, np.newaxis] - y)
+            left -= np.outer(hann(mx) * hann(my), np.sinc(x) * np.sinc(y))
+            left -= tilted * np.outer(hann_slope(mx) * hann(my), sinc_slope(x) * np.sinc(y))
+            left -= tilted * np.outer(hann(mx) * hann_slope(my), np.sinc(x) * sinc_slope(y))
+            power += left**2
+        removed = (np.sinc(x) * np.sinc(y)) ** 2
+        removed += tilted * (sinc_slope(x) * np.sinc(y)) ** 2
+        removed += tilted * (np.sinc(x) * sinc_slope(y)) ** 2
+        kept += 1 - removed
+    counts = np.bincount(ring, minlength=_PLANE_MATTERS + 1)[1:]
+    sums = np.zeros((_PLANE_MATTERS + 1, q.size))
+    np.add.at(sums, ring, power)
+    means = sums[1:] / np.maximum(counts, 1)[:, np.newaxis]
+    return means / (2 * angles.size), kept / angles.size
+
+
+def _patch(steps: int) -> tuple[Real, Real]:
+    """Offsets from a mode, along one side, and the window's power over both."""
+    offset = (np.arange(2 * steps * _REACH) + 0.5) / steps - _REACH
+    along = hann(offset) ** 2 / steps
+    return offset, np.outer(along, along)
+
+
+def _edges(last: float) -> Real:
+    return np.append(LONGER, np.arange(LONGER[-1] + _STEP, last + _STEP, _STEP))
+
+
+def _sides(aspect: float) -> Sides:
+    """Both sides over L, the root of their product."""
+    return math.sqrt(aspect), 1 / math.sqrt(aspect)

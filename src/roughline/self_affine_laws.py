@@ -1,0 +1,233 @@
+"""How well self-affine laws explain a measured spectrum: every exponent, roll-off and end tried.
+
+Wavenumbers are in units of q_low = 2 pi / L here, and powers are those of modes: q_low² C_2d for
+the rings of a map, q_low C_profile for the bins of a line scan. [length²]
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from roughline.errors import InputError
+
+Real = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+HURSTS = np.linspace(-0.49, 1.5, 200)
+"""Exponents that are tried."""
+
+DESCRIPTION = 0.1
+"""Deviations from a law that still count as following it."""
+
+_BINS_PER_DECADE = 10  # of deviations from the law, and of the free spectrum beyond its end
+_FLOOR = 1e-14  # of the largest power: rounding
+_LEAKED = 3.0  # times what the window leaks of stronger waves; less may be leakage alone
+LEAST_MEANS = 12
+"""Of a spectrum, for laws to be held against it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Means:
+    """Mean powers of a spectrum, with what is known of their chance.
+
+    Attributes
+    ----------
+    q, power : ndarray, shape (means,)
+        Wavenumbers, and powers of a mode.
+    by_chance : ndarray, shape (means,)
+        Variance of the logarithm of each, for its number of modes.
+    weight : ndarray, shape (means,)
+        Shape of its gamma distribution when deviations from the law are allowed for.
+    leaked : ndarray of bool, shape (means,)
+        Where the power may be what the window leaks of stronger waves, or rounding.
+    """
+
+    q: Real
+    power: Real
+    by_chance: Real
+    weight: Real
+    leaked: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, q: Real, power: Real, modes: Real, windowed: bool) -> Means:
+        """Weigh mean powers.
+
+        Parameters
+        ----------
+        q, power, modes : ndarray, shape (means,)
+            Wavenumbers, mean powers of a mode, and how many independent modes each is of.
+        windowed : bool
+            Whether stronger waves leak into others.
+
+        Raises
+        ------
+        InputError
+            If there are fewer than 12 that are of modes.
+        """
+        q, power, modes = (array[modes > 0] for array in (q, power, modes))
+        if q.size < LEAST_MEANS:
+            raise InputError(
+                f"the spectrum has {q.size} wavenumbers; a fit needs {LEAST_MEANS}: take more "
+                "points"
+            )
+        floor = _FLOOR * power.max()
+        leaked = power <= floor
+        if windowed:
+            leaked |= power < _LEAKED * _leakage_of_others(q, power)
+        by_chance = 2 / modes  # half of the modes are the others' conjugates
+        # a deviation is shared by the means of its bin: else the shortest waves, whose means are
+        # many, would decide alone
+        bins = _bins(q)
+        weight = 1 / (by_chance + DESCRIPTION**2 * np.bincount(bins)[bins])
+        return cls(q, np.maximum(power, floor), by_chance, weight, leaked)
+
+    def free_deviance(self, first: int) -> float:
+        """Deviance of a free spectrum from a mean on, and the price of its levels.
+
+        It has a level for each tenth of a decade.
+        """
+        keep = ~self.leaked[first:]
+        q, power, weight = (array[first:][keep] for array in (self.q, self.power, self.weight))
+        if q.size == 0:
+            return 0.0
+        bins = _bins(q)
+        sums, levels, logs = (
+            np.bincount(bins, values) for values in (weight, weight * power, weight * np.log(power))
+        )
+        there = sums > 0
+        own = sums[there] * np.log(levels[there] / sums[there]) - logs[there]
+        price = math.log(weight.sum() + 1) * (np.count_nonzero(there) + 1)
+        return float(2 * own.sum() + price)
+
+    def deviations(self, law: Real) -> Deviations:
+        """Compare the powers with those of a law, in tenths of a decade.
+
+        Parameters
+        ----------
+        law : ndarray, shape (means,)
+            Logarithm of the expected powers; -inf where the law has ended.
+        """
+        bins, inside = _bins(self.q), np.isfinite(law)
+        size = int(bins[-1]) + 1
+        shape = np.bincount(bins, np.where(inside, 1 / self.by_chance, 0.0), size)
+        ratio = np.where(inside, self.power / self.by_chance * np.exp(-np.where(inside, law, 0)), 0)
+        there = shape > 0
+        safe = np.where(there, shape, 1.0)
+        mean = np.where(there, np.bincount(bins, ratio, size) / safe, 1.0)
+        # the logarithm of a gamma variable has this mean and this variance
+        value = np.where(there, np.log(mean) - special.digamma(safe) + np.log(safe), 0.0)
+        variance = np.where(there, special.polygamma(1, safe), math.inf)
+        weight = np.bincount(bins, np.where(inside, self.weight, 0.0), size)[there]
+        excess = float(weight @ (value**2 - variance)[there] / weight.sum())
+        return Deviations(bins, value, variance, math.sqrt(max(0.0, excess)))
+
+
+@dataclass(frozen=True, eq=False)
+class Deviations:
+    """Logarithms of a spectrum over a law, in tenths of a decade.
+
+    Attributes
+    ----------
+    bins : ndarray, shape (means,)
+        Tenth that each mean falls in.
+    values, variance : ndarray, shape (tenths,)
+        Logarithm of the mean ratio, and its variance by chance; 0 and infinite where there is none.
+    scatter : float
+        Rms of the logarithm, beyond what chance explains.
+    """
+
+    bins: Indices
+    values: Real
+    variance: Real
+    scatter: float
+
+    def drawn(self, generator: np.random.Generator) -> Real:
+        """Deviations that the surface may have, of each mean, as its own law is not exact."""
+        own = max(self.scatter, DESCRIPTION) ** 2
+        share = own / (own + self.variance)
+        spread = np.sqrt(own * (1 - share))
+        return (
+            share * np.where(np.isfinite(self.variance), self.values, 0.0)
+            + spread * generator.standard_normal(share.size)
+        )[self.bins]
+
+
+@dataclass(frozen=True, eq=False)
+class Laws:
+    """Deviances of laws from a spectrum, each at its best level.
+
+    Attributes
+    ----------
+    hursts : ndarray, shape (hursts,)
+        Exponents, evenly spaced.
+    rolls : ndarray, shape (rolls,)
+        Roll-offs; those up to 1 are beyond the longest waves of the piece.
+    ends : ndarray, shape (ends,)
+        Where the laws end; infinite if they go on beyond the shortest waves.
+    margins : ndarray, shape (ends,)
+        By how much each may be off because others were not tried.
+    deviance : ndarray, shape (hursts, rolls, ends)
+        Twice the logarithm of the likelihood that each lacks, up to a constant.
+    log_level : ndarray, shape (hursts, rolls, ends)
+        Logarithm of the power of a mode on the plateau.
+    """
+
+    hursts: Real
+    rolls: Real
+    ends: Real
+    margins: Real
+    deviance: Real
+    log_level: Real
+
+    @cached_property
+    def best(self) -> tuple[int, int, int]:
+        """Indices of the law that explains most."""
+        hurst, roll, end = np.unravel_index(np.argmin(self.deviance), self.deviance.shape)
+        return int(hurst), int(roll), int(end)
+
+    def values(self, hurst: int, roll: int, end: int) -> tuple[float, float, float]:
+        """Exponent, roll-off and end of a law."""
+        return float(self.hursts[hurst]), float(self.rolls[roll]), float(self.ends[end])
+
+    def within(self, deviance: float) -> tuple[Indices, Indices, Indices]:
+        """Indices of the laws that lack no more than this against the best."""
+        hurst, roll, end = np.nonzero(self.deviance <= self.deviance.min() + deviance)
+        return hurst, roll, end
+
+    def drawn(self, count: int, generator: np.random.Generator) -> tuple[Indices, Indices, Indices]:
+        """Indices of laws drawn by their likelihood.
+
+        Before the spectrum is seen, all exponents, and all roll-offs on a logarithmic scale, are
+        alike.
+        """
+        likelihood = np.exp((self.deviance.min() - self.deviance) / 2)
+        likelihood *= np.gradient(np.log(self.rolls))[:, np.newaxis]
+        chances = likelihood.ravel() / likelihood.sum()
+        flat = generator.choice(chances.size, count, p=chances)
+        hurst, roll, end = np.unravel_index(flat, self.deviance.shape)
+        return hurst, roll, end
+
+
+def power_law(q: Real, hursts: Real, roll: float) -> Real:
+    """Logarithm of C_2d with a plateau of one, over (hurst, q)."""
+    return np.outer(-2 * (hursts + 1), np.log(np.maximum(1.0, q / roll)))
+
+
+def _leakage_of_others(q: Real, power: Real) -> Real:
+    """Power that a Hann window leaks from means three modes away and farther."""
+    width = np.gradient(q)
+    distance = np.abs(q[:, np.newaxis] - q) - (width + width[:, np.newaxis]) / 2 + 1
+    far = np.maximum(distance, 3.0)
+    tail = np.where(distance < 3, 0.0, 1 / (3 * (np.pi * far * (far**2 - 1)) ** 2))
+    return tail @ (width * power)
+
+
+def _bins(q: Real) -> Indices:
+    """Numbers of the bins of equal ratios that wavenumbers fall in."""
+    return np.floor(_BINS_PER_DECADE * np.log10(q / q[0])).astype(np.intp)
