@@ -50,7 +50,7 @@ def test_maps_are_recovered_in_95_of_100(amplitudes, origin):
 
 def gaussian_profile(rng, n, spectrum):
     """A cut with independent Gaussian modes of the exact spectrum C_profile."""
-    power = spectrum.C_profile(np.arange(1, n // 2) * Q_0) * Q_0
+    power = spectrum.continuum.C_profile(np.arange(1, n // 2) * Q_0) * Q_0
     modes = np.sqrt(power / 2) * (rng.normal(size=power.size) + 1j * rng.normal(size=power.size))
     return rl.Line(np.fft.irfft([0, *modes, 0], n) * n, 1.0, kind="profile")
 
