@@ -10,7 +10,7 @@ FINER = 4
 LOADS = np.array([0.001, 0.01, 0.1, 0.3, 1.0])  # F / (E* h L), h the rms height before the cut
 SURFACES = [(0.3, 2), (0.5, 4), (0.8, 1), (0.8, 4)]  # H, roll-off over q_0
 BEARINGS = (0.1, 0.3, 0.6)
-SEEDS = (1, 2)
+SEEDS = (11, 12)  # others than those on which the factors were chosen
 
 
 def errors(n):

@@ -193,48 +193,19 @@ class SelfAffine:
         return self._told("rms_height", factor).rms_height
 
     def C_2d(self, q: ArrayLike) -> Real:
-        """Spectrum of the surface over its wavevectors, the paper's eq. 3. [length⁴]
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
-        """
+        """Spectrum of the surface, the paper's eq. 3, as of :attr:`continuum`. [length⁴]"""
         return self._told("C_2d", self.factor_over("surface")).C_2d(q)
 
     def C_reduced(self, q: ArrayLike) -> Real:
-        """Spectrum of the line of the reduction method, pi q C_2d(q), the paper's eq. 7. [length³]
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
-        """
+        """Spectrum of the reduced line, the paper's eq. 7, as of :attr:`continuum`. [length³]"""
         return self._told("C_reduced", self.factor_over("line"), "line").C_reduced(q)
 
     def C_profile(self, q: ArrayLike) -> Real:
-        """Spectrum of a straight cut, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). [length³]
-
-        This is what a line scan measures; it is not the spectrum of the reduced line.
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
-        """
+        """Spectrum of a straight cut, as of :attr:`continuum`. [length³]"""
         return self._told("C_profile", self.factor_over("surface")).C_profile(q)
 
     def moment(self, order: int) -> float:
-        """Moment of the continuum, 2 pi int q^(1 + order) C_2d dq. [length^(2 - order)]
-
-        Order 0 is <h²>, order 2 <|grad h|²>, order 4 <(laplacian h)²>; the reduced line has the
-        same moments of h, h' and h''.
-
-        Raises
-        ------
-        InputError
-            If the integral diverges, because ``q_high`` is not set.
-        """
+        """<h²>, <|grad h|²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
         factor = self.factor_over("surface") / sum_over_integral(self._band, order, "surface")
         return self._told("moment", factor).moment(order)
 
