@@ -17,7 +17,7 @@ from roughline.spectra import SelfAffine
 from roughline.topography import Surface
 
 Real = NDArray[np.float64]
-Roughness = Surface | SelfAffine | ContinuumSpectrum | LatticeSpectrum | IsotropicSpectrum
+SurfaceOrSpectrum = Surface | SelfAffine | ContinuumSpectrum | LatticeSpectrum | IsotropicSpectrum
 
 _PER_DECADE = 200  # bands of wavenumbers
 _ROUNDING = 1e-20  # of the largest C_2d, below which a transform's rounding lies
@@ -40,7 +40,7 @@ class Bands:
     power: Real
 
 
-def bands(roughness: Roughness) -> Bands:
+def bands(roughness: SurfaceOrSpectrum) -> Bands:
     """Say how much of <h²> lies at which wavenumbers.
 
     Of a surface these are its own waves, one by one. Of a piece of a larger surface they are those
@@ -181,7 +181,7 @@ class Moments:
         return 4 * math.sqrt(self.m0 / (math.pi * self.nayak))
 
 
-def moments(roughness: Roughness) -> Moments:
+def moments(roughness: SurfaceOrSpectrum) -> Moments:
     """Moments of a surface or of a spectrum.
 
     Parameters

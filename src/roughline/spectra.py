@@ -30,9 +30,7 @@ Normalisation = Literal["rms_height", "C_0"]
 
 _BYTES_PER_POINT = 40  # of a surface, while it is generated
 _LARGEST: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
-
-ALIKE = 0.05
-"""Difference between a continuum and its bodies from which on it is said."""
+_ALIKE = 0.05  # difference between a continuum and its bodies from which on it is said
 
 
 @dataclass(frozen=True, init=False)
@@ -182,7 +180,7 @@ class SelfAffine:
         InputError
             As for :attr:`continuum`.
         """
-        return self._told("C_0", self.factor_over("surface")).C_0
+        return self._told("C_0", self._factor_over("surface")).C_0
 
     @property
     def rms_height(self) -> float:
@@ -194,28 +192,37 @@ class SelfAffine:
 
     def C_2d(self, q: ArrayLike) -> Real:
         """Spectrum of the surface, the paper's eq. 3, as of :attr:`continuum`. [length⁴]"""
-        return self._told("C_2d", self.factor_over("surface")).C_2d(q)
+        return self._told("C_2d", self._factor_over("surface")).C_2d(q)
 
     def C_reduced(self, q: ArrayLike) -> Real:
         """Spectrum of the reduced line, the paper's eq. 7, as of :attr:`continuum`. [length³]"""
-        return self._told("C_reduced", self.factor_over("line"), "line").C_reduced(q)
+        return self._told("C_reduced", self._factor_over("line"), "line").C_reduced(q)
 
     def C_profile(self, q: ArrayLike) -> Real:
         """Spectrum of a straight cut, as of :attr:`continuum`. [length³]"""
-        return self._told("C_profile", self.factor_over("surface")).C_profile(q)
+        return self._told("C_profile", self._factor_over("surface")).C_profile(q)
 
     def moment(self, order: int) -> float:
         """<h²>, <|grad h|²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
-        factor = self.factor_over("surface") / sum_over_integral(self._band, order, "surface")
+        factor = self._factor_over("surface") / sum_over_integral(self._band, order, "surface")
         return self._told("moment", factor).moment(order)
 
-    def factor_over(self, body: BodyName) -> float:
+    def off_its_surfaces(self) -> str:
+        """Say how the continuum differs from the surfaces generated; empty within 5 %."""
+        factor = sum_over_integral(self._band, 0, "surface")
+        if abs(factor - 1) <= _ALIKE:
+            return ""
+        if self.normalisation == "rms_height":
+            return f"{factor:.2f} times the C_2d"
+        return f"{1 / math.sqrt(factor):.2f} times the rms height"
+
+    def _factor_over(self, body: BodyName) -> float:
         """C_2d of the continuum over that of the surfaces or lines that are generated. [1]"""
         return 1.0 if self.normalisation == "C_0" else sum_over_integral(self._band, 0, body)
 
     def _told(self, name: str, factor: float, body: BodyName = "surface") -> ContinuumSpectrum:
         """Return the continuum, and warn where a body differs from it by more than 5 %."""
-        if abs(factor - 1) > ALIKE:
+        if abs(factor - 1) > _ALIKE:
             which = 'n, "line"' if body == "line" else "n"
             warnings.warn(
                 f"{name} is that of the continuum, {factor:.2f} times that of the {body}s which "

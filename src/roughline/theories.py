@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from roughline.errors import InputError
-from roughline.moments import Roughness, bands, moments
-from roughline.spectra import ALIKE, SelfAffine
+from roughline.moments import SurfaceOrSpectrum, bands, moments
+from roughline.spectra import SelfAffine
 
 Real = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ class TheoryCurve:
 
 def theory(
     name: str,
-    roughness: Roughness,
+    roughness: SurfaceOrSpectrum,
     E_star: float,
     pressure: ArrayLike,
 ) -> TheoryCurve:
@@ -85,14 +85,12 @@ def theory(
     if not ((pressures > 0) & np.isfinite(pressures)).all():
         raise InputError(f"pressures must be positive and finite; {pressures.min()} is among them")
     curve = THEORIES[name](roughness, E_star, pressures)
-    if isinstance(roughness, SelfAffine):
-        factor = roughness.factor_over("surface")
-        if abs(factor - 1) > ALIKE:
-            curve = replace(
-                curve,
-                validity=f"{curve.validity}; of the continuum, with {factor:.2f} times the C_2d of "
-                "the surfaces that this spectrum generates: take spectrum.lattice(n) for these",
-            )
+    if isinstance(roughness, SelfAffine) and (difference := roughness.off_its_surfaces()):
+        validity = (
+            f"{curve.validity}; of the continuum, with {difference} of the surfaces that this "
+            "spectrum generates: take spectrum.lattice(n) for these"
+        )
+        return replace(curve, validity=validity)
     return curve
 
 
@@ -108,7 +106,7 @@ def refuse_unknown(name: str) -> None:
         raise InputError(f"no theory is called {name!r}; there are {', '.join(THEORIES)}")
 
 
-def _persson(roughness: Roughness, E_star: float, pressure: Real) -> TheoryCurve:
+def _persson(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> TheoryCurve:
     """Persson's theory, with Yang and Persson's share of elastic energy, gamma = 0.45.
 
     References
@@ -162,7 +160,7 @@ _TABLE = np.concatenate(
 )
 
 
-def _bush_gibson_thomas(roughness: Roughness, E_star: float, pressure: Real) -> TheoryCurve:
+def _bush_gibson_thomas(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> TheoryCurve:
     """Asymptotic area of Bush, Gibson and Thomas, A / A_0 = sqrt(2 pi) p / (E* rms |grad h|).
 
     References
@@ -181,7 +179,9 @@ def _bush_gibson_thomas(roughness: Roughness, E_star: float, pressure: Real) -> 
     )
 
 
-def _greenwood_williamson(roughness: Roughness, E_star: float, pressure: Real) -> TheoryCurve:
+def _greenwood_williamson(
+    roughness: SurfaceOrSpectrum, E_star: float, pressure: Real
+) -> TheoryCurve:
     """Greenwood and Williamson's independent spheres, with summits after Nayak and McCool.
 
     References
@@ -218,7 +218,7 @@ def _tail(power: float, t: Real) -> Real:
     return special.gamma(power + 1) / math.sqrt(2 * math.pi) * np.exp(-(t**2) / 4) * bent
 
 
-THEORIES: dict[str, Callable[[Roughness, float, Real], TheoryCurve]] = {
+THEORIES: dict[str, Callable[[SurfaceOrSpectrum, float, Real], TheoryCurve]] = {
     "persson": _persson,
     "bush-gibson-thomas": _bush_gibson_thomas,
     "greenwood-williamson": _greenwood_williamson,

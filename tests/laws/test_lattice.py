@@ -140,7 +140,13 @@ def persson(q, power, pressures):
 def test_a_theory_of_a_spectrum_itself_says_what_it_is_of():
     p = 0.1
     validity = rl.theory("persson", rough(0.8), 1.0, p).validity
-    assert "of the continuum, with 1.7" in validity
+    q, power = measured(rough(0.8).surface(N, 1).heights)
+    factor = rough(0.8).continuum.C_2d(q[9]) * Q_0**2 / power[9]
+    assert f"of the continuum, with {factor:.2f} times the C_2d of the surfaces" in validity
+    given = rough(0.8, C_0=1.0)
+    factor = given.continuum.rms_height / given.surface(N, 1).rms_height
+    validity = rl.theory("persson", given, 1.0, p).validity
+    assert f"of the continuum, with {factor:.2f} times the rms height of the surfaces" in validity
     assert "spectrum.lattice(n)" in validity
     for quiet in (rough(0.8).continuum, rough(0.8).lattice(N), rough(0.8, 4.0)):
         assert "continuum" not in rl.theory("persson", quiet, 1.0, p).validity
