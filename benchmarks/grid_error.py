@@ -20,6 +20,7 @@ SPECTRA = {
     "cutoff at 4 cells": lambda n: {"q_high": math.tau * n / 4},
     "cutoff at 8 cells": lambda n: {"q_high": math.tau * n / 8},
 }
+BEARINGS = (0.1, 0.3, 0.6)  # share of the area of which the top is cut flat
 NOISE = (0.03, 0.3)  # rms of white noise of the finest points, over the rms height
 
 
@@ -60,6 +61,18 @@ def cases(files, seeds):
                         kind,
                         spectrum.surface(n, 1000 + seed),
                         spectrum.surface(4 * n, 1000 + seed),
+                    )
+    for n in (64, 128):
+        for hurst in (0.3, 0.5, 0.8):
+            for seed in range(max(1, seeds // 3)):
+                spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_high=math.tau * n / 8)
+                rough = spectrum.surface(4 * n, 1000 + seed)
+                for bearing in BEARINGS:
+                    honed = np.minimum(rough.heights, np.quantile(rough.heights, 1 - bearing))
+                    yield (
+                        "tops cut flat",
+                        rl.Surface(honed[::4, ::4], rough.sizes),
+                        rl.Surface(honed, rough.sizes),
                     )
     for share in NOISE:
         for seed in range(seeds):

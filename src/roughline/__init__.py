@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from roughline.curve import Fields as Fields
     from roughline.curve import Status as Status
     from roughline.errors import ClusterError as ClusterError
+    from roughline.errors import ContinuumWarning as ContinuumWarning
     from roughline.errors import ConvergenceError as ConvergenceError
     from roughline.errors import InputError as InputError
     from roughline.errors import Interrupted as Interrupted
@@ -70,6 +71,7 @@ _HOMES = {
     "compare": "comparison",
     "average": "averages",
     "ClusterError": "errors",
+    "ContinuumWarning": "errors",
     "ConvergenceError": "errors",
     "InputError": "errors",
     "Interrupted": "errors",

@@ -53,7 +53,7 @@ class Band:
         if self.q_high == math.inf and 2 + order - self.decay >= 0:
             raise InputError(
                 f"the moment of order {order} diverges for H = {self.decay / 2 - 1:g} without a "
-                "cutoff: give q_high, or take lattice_moment on a grid"
+                "cutoff: give q_high, or take lattice(n) of a grid of n points"
             )
         plateau = _power_integral(1 + order, self.q_low, self.q_roll)
         tail = _power_integral(1 + order - self.decay, self.q_roll, self.q_high)

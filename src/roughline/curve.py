@@ -82,7 +82,8 @@ class Curve:
         Real over nominal contact area; None for a line, whose area predicts nothing.
     area_fraction_corrected : ndarray, shape (loads,), or None
         The same without what whole cells overstate along the outline of the contact
-        (Yastrebov, Anciaux and Molinari 2017).
+        (Yastrebov, Anciaux and Molinari 2017). Under a summit that is some per cent; on a plateau,
+        where pressure and gap rise at the outline, cells count as they are.
     status : ndarray of int8, shape (loads,)
         A :class:`Status` for each load; where it is not converged the other values are NaN.
     resolved : ndarray of bool, shape (loads,)
@@ -101,6 +102,9 @@ class Curve:
         How it was computed: version, tolerance, boundary, and the settings of the body.
     convolutions : ndarray of int, shape (loads,), or None
         Convolutions that each load took, its stiffness included; None for a line.
+    area_fraction_most : ndarray, shape (loads,), or None
+        What the area fraction does not exceed on finer grids: `area_fraction` where all of the
+        outline is of summits, as much over it as the correction leaves out where it is of plateaus.
     stiffness_error, area_fraction_error : ndarray, shape (loads,), or None
         Estimated discretisation errors of `stiffness` and `area_fraction_corrected`, if asked
         for; a value v with error e lies between v / (1 + e / v) and v + e.
@@ -124,6 +128,7 @@ class Curve:
     unit: str | None
     settings: Mapping[str, str | int | float]
     convolutions: NDArray[np.int64] | None = None
+    area_fraction_most: Real | None = None
     stiffness_error: Real | None = None
     area_fraction_error: Real | None = None
     warnings: Sequence[str] = ()

@@ -28,6 +28,10 @@ class ClusterError(RoughlineError):
     """A cluster of workers cannot be reached or used, or was lost."""
 
 
+class ContinuumWarning(UserWarning):
+    """A quantity of the continuum is more than 5 % off that of the bodies which belong to it."""
+
+
 class ConvergenceError(RoughlineError):
     """A load was not solved to the tolerance.
 

@@ -9,6 +9,7 @@ Conventions: q = 2 pi / wavelength, and
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
@@ -18,17 +19,18 @@ from numpy.typing import ArrayLike, NDArray
 
 from roughline import synthesis
 from roughline.band import Band
-from roughline.errors import InputError
+from roughline.errors import ContinuumWarning, InputError
+from roughline.lattice import BodyName, ContinuumSpectrum, LatticeSpectrum, sum_over_integral
 from roughline.memory import refuse_beyond_memory
 from roughline.topography import Line, Settings, Surface
 
 Real = NDArray[np.float64]
 Amplitudes = Literal["fixed", "gaussian"]
-Body = Literal["surface", "line"]
 Normalisation = Literal["rms_height", "C_0"]
 
 _BYTES_PER_POINT = 40  # of a surface, while it is generated
-_LARGEST: dict[Body, int] = {"surface": 2**15, "line": 2**28}
+_LARGEST: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
+_ALIKE = 0.05  # difference between a continuum and its bodies from which on it is said
 
 
 @dataclass(frozen=True, init=False)
@@ -41,6 +43,12 @@ class SelfAffine:
     What is given fixes how surfaces and lines are scaled: with ``rms_height`` each of them is
     scaled to that rms (the paper's choice); with ``C_0`` both are generated from the same
     spectrum, and their rms heights differ by what the lattice of wavevectors makes of it.
+
+    ``continuum`` and ``lattice(n, body)`` are the two spectra that this can mean: integrals, or the
+    sums that a body of n points has. Without a roll-off, or with one below about 3 ``q_low``, they
+    differ by 5 % to a factor of two. ``C_0``, ``C_2d``, ``C_reduced``, ``C_profile``, ``moment``
+    and ``rms_height`` of the spectrum itself are the continuum's, and warn where bodies are more
+    than 5 % off.
 
     Parameters
     ----------
@@ -133,8 +141,8 @@ class SelfAffine:
         return 2 * math.pi / self.length
 
     @property
-    def C_0(self) -> float:
-        """Value of C_2d at q_roll, given or such that the continuum has the rms height. [length⁴]
+    def continuum(self) -> ContinuumSpectrum:
+        """The spectrum whose moments are integrals, with the C_0 or the rms height given.
 
         Raises
         ------
@@ -142,78 +150,89 @@ class SelfAffine:
             For H = 0 without ``q_high`` when the rms height was given: the integral diverges.
         """
         if self.normalisation == "C_0":
-            return self.magnitude
-        return self.magnitude**2 / self._band.moment(0)
+            return ContinuumSpectrum(self._band, self.magnitude)
+        return ContinuumSpectrum(self._band, self.magnitude**2 / self._band.moment(0))
+
+    def lattice(self, n: int, body: BodyName = "surface") -> LatticeSpectrum:
+        """Return the spectrum that a generated body has.
+
+        Parameters
+        ----------
+        n : int
+            Points along a side, as for :meth:`surface` and :meth:`line`.
+        body : {"surface", "line"}
+            Which of the two. Scaled to one rms height, their spectra differ.
+        """
+        if body not in _LARGEST:
+            raise InputError(f'body is {body!r}; allowed are "surface" and "line"')
+        _check_points(n, body)
+        C_0 = self.magnitude
+        if self.normalisation == "rms_height":
+            C_0 = self.magnitude**2 / LatticeSpectrum.of(self._band, 1.0, n, body).moment(0)
+        return LatticeSpectrum.of(self._band, C_0, n, body)
+
+    @property
+    def C_0(self) -> float:
+        """Value of C_2d at q_roll, given or that of the continuum. [length⁴]
+
+        Raises
+        ------
+        InputError
+            As for :attr:`continuum`.
+        """
+        return self._told("C_0", self._factor_over("surface")).C_0
 
     @property
     def rms_height(self) -> float:
         """Root-mean-square height, given or as the continuum integral of C_2d. [length]"""
         if self.normalisation == "rms_height":
             return self.magnitude
-        return math.sqrt(self.moment(0))
+        factor = 1 / math.sqrt(sum_over_integral(self._band, 0, "surface"))
+        return self._told("rms_height", factor).rms_height
 
     def C_2d(self, q: ArrayLike) -> Real:
-        """Spectrum of the surface over its wavevectors, the paper's eq. 3. [length⁴]
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
-        """
-        return self.C_0 * self._band.shape(np.abs(np.asarray(q, dtype=np.float64)))
+        """Spectrum of the surface, the paper's eq. 3, as of :attr:`continuum`. [length⁴]"""
+        return self._told("C_2d", self._factor_over("surface")).C_2d(q)
 
     def C_reduced(self, q: ArrayLike) -> Real:
-        """Spectrum of the line of the reduction method, pi q C_2d(q), the paper's eq. 7. [length³]
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
-        """
-        return np.pi * np.abs(np.asarray(q, dtype=np.float64)) * self.C_2d(q)
+        """Spectrum of the reduced line, the paper's eq. 7, as of :attr:`continuum`. [length³]"""
+        return self._told("C_reduced", self._factor_over("line"), "line").C_reduced(q)
 
     def C_profile(self, q: ArrayLike) -> Real:
-        """Spectrum of a straight cut, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). [length³]
-
-        This is what a line scan measures; it is not the spectrum of the reduced line.
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
-        """
-        return self.C_0 * self._band.cut(np.abs(np.asarray(q, dtype=np.float64)))
+        """Spectrum of a straight cut, as of :attr:`continuum`. [length³]"""
+        return self._told("C_profile", self._factor_over("surface")).C_profile(q)
 
     def moment(self, order: int) -> float:
-        """Moment of the continuum, 2 pi int q^(1 + order) C_2d dq. [length^(2 - order)]
+        """<h²>, <|grad h|²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
+        factor = self._factor_over("surface") / sum_over_integral(self._band, order, "surface")
+        return self._told("moment", factor).moment(order)
 
-        Order 0 is <h²>, order 2 <|grad h|²>, order 4 <(laplacian h)²>; the reduced line has the
-        same moments of h, h' and h''.
+    def off_its_surfaces(self) -> str:
+        """Say how the continuum differs from the surfaces generated; empty within 5 %."""
+        factor = sum_over_integral(self._band, 0, "surface")
+        if abs(factor - 1) <= _ALIKE:
+            return ""
+        if self.normalisation == "rms_height":
+            return f"{factor:.2f} times the C_2d"
+        return f"{1 / math.sqrt(factor):.2f} times the rms height"
 
-        Raises
-        ------
-        InputError
-            If the integral diverges, because ``q_high`` is not set.
-        """
-        return self.C_0 * self._band.moment(order)
+    def _factor_over(self, body: BodyName) -> float:
+        """C_2d of the continuum over that of the surfaces or lines that are generated. [1]"""
+        return 1.0 if self.normalisation == "C_0" else sum_over_integral(self._band, 0, body)
 
-    def lattice_moment(self, order: int, n: int, body: Body) -> float:
-        """Moment as the sum over the modes that a grid of n points carries. [length^(2 - order)]
-
-        This is what synthesised heights have; the continuum integral can be far from it, since
-        the sum begins at its largest terms.
-
-        Parameters
-        ----------
-        order : int
-            As for :meth:`moment`.
-        n : int
-            Points along a side.
-        body : {"surface", "line"}
-            Over the lattice of wavevectors in the plane, or along the reduced line.
-        """
-        q, power = self._lattice_power(n, body)
-        return float((power * q**order).sum())
+    def _told(self, name: str, factor: float, body: BodyName = "surface") -> ContinuumSpectrum:
+        """Return the continuum, and warn where a body differs from it by more than 5 %."""
+        if abs(factor - 1) > _ALIKE:
+            which = 'n, "line"' if body == "line" else "n"
+            warnings.warn(
+                f"{name} is that of the continuum, {factor:.2f} times that of the {body}s which "
+                f"this spectrum generates: their few long waves are no integral. Take "
+                f"lattice({which}).{name} for a body of n points, or continuum.{name} for the "
+                "integral",
+                ContinuumWarning,
+                stacklevel=3,
+            )
+        return self.continuum
 
     def surface(
         self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed"
@@ -261,35 +280,11 @@ class SelfAffine:
         heights, settings = self._generate("line", n, rng, amplitudes)
         return Line(heights, self.length, settings=settings)
 
-    def _lattice_power(self, n: int, body: Body, half: bool = False) -> tuple[Real, Real]:
-        """Wavenumbers of a grid's modes and the share of <h²> that each carries.
-
-        With `half`, only the modes that the real inverse FFT wants (a line's from m = 1 on).
-        """
-        if body == "line":
-            m = np.arange(1, (n - 1) // 2 + 1, dtype=np.float64)
-            weight = np.pi * self.q_low**2 * m
-        else:
-            mx = np.fft.fftfreq(n, 1 / n)[:, np.newaxis]
-            my = np.arange(n // 2 + 1) if half else np.fft.fftfreq(n, 1 / n)
-            m = np.hypot(mx, my)
-            weight = np.where((m > 0) & (m < n / 2), self.q_low**2, 0.0)
-        q = self.q_low * m
-        power = weight * self._band.shape(q)
-        if self.normalisation == "C_0":
-            power *= self.C_0
-        elif not half:
-            power *= self.magnitude**2 / power.sum() / (2 if body == "line" else 1)
-        return q, power if half or body == "surface" else 2 * power
-
     def _generate(
-        self, body: Body, n: int, rng: synthesis.Seed, amplitudes: Amplitudes
+        self, body: BodyName, n: int, rng: synthesis.Seed, amplitudes: Amplitudes
     ) -> tuple[Real, Settings]:
         """Heights of a body, and the settings that make them again."""
-        if not isinstance(n, int | np.integer) or not 3 <= n <= _LARGEST[body]:
-            raise InputError(
-                f"n is {n!r}; a whole number of points from 3 to {_LARGEST[body]} is needed"
-            )
+        _check_points(n, body)
         if body == "surface":
             refuse_beyond_memory(
                 _BYTES_PER_POINT * n**2, f"a surface of {n} x {n} points", "take a smaller n"
@@ -320,13 +315,32 @@ class SelfAffine:
         scale = self.magnitude / synthesis.rms_of(moduli) if given else 1.0
         return heights_of(moduli, for_phases, scale, n), settings
 
-    def _moduli(self, n: int, body: Body) -> Real:
-        """Moduli of the modes that the real inverse FFT wants, up to the normalisation."""
-        return np.sqrt(self._lattice_power(n, body, half=True)[1])
+    def _moduli(self, n: int, body: BodyName) -> Real:
+        """Moduli of the modes that the real inverse FFT wants, up to the normalisation.
+
+        A line's begin at m = 1.
+        """
+        if body == "line":
+            m = np.arange(1, (n - 1) // 2 + 1, dtype=np.float64)
+            weight = np.pi * self.q_low**2 * m
+        else:
+            m = np.hypot(np.fft.fftfreq(n, 1 / n)[:, np.newaxis], np.arange(n // 2 + 1))
+            weight = np.where((m > 0) & (m < n / 2), self.q_low**2, 0.0)
+        power = weight * self._band.shape(self.q_low * m)
+        if self.normalisation == "C_0":
+            power *= self.magnitude
+        return np.sqrt(power)
 
     @lru_cache(maxsize=8)  # noqa: B019  (an ensemble of lines wants them for every one)
     def _line_moduli(self, n: int) -> Real:
         return self._moduli(n, "line")
+
+
+def _check_points(n: int, body: BodyName) -> None:
+    if not isinstance(n, int | np.integer) or not 3 <= n <= _LARGEST[body]:
+        raise InputError(
+            f"n is {n!r}; a whole number of points from 3 to {_LARGEST[body]} is needed"
+        )
 
 
 def _check_positive(name: str, value: float) -> None:

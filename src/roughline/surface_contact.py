@@ -13,6 +13,7 @@ from roughline._version import __version__
 from roughline.curve import RESOLVED_FROM, Curve, Fields, Status
 from roughline.errors import Interrupted
 from roughline.halfspace import operator as operators
+from roughline.halfspace.outline import overstated_cells
 from roughline.halfspace.path import follow
 from roughline.halfspace.state import Contact, Method
 from roughline.loads import Loads
@@ -61,7 +62,8 @@ def press_surface(
     units = _Units.of(surface, E_star, loads)
     make_operator = operators.periodic if periodic else operators.free
     dx, dy = surface.spacing
-    operator = make_operator(surface.shape, (dx / units.length, dy / units.length), 1.0)
+    spacing = dx / units.length, dy / units.length
+    operator = make_operator(surface.shape, spacing, 1.0)
     separation = np.subtract(surface.heights.max(), surface.heights, order="C")
     separation /= units.height
     path = follow(
@@ -73,7 +75,7 @@ def press_surface(
         method,
     )
     count = loads.values.size
-    values = np.full((7, count), np.nan)
+    values = np.full((8, count), np.nan)
     status = np.full(count, Status.INTERRUPTED, dtype=np.int8)
     resolved = np.zeros(count, dtype=bool)
     convolutions = np.zeros(count, dtype=np.int64)
@@ -89,14 +91,15 @@ def press_surface(
                 values[0, i] = contact.residuals.worst
                 convolutions[i] = contact.convolutions + (tangent.convolutions if tangent else 0)
                 if tangent is not None and outcome is Status.CONVERGED:
-                    touching = _touching(contact)
-                    cells = int(np.count_nonzero(touching))
+                    cells, nodes = int(np.count_nonzero(contact.pressure > 0)), contact.gap.size
+                    most, overstated = overstated_cells(contact, spacing, periodic)
                     values[1:, i] = (
                         contact.depth * units.height,
                         contact.force * units.force,
                         tangent.stiffness * units.force / units.height,
-                        cells / touching.size,
-                        cells / touching.size - _perimeter_correction(touching, periodic),
+                        cells / nodes,
+                        cells / nodes - overstated / nodes,
+                        (cells + most - overstated) / nodes,
                         _edge_share(contact),
                     )
                     resolved[i] = cells >= RESOLVED_FROM
@@ -109,7 +112,7 @@ def press_surface(
     except KeyboardInterrupt:
         interrupted = True
         values[:, status == Status.INTERRUPTED] = np.nan
-    residual, depth, force, stiffness, area, corrected, edge = values
+    residual, depth, force, stiffness, area, corrected, most_area, edge = values
     warnings = () if periodic else _edge_warnings(surface, force, edge)
     curve = Curve(
         depth=depth,
@@ -117,6 +120,7 @@ def press_surface(
         stiffness=stiffness,
         area_fraction=area,
         area_fraction_corrected=corrected,
+        area_fraction_most=most_area,
         status=status,
         resolved=resolved,
         residual=residual,
@@ -171,32 +175,6 @@ class _Units:
     @property
     def pressure(self) -> float:
         return self.E_star * self.height / self.length
-
-
-def _touching(contact: Contact) -> NDArray[np.bool_]:
-    touching = np.zeros(contact.gap.shape, dtype=bool)
-    touching.flat[contact.nodes] = contact.pressure > 0
-    return touching
-
-
-def _perimeter_correction(touching: NDArray[np.bool_], periodic: bool) -> float:
-    """Area fraction by which whole cells overstate a contact area with a smooth outline.
-
-    (pi - 1 + ln 2) / 24 cells for each pair of neighbours of which one touches [1]_.
-
-    References
-    ----------
-    .. [1] V. A. Yastrebov, G. Anciaux and J.-F. Molinari, "On the accurate computation of the true
-       contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
-       (2017).
-    """
-    switches = 0
-    for axis in (0, 1):
-        switches += int(np.count_nonzero(np.diff(touching, axis=axis)))
-        if periodic:
-            ends = np.take(touching, [0, -1], axis=axis)
-            switches += int(np.count_nonzero(np.diff(ends, axis=axis)))
-    return (np.pi - 1 + np.log(2)) / 24 * switches / touching.size
 
 
 def _edge_share(contact: Contact) -> float:

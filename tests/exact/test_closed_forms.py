@@ -98,7 +98,7 @@ def test_waves():
 
 def test_the_reduced_spectrum_is_the_mdr_transform_of_the_structure_function():
     """S_1(x) = |x| int_0^x S_2'(r) / sqrt(x² - r²) dr, with S(x) = <(h(x) - h(0))²>."""
-    spectrum = rl.SelfAffine(hurst=0.6, length=1.0, rms_height=1.0, q_high=60.0)
+    spectrum = rl.SelfAffine(hurst=0.6, length=1.0, C_0=1.0, q_high=60.0)
     nodes, weights = np.polynomial.legendre.leggauss(400)
     q = spectrum.q_low + (60.0 - spectrum.q_low) * (nodes + 1) / 2
     weights = weights * (60.0 - spectrum.q_low) / 2

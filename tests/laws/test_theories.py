@@ -163,14 +163,15 @@ def test_bad_questions_get_one_line():
 @pytest.mark.slow
 @pytest.mark.parametrize("hurst", [0.5, 0.8])
 @pytest.mark.parametrize("roll", [2, 8, 16])
-def test_persson_against_the_full_model_from_4_to_60_per_cent_contact(hurst, roll):
+def test_persson_against_the_full_model_with_a_roll_off_at_2_waves_or_more(hurst, roll):
+    """From 4 to 60 % contact."""
     spectrum = rl.SelfAffine(
         hurst=hurst, rms_height=1e-3, q_roll=math.tau * roll, q_high=math.tau * 48
     )
     surface = spectrum.surface(256, 3)
     p = surface.rms_slope * np.array([0.02, 0.05, 0.1, 0.2, 0.4])
     curve = rl.press(surface, E_star=1.0, forces=p, periodic=True)
-    persson = rl.theory("persson", rl.isotropic_spectrum(surface), 1.0, p)
+    persson = rl.theory("persson", surface, 1.0, p)
     assert 0.04 < curve.area_fraction_corrected[0] < 0.05
     assert 0.6 < curve.area_fraction_corrected[-1] < 0.66
     ratio = persson.stiffness / curve.stiffness
@@ -178,3 +179,21 @@ def test_persson_against_the_full_model_from_4_to_60_per_cent_contact(hurst, rol
     area = persson.area_fraction / curve.area_fraction_corrected
     assert ((area > 0.68) & (area < 0.93)).all()
     assert area[-1] > area[0] + 0.1  # it comes nearer towards full contact
+
+
+def test_without_a_roll_off_persson_holds_for_the_mean_of_surfaces_only():
+    spectrum = rl.SelfAffine(hurst=1.0, rms_height=1e-3, q_high=math.tau * 24)
+    p = spectrum.lattice(96).rms_slope * np.array([0.02, 0.05, 0.1, 0.17])  # 4 to 32 % contact
+    logs = []
+    for seed in range(8):
+        surface = spectrum.surface(96, seed)
+        curve = rl.press(surface, E_star=1.0, forces=p, periodic=True, rtol=1e-4)
+        theory = rl.theory("persson", surface, 1.0, p)
+        logs.append(np.log(curve.stiffness / theory.stiffness))
+    assert (np.abs(np.mean(logs, axis=0)) < math.log(1.3)).all()
+    assert np.abs(logs).max() > math.log(1.3)
+    # with integrals in the place of the sums it is too compliant by much
+    with_integrals = rl.theory("persson", spectrum, 1.0, p)
+    further = np.log(theory.stiffness / with_integrals.stiffness) + np.mean(logs, axis=0)
+    assert further.max() > math.log(1.15)
+    assert "if the roll-off is at 2 q_0 or more; without one" in theory.validity

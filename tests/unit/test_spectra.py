@@ -91,8 +91,8 @@ def test_on_the_lattice_a_line_is_rougher_than_its_surface(hurst, ratio):
 
 
 def lattice_ratio(spectrum, n):
-    line = spectrum.lattice_moment(0, n, "line")
-    return math.sqrt(line / spectrum.lattice_moment(0, n, "surface"))
+    line = spectrum.lattice(n, "line").moment(0)
+    return math.sqrt(line / spectrum.lattice(n).moment(0))
 
 
 @pytest.mark.parametrize("order", [0, 2, 4])
@@ -100,7 +100,7 @@ def test_lattice_sums_approach_the_integrals_on_a_dense_lattice(order):
     spectrum = rl.SelfAffine(hurst=0.6, length=400.0, C_0=1.0, q_roll=2.0, q_high=6.0)
     for body, n in (("surface", 1024), ("line", 2**14)):
         # a disc of 400 modes radius: its lattice sum differs by about 1 / 400
-        assert spectrum.lattice_moment(order, n, body) == pytest.approx(
+        assert spectrum.lattice(n, body).moment(order) == pytest.approx(
             spectrum.moment(order), rel=5e-3
         )
 

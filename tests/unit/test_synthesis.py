@@ -47,13 +47,13 @@ def test_every_mode_has_the_modulus_of_the_spectrum(n, hurst):
 def test_heights_have_the_moments_of_the_lattice_sum(body):
     spectrum = by_C_0(q_roll=9.0, q_high=40.0)
     heights = getattr(spectrum, body)(64, 7).heights
-    assert np.mean(heights**2) == pytest.approx(spectrum.lattice_moment(0, 64, body), rel=1e-12)
+    assert np.mean(heights**2) == pytest.approx(spectrum.lattice(64, body).moment(0), rel=1e-12)
     q = 2 * np.pi * np.fft.fftfreq(64, 3.0 / 64)
     spectrum_2 = np.abs(np.fft.fftn(heights) / heights.size) ** 2
     q2 = q**2 if body == "line" else q[:, None] ** 2 + q**2
     for order in (2, 4):
         assert (spectrum_2 * q2 ** (order / 2)).sum() == pytest.approx(
-            spectrum.lattice_moment(order, 64, body), rel=1e-10
+            spectrum.lattice(64, body).moment(order), rel=1e-10
         )
 
 
@@ -96,7 +96,7 @@ def test_gaussian_amplitudes_keep_the_phases_and_the_mean_spectrum(body):
     assert np.angle(fixed[inner]) == pytest.approx(np.angle(gaussian[inner]), abs=1e-10)
     powers = [np.mean(make(32, i, "gaussian").heights ** 2) for i in range(400)]
     standard_error = np.std(powers) / 20
-    assert abs(np.mean(powers) - spectrum.lattice_moment(0, 32, body)) < 4 * standard_error
+    assert abs(np.mean(powers) - spectrum.lattice(32, body).moment(0)) < 4 * standard_error
     # a single mode's power is exponential: its deviation equals its mean
     first = [np.abs(modes(make(8, i, "gaussian")).flat[1]) ** 2 for i in range(1000)]
     assert np.std(first) / np.mean(first) == pytest.approx(1.0, abs=0.15)

@@ -99,9 +99,13 @@ class Solved:
 def solved(run: Run, body: Body, fields: list[int] | bool, progress: Progress | None) -> Solved:
     """Press a body; what its grid leaves open is known if the run says so."""
     curve, interrupted = run.press(body, fields, progress)
-    # whole cells overstate an area, and finer waves take away from it
+    # whole cells overstate an area under summits, and finer waves take away from it
     return Solved(
-        curve, interrupted, curve.stiffness_error, curve.area_fraction_error, curve.area_fraction
+        curve,
+        interrupted,
+        curve.stiffness_error,
+        curve.area_fraction_error,
+        curve.area_fraction_most,
     )
 
 

@@ -189,7 +189,7 @@ def draw_spectrum(axes: Axes, found: Roughness) -> None:
         axes.loglog(spectrum.q, fit.values(spectrum.q), color="tab:red")
     elif fit is not None and 0 <= fit.hurst <= 1:
         inside = (spectrum.q >= fit.q_low) & (spectrum.q <= (fit.q_high or fit.q_last))
-        law = fit.spectrum().C_profile(spectrum.q[inside])
+        law = replace(fit.spectrum().continuum, C_0=fit.C_0).C_profile(spectrum.q[inside])
         axes.loglog(spectrum.q[inside], law, color="tab:red")
     symbol = "$C_{2d}$ [m⁴]" if of_surface else "$C_{profile}$ [m³]"
     axes.set(xlabel="wavenumber $q = 2\\pi/\\lambda$ [1/m]", ylabel=f"spectrum {symbol}")

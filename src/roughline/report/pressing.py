@@ -14,9 +14,9 @@ from roughline.characterisation import ALIKE, isotropy
 from roughline.errors import InputError
 from roughline.estimates import estimate
 from roughline.interface import plasticity_index
-from roughline.isotropic import isotropic_spectrum
 from roughline.line_scan import press_scan
 from roughline.materials import Interface, Material
+from roughline.moments import moments
 from roughline.preparation import Preparation
 from roughline.report.curves import Progress, Run, filled_otherwise, solved, trimmed
 from roughline.report.folder import make_folder
@@ -29,7 +29,7 @@ from roughline.report.loading import (
 )
 from roughline.report.pressed import Pressed
 from roughline.report.source import Source, notes_on_parts, read_parts, together
-from roughline.theories import TheoryCurve, moments, refuse_unknown, theory
+from roughline.theories import TheoryCurve, refuse_unknown, theory
 from roughline.topography import Body, Line, Surface
 
 Announce = Callable[[str], None]
@@ -183,11 +183,10 @@ def _answered(
                 f"theories assume equal directions; slopes differ, least {alike:.2f} "
                 "of the largest",
             ]
-        spectrum = isotropic_spectrum(body)
-        found = moments(spectrum)
+        found = moments(body)
         pressures = curve.force[curve.converged] / body.area
         if pressures.size:
-            lines = [theory(name, spectrum, E_star, pressures) for name in theories]
+            lines = [theory(name, body, E_star, pressures) for name in theories]
     if pressed.pair is None:
         return replace(pressed, theories=lines, notes=notes)
     saturated = None
