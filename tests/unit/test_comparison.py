@@ -5,6 +5,7 @@ import pytest
 
 import roughline as rl
 from roughline.trust import COLUMNS, Difference, from_rows
+from roughline.verdict import Verdict, of_all, verdict
 
 
 @pytest.fixture(scope="module")
@@ -24,7 +25,7 @@ def test_both_models_are_pressed_with_the_same_waves(compared):
     assert ((compared.low <= compared.difference) & (compared.difference <= compared.high)).all()
     # near saturation the models must differ as the punches do
     assert compared.difference[-1] == pytest.approx(0.1523, abs=0.02)
-    assert compared.differences()[-1].verdict(0.1) == "no"
+    assert compared.differences()[-1].verdict(0.1) is Verdict.REFUTED
     assert compared.trusted(1e-6) is None
     assert compared.trusted(0.9) == (0.1, 30.0) or compared.trusted(0.9) == (0.01, 30.0)
 
