@@ -133,7 +133,7 @@ def means(values: Real, rng: int = 0) -> Resampled:
     count = values.shape[0]
     flat = values.reshape(count, -1)
     finite = np.isfinite(flat)
-    weights = np.concatenate([np.ones((1, count)), _draws(count, rng)])
+    weights = _weights(count, rng)
     counts = weights @ finite
     some = np.where(counts > 0, counts, np.nan)
     # about the ensemble's own mean, so that squares do not cancel
@@ -166,7 +166,7 @@ def of_means(values: Real, statistic: Statistic, rng: int = 0) -> Resampled:
         Seed of the resampling.
     """
     count = values.shape[0]
-    weights = np.concatenate([np.ones((1, count)), _draws(count, rng)])
+    weights = _weights(count, rng)
     centre = values.mean(axis=0)
     about = values - centre
     shift = weights @ about / count
@@ -204,10 +204,11 @@ def of_log_means(values: Real, weights: Real, geometric: bool = False, rng: int 
 
 
 @lru_cache(maxsize=4)
-def _draws(count: int, rng: int) -> Real:
-    """How often each realisation is in each resample, shape (rounds, realisations)."""
+def _weights(count: int, rng: int) -> Real:
+    """How often each realisation counts in the ensemble, and in each resample below it."""
     draws = np.random.default_rng(rng).integers(count, size=(ROUNDS, count))
-    weights = np.zeros((ROUNDS, count))
-    np.add.at(weights, (np.repeat(np.arange(ROUNDS), count), draws.ravel()), 1.0)
+    weights = np.zeros((1 + ROUNDS, count))
+    weights[0] = 1.0
+    np.add.at(weights, (np.repeat(np.arange(1, 1 + ROUNDS), count), draws.ravel()), 1.0)
     weights.flags.writeable = False
     return weights

@@ -30,8 +30,8 @@ def claims_section(claims: list[Claim]) -> Section:
             "the whole interval lies outside. Undecided: it lies across, and this sample cannot "
             f"tell. The tolerance of an exponent is {EXPONENT_TOLERANCE:g}, that of a stiffness "
             f"or a height {STIFFNESS_TOLERANCE:.0%}; a claim about every D_f is refuted by one. "
-            "The intervals are those of the numbers found, studentised, from resampled realisations; "
-            "they do not hold what another window or another average would give, which is "
+            "The intervals are studentised, from resampled realisations; they do not hold what "
+            "another window or another average would give, which is "
             "why both stand beside them. The paper does not state its windows. Not judged: "
             "definitions, what it reports of others' work, and what its Fig. 1 is meant to show."
         ),

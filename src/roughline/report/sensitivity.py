@@ -96,15 +96,18 @@ def _at_level(data: xarray.Dataset, window: Window) -> Estimate:
 def _slope(means: Real) -> tuple[Real, Real]:
     """Exponent by least squares of mean force and mean stiffness, side by side, and its gradient.
 
-    Levels at which a resample bears nothing are left out of its line.
+    Levels at which a resample bears nothing are left out of its line; NaN if fewer than three are
+    left.
     """
     bears = (means > 0).reshape(*means.shape[:-1], 2, -1).all(axis=-2)
     count = bears.sum(axis=-1, keepdims=True)
-    some = np.where(count >= 3, count, np.nan)
     safe = np.where(np.concatenate([bears, bears], axis=-1), means, 1.0)
     x, y = np.split(np.log(safe), 2, axis=-1)
-    x, y = (np.where(bears, each - each.sum(axis=-1, keepdims=True) / some, 0.0) for each in (x, y))
-    spread = (x**2).sum(axis=-1, keepdims=True)
+    x, y = (
+        np.where(bears, each - each.sum(axis=-1, keepdims=True) / np.maximum(count, 1), 0.0)
+        for each in (x, y)
+    )
+    spread = np.where(count >= 3, (x**2).sum(axis=-1, keepdims=True), np.nan)
     slope = (x * y).sum(axis=-1, keepdims=True) / spread
     gradient = np.concatenate([(y - 2 * slope * x) / spread, x / spread], axis=-1) / safe
     return slope[..., 0], gradient

@@ -71,8 +71,8 @@ def trust_page(trust: TrustMap, fine: TrustMap, folder: str) -> str:
                 "surfaces: one of your own differs from the mean by so much. Its "
                 '`verdict(tolerance)` is "confirmed" where the whole interval lies within the '
                 'tolerance, "refuted" where it lies outside, and "undecided" else. At 10 % and '
-                f"where the grid resolves it, {_shares(trust)}. `roughline compare` presses both models of your own spectrum "
-                "or surface.",
+                f"where the grid resolves it, {_shares(trust)}. `roughline compare` presses both "
+                "models of your own spectrum or surface.",
                 "The map ends at its borders: it says nothing of other boundaries, of bodies that "
                 "are not square, or of heights that are not Gaussian.",
             ],
