@@ -138,7 +138,7 @@ def verdict(compared: Compared) -> str:
     window = result.trusted(compared.tolerance)
     verdicts = [each.verdict(compared.tolerance) for each in result.differences()]
     undecided = verdicts.count(Verdict.UNDECIDED)
-    text = f"that the two models agree within {share} is confirmed "
+    text = f"agreement within {share} is confirmed "
     text += (
         f"from F / (E* h L) = {window[0]:.3g} to {window[1]:.3g}"
         if window
