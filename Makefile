@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory grid-error persson contact-area robustness soak fuzz study published clean
+.PHONY: paper paper-full test check benchmark memory grid-error bootstrap-coverage persson contact-area robustness soak fuzz study published clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -36,6 +36,9 @@ contact-area: $(VENV)/installed
 
 persson: $(VENV)/installed
 	$(BIN)/python benchmarks/persson.py
+
+bootstrap-coverage: $(VENV)/installed
+	$(BIN)/python benchmarks/bootstrap_coverage.py
 
 robustness: $(VENV)/installed
 	$(BIN)/python benchmarks/robustness.py

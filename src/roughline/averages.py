@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from roughline import bootstrap
+from roughline.bootstrap import Resampled
 from roughline.errors import InputError
 
 Real = NDArray[np.float64]
@@ -24,7 +25,7 @@ class Average:
     mean : ndarray, shape (loads,)
         Arithmetic or geometric mean.
     low, high : ndarray, shape (loads,)
-        Ends of its interval, from resampled realisations.
+        Ends of its studentised interval, from resampled realisations.
     scatter : ndarray, shape (loads,)
         Standard deviation of the realisations; of the logarithm if the mean is geometric.
     standard_error : ndarray, shape (loads,)
@@ -72,21 +73,13 @@ def average(
         If the shape is another, or the mean is geometric and a value is not positive.
     """
     table = _checked(values, averaging, confidence)
-    finite = np.isfinite(table)
-    count = np.count_nonzero(finite, axis=0)
     shown = np.log(table) if averaging == "geometric" else table
-    some = np.maximum(count, 1)
-    mean = np.where(count, np.where(finite, shown, 0.0).sum(axis=0) / some, np.nan)
-    squares = np.where(finite, (shown - mean) ** 2, 0.0).sum(axis=0)
-    scatter = np.where(count > 1, np.sqrt(squares / np.maximum(count - 1, 1)), np.nan)
-    low, high = np.full_like(mean, np.nan), np.full_like(mean, np.nan)
-    several = count > 1
-    if several.any():
-        resamples = bootstrap.resampled_means(shown[:, several], rng)
-        low[several], high[several] = bootstrap.percentile_interval(resamples, confidence)
-    if averaging == "geometric":
-        mean, low, high = np.exp(mean), np.exp(low), np.exp(high)
-    return Average(mean, low, high, scatter, scatter / np.sqrt(some), count, averaging, confidence)
+    count = np.count_nonzero(np.isfinite(table), axis=0)
+    found = bootstrap.means(shown, rng)
+    ends = np.array([found.value, *found.interval(confidence)])
+    mean, low, high = np.exp(ends) if averaging == "geometric" else ends
+    scatter = found.error * np.sqrt(count)
+    return Average(mean, low, high, scatter, found.error, count, averaging, confidence)
 
 
 def relative_difference(
@@ -102,7 +95,7 @@ def relative_difference(
     Parameters
     ----------
     values, reference : array_like, shape (realisations, loads)
-        The two ensembles at the same loads.
+        The two ensembles at the same loads; positive, or NaN where a load did not converge.
     paired : bool
         Whether realisation i of both belongs together (same seed, same phases): they are then
         resampled together, and what is not finite in one is left out of both.
@@ -119,7 +112,7 @@ def relative_difference(
     Raises
     ------
     InputError
-        If the shapes do not fit.
+        If the shapes do not fit, or a value is not positive.
     """
     first = _checked(values, "arithmetic", confidence)
     second = _checked(reference, "arithmetic", confidence)
@@ -128,15 +121,23 @@ def relative_difference(
             f"values have shape {first.shape}, the reference {second.shape}; the same loads are "
             "needed, and for pairs the same realisations"
         )
+    if (first <= 0).any() or (second <= 0).any():
+        raise InputError("a relative difference needs positive values; some are zero or negative")
     if paired:
         both = np.isfinite(first) & np.isfinite(second)
-        first, second = np.where(both, first, np.nan), np.where(both, second, np.nan)
-    ratios = bootstrap.resampled_means(first, rng) / bootstrap.resampled_means(
-        second, rng if paired else rng + 1
-    )
-    difference = np.nanmean(first, axis=0) / np.nanmean(second, axis=0) - 1
-    low, high = bootstrap.percentile_interval(ratios, confidence) - 1
+        found = [_paired(*pair, rng) for pair in zip(first.T, second.T, both.T, strict=True)]
+        ends = [(each.value, *each.interval(confidence)) for each in found]
+        difference, low, high = np.expm1(np.reshape(ends, (-1, 3)).T)
+    else:
+        apart = bootstrap.means(first, rng).log() - bootstrap.means(second, rng + 1).log()
+        difference, (low, high) = np.expm1(apart.value), np.expm1(apart.interval(confidence))
     return difference, low, high
+
+
+def _paired(values: Real, reference: Real, both: NDArray[np.bool_], rng: int) -> Resampled:
+    """Difference of the logarithms of two means over the same realisations."""
+    pairs = np.column_stack([values[both], reference[both]])
+    return bootstrap.of_log_means(pairs, np.array([1.0, -1.0]), rng=rng)
 
 
 def at_levels(

@@ -16,12 +16,15 @@ from roughline.isotropic import isotropic_spectrum
 from roughline.spectra import SelfAffine
 from roughline.topography import Body, Surface
 from roughline.trust import Difference
+from roughline.verdict import Verdict
 
 Real = NDArray[np.float64]
 
 LINES = 200
 _SPRINGS_A_WAVE = 128  # of the shortest wave, so that the springs do not show
 _LEAST_SPRINGS = 2**16
+_LEAST_SCATTER = 0.01  # where lines are saturated: surfaces scatter by 0.012 at F̄ = 4, 0.003 at 10
+_TWO_SIDED = 1.97  # Student's t for 95 %, with the freedom of 200 lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +37,15 @@ class Comparison:
         F / (E* h L).
     full, reduced : Average
         Raw stiffness k / (E* L), mean over surfaces and over lines.
-    difference, low, high : ndarray, shape (loads,)
-        Full over reduced, less 1, and the ends of its 95 % interval.
+    difference : ndarray, shape (loads,)
+        Full over reduced, less 1, of what was pressed. [1]
+    low, high : ndarray, shape (loads,)
+        Ends of the 95 % interval of the difference between the two models, that is, of their
+        means over all surfaces and lines of this spectrum. A single surface is one draw among
+        these surfaces: the interval then holds the scatter of single surfaces too. [1]
+    scatter : ndarray, shape (loads,)
+        Relative standard deviation of the stiffness of single surfaces; beside a single surface
+        estimated from the lines. [1]
     resolved : ndarray of bool, shape (loads,)
         Whether every surface had ten cells or more in contact.
     surfaces, lines : int
@@ -48,24 +58,23 @@ class Comparison:
     difference: Real
     low: Real
     high: Real
+    scatter: Real
     resolved: NDArray[np.bool_]
     surfaces: int
     lines: int
 
     def differences(self) -> list[Difference]:
-        """List the differences, load by load; the scatter beside a single surface is of lines."""
-        of = self.full if self.surfaces > 1 else self.reduced
-        scatter = of.scatter / of.mean
-        table = zip(self.difference, self.low, self.high, scatter, self.resolved, strict=True)
+        """List the differences, load by load."""
+        columns = (self.difference, self.low, self.high, self.scatter, self.resolved)
         return [
-            Difference(float(value), float(low), float(high), float(spread), bool(sure))
-            for value, low, high, spread, sure in table
+            Difference(float(value), float(low), float(high), float(scatter), bool(resolved))
+            for value, low, high, scatter, resolved in zip(*columns, strict=True)
         ]
 
     def trusted(self, tolerance: float = 0.1) -> tuple[float, float] | None:
-        """Longest range of loads in which the two means are within a tolerance, or None."""
+        """Longest range of resolved loads whose verdicts are all "confirmed", or None."""
         good = [
-            abs(difference.value) <= tolerance and difference.resolved
+            difference.verdict(tolerance) is Verdict.CONFIRMED and difference.resolved
             for difference in self.differences()
         ]
         best, start = (0, 0), None
@@ -92,6 +101,8 @@ def compare(
 
     Of a spectrum, random surfaces and random reduced lines are pressed. Of a given surface, that
     surface and random lines with its spectrum, averaged over directions, scaled to its rms height.
+    The intervals are about the two models for this spectrum; those beside a single surface are
+    wide, as one surface says little of a mean over many.
 
     Parameters
     ----------
@@ -136,9 +147,17 @@ def compare(
             tell(i, surfaces)
             pressed.append(_pressed(alike.surface(n, seed), forces))
         tell(surfaces, surfaces)
-    reduced = np.array([_pressed(line, forces)[0] for line in lines])
     full = np.array([stiffness for stiffness, _ in pressed])
-    difference, low, high = relative_difference(full, reduced, paired=False)
+    resolved = np.all([each for _, each in pressed], axis=0)
+    if isinstance(body, Surface):
+        twice = np.array([[_pressed(line, f)[0] for f in (forces, forces / 2)] for line in lines])
+        reduced, at_half = twice[:, 0], twice[:, 1]
+        scatter = scatter_of_surfaces(reduced, at_half)
+        difference, low, high = difference_of_one(full[0], reduced, scatter)
+    else:
+        reduced = np.array([_pressed(line, forces)[0] for line in lines])
+        difference, low, high = relative_difference(full, reduced, paired=False)
+        scatter = full.std(axis=0, ddof=1) / full.mean(axis=0)
     return Comparison(
         force_bar=forces,
         full=average(full),
@@ -146,10 +165,55 @@ def compare(
         difference=difference,
         low=low,
         high=high,
-        resolved=np.all([resolved for _, resolved in pressed], axis=0),
+        scatter=scatter,
+        resolved=resolved,
         surfaces=len(pressed),
         lines=LINES,
     )
+
+
+def scatter_of_surfaces(reduced: Real, at_half: Real) -> Real:
+    """Estimate how much single surfaces scatter from lines with the same waves.
+
+    Lines scatter as surfaces do, or up to twice as much, but saturate at lower loads, where all
+    of them become alike: the larger scatter at the load and at half of it serves both.
+
+    Parameters
+    ----------
+    reduced, at_half : ndarray, shape (lines, loads)
+        Stiffness of lines at the loads, and at half of each.
+
+    Returns
+    -------
+    ndarray, shape (loads,)
+        Standard deviation of the logarithm of the stiffness. [1]
+    """
+    scatters = [np.log(each).std(axis=0, ddof=1) for each in (reduced, at_half)]
+    return np.maximum(np.maximum(*scatters), _LEAST_SCATTER)
+
+
+def difference_of_one(surface: Real, reduced: Real, scatter: Real) -> tuple[Real, Real, Real]:
+    """Relative difference of one surface from lines, as a sample of the models' difference.
+
+    Parameters
+    ----------
+    surface : ndarray, shape (loads,)
+        Stiffness of the surface.
+    reduced : ndarray, shape (lines, loads)
+        Stiffness of the lines.
+    scatter : ndarray, shape (loads,)
+        Standard deviation of the logarithm of the stiffness of single surfaces. [1]
+
+    Returns
+    -------
+    difference, low, high : ndarray, shape (loads,)
+        The difference, and the ends of the 95 % interval of that of the two means. [1]
+    """
+    mean = reduced.mean(axis=0)
+    error = reduced.std(axis=0, ddof=1) / mean / math.sqrt(len(reduced))
+    difference = np.log(surface / mean)
+    width = _TWO_SIDED * np.hypot(scatter, error)
+    return np.expm1(difference), np.expm1(difference - width), np.expm1(difference + width)
 
 
 def _seeds(root: int, count: int) -> list[np.random.SeedSequence]:

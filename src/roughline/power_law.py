@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -35,7 +36,7 @@ class PowerLaw:
     confidence : float
         Level of the intervals, such as 0.95.
     interval_from : str
-        "resampled realisations" (percentile bootstrap), or "regression" (Student's t) for a
+        "resampled realisations" (studentised bootstrap), or "regression" (Student's t) for a
         single curve.
     averaging : {"arithmetic", "geometric"}
         Mean over realisations that was fitted.
@@ -104,8 +105,7 @@ def fit_power_law(
         raise InputError(f"window is {window}; two rising, positive force_bar are needed")
     if not 0 < confidence < 1:
         raise InputError(f"confidence is {confidence}; a level between 0 and 1 is needed")
-    # a load placed on the window's edge belongs to it, rounding or not
-    inside = (force >= low * (1 - 1e-9)) & (force <= high * (1 + 1e-9))
+    inside = inside_window(force, window)
     if np.count_nonzero(inside) < 3:
         raise InputError(
             f"the window {low:g} to {high:g} holds {np.count_nonzero(inside)} loads; at least 3 "
@@ -119,21 +119,24 @@ def fit_power_law(
             "finite numbers (loads that did not converge are NaN): leave their loads or "
             "realisations out"
         )
-    slope, offset = _line(log_force, _log_mean(stiffness, averaging))
+    exponent, offset = line_weights(log_force)
     if stiffness.shape[0] > 1:
-        resamples = _resampled_log_means(stiffness, averaging, rng)
-        slope_interval, offset_interval = bootstrap.percentile_interval(
-            np.array(_line(log_force, resamples)).T, confidence
-        ).T
+        found = [
+            bootstrap.of_log_means(stiffness, weights, averaging == "geometric", rng)
+            for weights in (exponent, offset)
+        ]
+        values = [float(each.value) for each in found]
+        intervals = [each.interval(confidence) for each in found]
     else:
-        slope_interval, offset_interval = _regression_intervals(
-            log_force, np.log(stiffness[0]), float(slope), float(offset), confidence
-        )
+        logs = np.log(stiffness[0])
+        values = [float(logs @ weights) for weights in (exponent, offset)]
+        intervals = _regression_intervals(log_force, logs, values[0], values[1], confidence)
+    ends = [(float(low), float(high)) for low, high in intervals]
     return PowerLaw(
-        exponent=float(slope),
-        prefactor=float(np.exp(offset)),
-        exponent_interval=(float(slope_interval[0]), float(slope_interval[1])),
-        prefactor_interval=(float(np.exp(offset_interval[0])), float(np.exp(offset_interval[1]))),
+        exponent=values[0],
+        prefactor=math.exp(values[1]),
+        exponent_interval=ends[0],
+        prefactor_interval=(math.exp(ends[1][0]), math.exp(ends[1][1])),
         window=(float(low), float(high)),
         points=log_force.size,
         realisations=stiffness.shape[0],
@@ -147,15 +150,15 @@ def find_window(
     force_bar: ArrayLike,
     stiffness_bar: ArrayLike,
     confidence: float = 0.95,
-    rng: int = 0,
     averaging: Averaging = "arithmetic",
 ) -> tuple[float, float] | None:
     """Find the longest range of loads in which a power law is not rejected.
 
     In each range of at least five loads, polynomials of second and third degree, orthogonal to
-    the line, are fitted to the logarithms of the mean; the power law is rejected where the
-    interval of either coefficient, from resampled realisations, leaves out zero. The larger the
-    ensemble, the smaller the curvature that is noticed, and the shorter the range.
+    the line, are fitted to the logarithms of the mean; the power law is rejected where either
+    coefficient differs from zero, by Student's t with its linearised standard error over the
+    realisations. The larger the ensemble, the smaller the curvature that is noticed, and the
+    shorter the range.
 
     Parameters
     ----------
@@ -163,7 +166,7 @@ def find_window(
         Rising dimensionless forces.
     stiffness_bar : array_like, shape (realisations, loads)
         Dimensionless stiffness, positive and finite, of at least two realisations.
-    confidence, rng, averaging
+    confidence, averaging
         As for :func:`fit_power_law`; the two tests share the level.
 
     Returns
@@ -185,18 +188,46 @@ def find_window(
         )
     if not (np.isfinite(stiffness) & (stiffness > 0)).all():
         raise InputError("stiffness_bar must be positive and finite: leave other loads out")
-    log_force = np.log(force)
-    resamples = _resampled_log_means(stiffness, averaging, rng)
-    each = 1 - (1 - confidence) / 2  # Bonferroni: two tests
+    from scipy.special import stdtrit  # here because it loads slowly
+
+    log_force, count = np.log(force), len(stiffness)
+    log_mean, moves = _log_mean(stiffness, averaging)
+    each = 1 - (1 - confidence) / 4  # Bonferroni: two tests, each of two tails
+    largest = stdtrit(count - 1, each) / math.sqrt(count * (count - 1))
     for points in range(force.size, 4, -1):
         lengths = log_force[points - 1 :] - log_force[: force.size - points + 1]
         for first in np.argsort(-lengths, kind="stable"):
             inside = slice(first, first + points)
-            bends = resamples[:, inside] @ _bends(log_force[inside])
-            low, high = bootstrap.percentile_interval(bends, each)
-            if ((low <= 0) & (high >= 0)).all():
+            bends = _bends(log_force[inside])
+            errors = np.sqrt(((moves[:, inside] @ bends) ** 2).sum(axis=0))
+            if (np.abs(log_mean[inside] @ bends) <= largest * errors).all():
                 return float(force[first]), float(force[first + points - 1])
     return None
+
+
+def inside_window(force_bar: Real, window: tuple[float, float]) -> NDArray[np.bool_]:
+    """Return which loads are in a window; one on its edge belongs to it, rounding or not."""
+    return (force_bar >= window[0] * (1 - 1e-9)) & (force_bar <= window[1] * (1 + 1e-9))
+
+
+def line_weights(x: Real) -> tuple[Real, Real]:
+    """Weights of y(x) whose sums are slope and offset of the least-squares line."""
+    centred = x - x.mean()
+    slope = centred / (centred**2).sum()
+    return slope, 1 / x.size - slope * x.mean()
+
+
+def exponent_weights(force_bar: Real, window: tuple[float, float]) -> Real:
+    """Weights of the logarithms at all loads whose sum is the exponent in a window.
+
+    Zero outside the window; NaN if it holds fewer than three loads.
+    """
+    inside = inside_window(force_bar, window)
+    if np.count_nonzero(inside) < 3:
+        return np.full(force_bar.size, np.nan)
+    weights = np.zeros(force_bar.size)
+    weights[inside] = line_weights(np.log(force_bar[inside]))[0]
+    return weights
 
 
 def _bends(x: Real) -> Real:
@@ -206,16 +237,14 @@ def _bends(x: Real) -> Real:
     return basis[:, 2:]
 
 
-def _log_mean(stiffness: Real, averaging: Averaging) -> Real:
+def _log_mean(stiffness: Real, averaging: Averaging) -> tuple[Real, Real]:
+    """Logarithm of the mean, and how far each realisation moves it, times their count."""
     if averaging == "geometric":
-        return np.log(stiffness).mean(axis=0)
-    return np.log(stiffness.mean(axis=0))
-
-
-def _resampled_log_means(stiffness: Real, averaging: Averaging, rng: int) -> Real:
-    if averaging == "geometric":
-        return bootstrap.resampled_means(np.log(stiffness), rng)
-    return np.log(bootstrap.resampled_means(stiffness, rng))
+        logs = np.log(stiffness)
+        mean = logs.mean(axis=0)
+        return mean, logs - mean
+    mean = stiffness.mean(axis=0)
+    return np.log(mean), stiffness / mean - 1
 
 
 def scaling_exponent(fractal_dimension: Value) -> Value:
@@ -228,16 +257,9 @@ def linear_exponent(fractal_dimension: Value) -> Value:
     return 0.2567 * fractal_dimension
 
 
-def _line(x: Real, y: Real) -> tuple[Real, Real]:
-    """Slope and offset of the least-squares lines through y(x), along the last axis of y."""
-    centred = x - x.mean()
-    slope = (y * centred).sum(axis=-1) / (centred**2).sum()
-    return slope, y.mean(axis=-1) - slope * x.mean()
-
-
 def _regression_intervals(
     x: Real, y: Real, slope: float, offset: float, confidence: float
-) -> tuple[Real, Real]:
+) -> list[Real]:
     from scipy.special import stdtrit  # here because it loads slowly
 
     freedom = x.size - 2
@@ -246,4 +268,4 @@ def _regression_intervals(
     width = stdtrit(freedom, (1 + confidence) / 2) * np.sqrt(variance / spread)
     offset_width = width * np.sqrt(np.mean(x**2))
     sides = np.array([-1.0, 1.0])
-    return slope + sides * width, offset + sides * offset_width
+    return [slope + sides * width, offset + sides * offset_width]

@@ -103,7 +103,7 @@ def test_the_models_are_compared(invoke, tmp_path):
     assert code == 0
     assert "4 surfaces of 64 x 64 points, D_f = 2.4, q_roll / q_0 = 1" in out
     assert "the map says" in out
-    assert "the reduced model is" in out
+    assert "agreement within 10% is confirmed" in out
     table = pd.read_csv(tmp_path / "out" / "comparison.csv")
     spectrum = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_high=16 * 2 * np.pi)
     found = rl.compare(spectrum, n=64, surfaces=4, force_bars=[0.05, 0.5])

@@ -38,7 +38,9 @@ def test_pieces_of_cuts_have_the_expected_spectrum(hurst, roll):
     """Means over random pieces, tilted, against Abel's integral and the leakage of their ends."""
     n, longer, count = 256, 8, 1500
     spectrum, rng = long_law(hurst, roll, longer), np.random.default_rng(1)
-    power = spectrum.continuum.C_profile(np.arange(1, longer * n // 2) * Q_0 / longer) * Q_0 / longer
+    power = (
+        spectrum.continuum.C_profile(np.arange(1, longer * n // 2) * Q_0 / longer) * Q_0 / longer
+    )
     modes = rng.normal(size=(count, 2, power.size)) * np.sqrt(power / 2)
     whole = np.zeros((count, longer * n // 2 + 1), dtype=complex)
     whole[:, 1:-1] = modes[:, 0] + 1j * modes[:, 1]

@@ -90,7 +90,9 @@ def test_tilted_pieces_are_recovered(hursts):
 
 def piece_of_a_cut(rng, n, spectrum, longer):
     """Piece of a cut with independent Gaussian modes of the exact spectrum C_profile."""
-    power = spectrum.continuum.C_profile(np.arange(1, longer * n // 2) * Q_0 / longer) * Q_0 / longer
+    power = (
+        spectrum.continuum.C_profile(np.arange(1, longer * n // 2) * Q_0 / longer) * Q_0 / longer
+    )
     modes = np.sqrt(power / 2) * (rng.normal(size=power.size) + 1j * rng.normal(size=power.size))
     whole = np.fft.irfft([0, *modes, 0], longer * n) * longer * n
     return whole[:n] + rng.normal() * np.linspace(-1, 1, n)

@@ -19,6 +19,7 @@ from roughline.report.style import FORCE_LABEL, PAGE, SHADE, colours, new_figure
 from roughline.spectra import SelfAffine
 from roughline.topography import Line, Surface
 from roughline.trust import Difference, trust_map
+from roughline.verdict import Verdict
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class Compared:
     comparison : Comparison
         Curves and differences.
     tolerance : float
-        Relative difference up to which the reduced model counts as trusted.
+        Relative difference up to which the two models count as agreeing.
     from_map : list of Difference or None
         What the map says for each load; None for loads outside it, and for surfaces.
     files : list of Path
@@ -66,7 +67,7 @@ def compare_models(
     n, surfaces, force_bars
         As for :func:`roughline.compare`.
     tolerance : float
-        Relative difference up to which the reduced model counts as trusted.
+        Relative difference up to which the two models count as agreeing.
     seed : int
         Root of all seeds.
     out : Path or None
@@ -112,7 +113,8 @@ def compare_models(
 def compared_table(compared: Compared) -> tuple[list[str], list[list[str]]]:
     """Return header and rows; a star marks loads that the grid decides."""
     result = compared.comparison
-    header = ["F / (E* h L)", "k 1D", "k 3D", "3D over 1D, less 1", "trusted"]
+    within = f"within {compared.tolerance:.0%}"
+    header = ["F / (E* h L)", "k 1D", "k 3D", "3D over 1D, less 1", within]
     shows_map = any(entry is not None for entry in compared.from_map)
     rows = []
     for i, difference in enumerate(result.differences()):
@@ -131,15 +133,28 @@ def compared_table(compared: Compared) -> tuple[list[str], list[list[str]]]:
 
 
 def verdict(compared: Compared) -> str:
-    """Say in one line where the reduced model may be trusted."""
-    window = compared.comparison.trusted(compared.tolerance)
-    share = f"{compared.tolerance:.0%}"
-    if window is None:
-        return f"the reduced model is not within {share} at any load that the grid resolves"
-    return (
-        f"the reduced model is within {share} from F / (E* h L) = {window[0]:.3g} to "
-        f"{window[1]:.3g}"
+    """Say in a few sentences where the reduced model may be trusted, and of what this is true."""
+    result, share = compared.comparison, f"{compared.tolerance:.0%}"
+    window = result.trusted(compared.tolerance)
+    verdicts = [each.verdict(compared.tolerance) for each in result.differences()]
+    undecided = verdicts.count(Verdict.UNDECIDED)
+    text = f"agreement within {share} is confirmed "
+    text += (
+        f"from F / (E* h L) = {window[0]:.3g} to {window[1]:.3g}"
+        if window
+        else "at no load that the grid resolves"
     )
+    text += (
+        f", refuted at {verdicts.count(Verdict.REFUTED)} and undecided at {undecided} of "
+        f"{len(verdicts)} loads"
+    )
+    if result.surfaces == 1:
+        return (
+            f"{text}. This is about the models for surfaces of this spectrum, of which this is "
+            f"one: single surfaces scatter by {result.scatter.max():.0%} or less, and the interval "
+            "includes it"
+        )
+    return f"{text}; more surfaces decide more" if undecided else text
 
 
 def compared_figure(result: Comparison, tolerance: float) -> Figure:
@@ -199,6 +214,7 @@ def _write(result: Comparison, tolerance: float, out: Path) -> list[Path]:
             "difference": result.difference,
             "low": result.low,
             "high": result.high,
+            "scatter": result.scatter,
             "resolved": result.resolved,
         }
     )

@@ -12,6 +12,7 @@ from matplotlib.ticker import PercentFormatter
 
 from roughline import scaling
 from roughline.averages import relative_difference
+from roughline.report.contact_area import WINDOW_AREA
 from roughline.report.style import (
     FORCE_LABEL,
     MARKERS,
@@ -21,7 +22,7 @@ from roughline.report.style import (
     legend_dimensions,
     new_figure,
 )
-from roughline.report.summary import WINDOW_AGREEMENT, WINDOW_AREA, DimensionSummary
+from roughline.report.summary import WINDOW_AGREEMENT, DimensionSummary
 from roughline.trust import TrustMap
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def area_law(full: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
     dimensions = full.fractal_dimension.values
     for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
         one = full.sel(fractal_dimension=dimension)
-        area = np.nanmean(one.area_fraction.values, axis=0)
+        area = np.nanmean(one.area_fraction_corrected.values, axis=0)
         certain = (one.resolved.values == 1).all(axis=0)
         force = one.force_bar.values
         left.loglog(
@@ -49,23 +50,24 @@ def area_law(full: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
         left.loglog(force, area, color=colour, linewidth=0.7, linestyle="--")
     left.set(xlabel=FORCE_LABEL, ylabel="real contact area $A/A_0$")
     legend_dimensions(left, dimensions)
-    kappa = np.array([(s.kappa.value, s.kappa.low, s.kappa.high) for s in summaries])
-    right.errorbar(
-        [s.fractal_dimension for s in summaries],
-        kappa[:, 0],
-        yerr=[kappa[:, 0] - kappa[:, 1], kappa[:, 2] - kappa[:, 0]],
-        fmt="o",
-        color="k",
-        capsize=2,
-        label="this study, slope and area of the grid",
-    )
+    for name, look in (("corrected", "ko"), ("cells", "k^")):
+        kappa = [getattr(s, name).kappa for s in summaries]
+        right.errorbar(
+            [s.fractal_dimension for s in summaries],
+            [each.value for each in kappa],
+            yerr=np.transpose([(k.value - k.low, k.high - k.value) for k in kappa]),
+            fmt=look,
+            fillstyle="full" if name == "corrected" else "none",
+            capsize=2,
+            label="this study, " + ("area corrected" if name == "corrected" else "area in cells"),
+        )
     for value, name, style in (
         (np.sqrt(2 * np.pi), "Bush, Gibson, Thomas", "--"),
         (np.sqrt(8 / np.pi), "Persson", ":"),
     ):
         right.axhline(value, color="0.3", linewidth=1, linestyle=style, label=f"{name} {value:.2f}")
     right.set(xlabel="fractal dimension $D_f$", ylabel=r"$\kappa = A\,E^* \nabla h\,/\,F$")
-    right.set_ylim(0, max(5.0, 1.1 * kappa.max()))
+    right.set_ylim(0, 1.45 * max(s.cells.kappa.high for s in summaries))
     right.legend(loc="upper left")
     return figure
 

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import jinja2
 
+from roughline.verdict import Verdict
+
 
 @dataclass(frozen=True)
 class Table:
@@ -85,7 +87,6 @@ def _value_and_interval(cell: str) -> list[str]:
     return [value, f"({interval}"] if bracket else [value]
 
 
-def _verdict_class(verdict: str) -> str:
-    if verdict.startswith("not"):
-        return "no"
-    return "yes" if verdict == "confirmed" or verdict.startswith("confirmed, ") else "partly"
+def _verdict_class(words: str) -> str:
+    classes = {Verdict.CONFIRMED: "yes", Verdict.REFUTED: "no"}
+    return next((name for each, name in classes.items() if words.startswith(each)), "partly")

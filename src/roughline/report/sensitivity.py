@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from roughline import bootstrap
 from roughline.averages import at_levels
-from roughline.power_law import PowerLaw, find_window, fit_power_law
-from roughline.report.summary import Estimate, Window, inside_window, usable
+from roughline.bootstrap import NOTHING, Estimate
+from roughline.power_law import PowerLaw, find_window, fit_power_law, inside_window
+from roughline.report.summary import Window, usable
 
 if TYPE_CHECKING:
     import xarray
@@ -84,25 +85,29 @@ def _at_level(data: xarray.Dataset, window: Window) -> Estimate:
     means = force.mean(axis=0), stiffness.mean(axis=0)
     inside = inside_window(means[0], window)
     if np.count_nonzero(inside) < 3:
-        return Estimate(np.nan, np.nan, np.nan)
-    pairs = zip(
-        bootstrap.resampled_means(force[:, inside]),
-        bootstrap.resampled_means(stiffness[:, inside]),
-        strict=True,
+        return NOTHING
+    both = np.concatenate([force[:, inside], stiffness[:, inside]], axis=1)
+    found = bootstrap.of_means(both, _slope)
+    if np.isfinite(found.values).mean() < _SURE:
+        return Estimate(float(found.value), np.nan, np.nan)
+    return found.estimate()
+
+
+def _slope(means: Real) -> tuple[Real, Real]:
+    """Exponent by least squares of mean force and mean stiffness, side by side, and its gradient.
+
+    Levels at which a resample bears nothing are left out of its line; NaN if fewer than three are
+    left.
+    """
+    bears = (means > 0).reshape(*means.shape[:-1], 2, -1).all(axis=-2)
+    count = bears.sum(axis=-1, keepdims=True)
+    safe = np.where(np.concatenate([bears, bears], axis=-1), means, 1.0)
+    x, y = np.split(np.log(safe), 2, axis=-1)
+    x, y = (
+        np.where(bears, each - each.sum(axis=-1, keepdims=True) / np.maximum(count, 1), 0.0)
+        for each in (x, y)
     )
-    slopes = np.array([_slope(*pair) for pair in pairs])
-    value = _slope(*(mean[inside] for mean in means))
-    if np.isfinite(slopes).mean() < _SURE:
-        return Estimate(value, np.nan, np.nan)
-    low, high = bootstrap.percentile_interval(slopes)
-    return Estimate(value, float(low), float(high))
-
-
-def _slope(force: Real, stiffness: Real) -> float:
-    """Exponent by least squares; levels at which a resample bears nothing are left out."""
-    bears = (force > 0) & (stiffness > 0)
-    if np.count_nonzero(bears) < 3:
-        return float("nan")
-    x, y = np.log(force[bears]), np.log(stiffness[bears])
-    centred = x - x.mean()
-    return float((centred * y).sum() / (centred**2).sum())
+    spread = np.where(count >= 3, (x**2).sum(axis=-1, keepdims=True), np.nan)
+    slope = (x * y).sum(axis=-1, keepdims=True) / spread
+    gradient = np.concatenate([(y - 2 * slope * x) / spread, x / spread], axis=-1) / safe
+    return slope[..., 0], gradient

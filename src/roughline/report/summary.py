@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline import bootstrap, scaling
+from roughline import bootstrap
+from roughline.bootstrap import NOTHING, Estimate
 from roughline.errors import InputError
-from roughline.power_law import PowerLaw, fit_power_law
+from roughline.power_law import PowerLaw, exponent_weights, fit_power_law, inside_window
+from roughline.report.contact_area import AreaLaw, area_law, saturation
 from roughline.report.results import PaperResults
 
 if TYPE_CHECKING:
@@ -26,21 +28,33 @@ WINDOW_FULL: Window = (1e-2, 1e-1)
 """Range of F̄ for alpha of the full model, whose grid resolves no less."""
 WINDOW_AGREEMENT: Window = (1e-2, 0.3)
 """Range of F̄ in which the stiffness of the two models is compared."""
-WINDOW_AREA: Window = (10**-1.5, 10**-0.5)
-"""Range of F̄ for the area law."""
 OTHER_WINDOWS_REDUCED: tuple[Window, ...] = ((1e-3, 1e-1), (1e-2, 0.3))
 
 
+WINDOW_SAME: Window = (1e-2, 1e-1)
+"""Range of F̄ in which the exponents of the two models with the same waves are compared."""
+MEDIUM = 0.1
+"""Largest F̄ that counts as medium."""
+
+
 @dataclass(frozen=True)
-class Estimate:
-    """A number with its 95 % interval from resampled realisations."""
+class LocalExponents:
+    """The exponent at the lowest loads, beside that at higher ones.
 
-    value: float
-    low: float
-    high: float
+    Attributes
+    ----------
+    lowest : float
+        Smallest F̄ at which ten springs or cells touch in every realisation.
+    drift : Estimate
+        Exponent in the lower end of F̄ = `lowest` to 0.1 less that in its upper end; each end is
+        a decade, or half of the range where that is shorter.
+    at_lowest : Estimate
+        Exponent in the lowest half decade less that in the window of the fit.
+    """
 
-    def __str__(self) -> str:
-        return f"{self.value:.3f} ({self.low:.3f} to {self.high:.3f})"
+    lowest: float
+    drift: Estimate
+    at_lowest: Estimate
 
 
 @dataclass(frozen=True)
@@ -55,13 +69,19 @@ class DimensionSummary:
         k̄ over F̄ in the two models' windows; k̄ is raw, k / (E* L).
     reduced_elsewhere : tuple of PowerLaw
         The reduced model's law in other windows.
+    reduced_by_window : tuple of Estimate
+        Its exponent in the first window less that in each of the others.
+    reduced_local, full_local : LocalExponents
+        How far each model's exponent changes from the lowest loads to medium ones.
+    models_apart : Estimate
+        Exponent of the full model less that of the reduced one, same waves and window.
     agreement : Estimate
         Full over reduced raw stiffness at fixed F̄, geometric mean over the window; both models
         have the same waves.
-    kappa : Estimate
-        A E* slope / F of eq. 4, by least squares through the origin.
-    area_exponent : Estimate
-        Exponent of the real area over the force.
+    cells, corrected : AreaLaw
+        Of the area counted in cells, and of the area corrected for its perimeter.
+    saturation : Estimate
+        Real area fraction in cells, at which the mean stiffness is 90 % of the punch's.
     unresolved : float
         Share of the full model's loads in its window with fewer than ten cells in contact.
     left_out : int
@@ -72,9 +92,14 @@ class DimensionSummary:
     reduced: PowerLaw
     full: PowerLaw
     reduced_elsewhere: tuple[PowerLaw, ...]
+    reduced_by_window: tuple[Estimate, ...]
+    reduced_local: LocalExponents
+    full_local: LocalExponents
+    models_apart: Estimate
     agreement: Estimate
-    kappa: Estimate
-    area_exponent: Estimate
+    cells: AreaLaw
+    corrected: AreaLaw
+    saturation: Estimate
     unresolved: float
     left_out: int
 
@@ -120,18 +145,6 @@ def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Data
     return xarray.Dataset(variables, coordinates, attrs)
 
 
-def saturation(full: xarray.Dataset, k_bar: float = 0.9) -> list[float]:
-    """Real area fraction at which the mean stiffness reaches k_bar times the exact punch."""
-    fractions = []
-    for dimension in full.fractal_dimension.values:
-        one = full.sel(fractal_dimension=dimension)
-        stiffness = np.nanmean(one.stiffness.values, axis=0) / scaling.EXACT_PUNCH
-        area = np.nanmean(one.area_fraction.values, axis=0)
-        reached = stiffness[-1] >= k_bar
-        fractions.append(float(np.interp(k_bar, stiffness, area)) if reached else float("nan"))
-    return fractions
-
-
 def _summary(
     reduced: xarray.Dataset, full: xarray.Dataset, matched: xarray.Dataset
 ) -> DimensionSummary:
@@ -139,7 +152,6 @@ def _summary(
     stiffness_3d, left_out_3d = usable(full, WINDOW_FULL)
     force_1d, force_3d = reduced.force_bar.values, full.force_bar.values
     in_window = inside_window(force_3d, WINDOW_FULL)
-    kappa, area_exponent = _area_law(full)
     return DimensionSummary(
         fractal_dimension=float(full.fractal_dimension),
         reduced=fit_power_law(force_1d, stiffness_1d, WINDOW_REDUCED),
@@ -147,48 +159,64 @@ def _summary(
         reduced_elsewhere=tuple(
             fit_power_law(force_1d, stiffness_1d, window) for window in OTHER_WINDOWS_REDUCED
         ),
+        reduced_by_window=tuple(
+            _exponents_apart(reduced, WINDOW_REDUCED, window) for window in OTHER_WINDOWS_REDUCED
+        ),
+        reduced_local=_local_exponents(reduced, WINDOW_REDUCED),
+        full_local=_local_exponents(full, WINDOW_FULL),
+        models_apart=_models_apart(matched, full),
         agreement=_agreement(matched, full),
-        kappa=kappa,
-        area_exponent=area_exponent,
+        cells=area_law(full, "area_fraction"),
+        corrected=area_law(full, "area_fraction_corrected"),
+        saturation=saturation(full),
         unresolved=1 - float(full.resolved.values[:, in_window].mean()),
         left_out=left_out_1d + left_out_3d,
     )
 
 
+def _exponents_apart(data: xarray.Dataset, first: Window, second: Window) -> Estimate:
+    """Exponent in one window less that in another, of the same realisations."""
+    force = data.force_bar.values
+    both = (min(first[0], second[0]), max(first[1], second[1]))
+    weights = exponent_weights(force, first) - exponent_weights(force, second)
+    if not np.isfinite(weights).all():
+        return NOTHING
+    return bootstrap.of_log_means(usable(data, both)[0], weights).estimate()
+
+
+def _local_exponents(data: xarray.Dataset, window: Window) -> LocalExponents:
+    force = data.force_bar.values
+    certain = (data.resolved.values == 1).all(axis=0)
+    lowest = float(force[np.argmax(certain)]) if certain.any() else np.nan
+    step = min(10.0, np.sqrt(MEDIUM / lowest))
+    ends = (lowest, lowest * step), (MEDIUM / step, MEDIUM)
+    return LocalExponents(
+        lowest=lowest,
+        drift=_exponents_apart(data, *ends),
+        at_lowest=_exponents_apart(data, (lowest, lowest * np.sqrt(10)), window),
+    )
+
+
+def _models_apart(matched: xarray.Dataset, full: xarray.Dataset) -> Estimate:
+    """Exponent of surfaces less that of lines with the same waves."""
+    weights = exponent_weights(full.force_bar.values, WINDOW_SAME)
+    surfaces, lines = (
+        bootstrap.of_log_means(usable(data, WINDOW_SAME)[0], weights, rng=seed)
+        for seed, data in enumerate((full, matched))
+    )
+    return (surfaces - lines).estimate()
+
+
 def _agreement(matched: xarray.Dataset, full: xarray.Dataset) -> Estimate:
     """Full over reduced stiffness, of surfaces and of lines with the same waves."""
     inside = inside_window(full.force_bar.values, WINDOW_AGREEMENT)
-    values_3d, values_1d = (
-        usable(data, WINDOW_AGREEMENT)[0][:, inside] for data in (full, matched)
-    )
-    middle = float(np.log(values_3d.mean(axis=0) / values_1d.mean(axis=0)).mean())
+    weights = inside / np.count_nonzero(inside)
     # the two ensembles are independent: they are resampled apart
-    resamples = np.log(
-        bootstrap.resampled_means(values_3d, 0) / bootstrap.resampled_means(values_1d, 1)
+    surfaces, lines = (
+        bootstrap.of_log_means(usable(data, WINDOW_AGREEMENT)[0], weights, rng=seed)
+        for seed, data in enumerate((full, matched))
     )
-    low, high = bootstrap.percentile_interval(resamples.mean(axis=1))
-    return Estimate(*np.exp([middle, float(low), float(high)]).tolist())
-
-
-def _area_law(full: xarray.Dataset) -> tuple[Estimate, Estimate]:
-    """Kappa and the exponent of the real area over the force."""
-    inside = inside_window(full.force_bar.values, WINDOW_AREA)
-    force = full.force_bar.values[inside]
-    area = full.area_fraction.values[:, inside]
-    finite = np.isfinite(area).all(axis=1)
-    area, slope = area[finite], full.rms_slope.values[finite]
-    kappa = (area * force).sum(axis=1) / (force**2).sum() * slope
-    kappa_low, kappa_high = bootstrap.interval(kappa, float)
-    log_force = np.log(force) - np.log(force).mean()
-
-    def exponent(mean: Real) -> float:
-        return float((np.log(mean) * log_force).sum() / (log_force**2).sum())
-
-    low, high = bootstrap.interval(area, exponent)
-    return (
-        Estimate(float(kappa.mean()), float(kappa_low), float(kappa_high)),
-        Estimate(exponent(area.mean(axis=0)), float(low), float(high)),
-    )
+    return (surfaces - lines).estimate().exp()
 
 
 def usable(data: xarray.Dataset, window: Window) -> tuple[Real, int]:
@@ -201,8 +229,3 @@ def usable(data: xarray.Dataset, window: Window) -> tuple[Real, int]:
             f"F̄ = {window[0]:g} to {window[1]:g}: nothing to fit"
         )
     return stiffness[usable], int(np.count_nonzero(~usable))
-
-
-def inside_window(force_bar: Real, window: Window) -> NDArray[np.bool_]:
-    """Return which loads are in a window, its edges included."""
-    return (force_bar >= window[0] * (1 - 1e-9)) & (force_bar <= window[1] * (1 + 1e-9))

@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline.campaign.export import mean_table, write_netcdf
 from roughline.power_law import fit_power_law, linear_exponent, scaling_exponent
-from roughline.report.claims import Claim
+from roughline.report.claim import Claim
 from roughline.report.page import Table
 from roughline.report.results import PaperResults
 from roughline.report.sensitivity import Sensitivity
@@ -49,15 +49,24 @@ def exponent_table(summaries: list[DimensionSummary]) -> Table:
 
 def constant_table(summaries: list[DimensionSummary]) -> Table:
     """Table of prefactors, of the models' ratio and of the area law."""
-    header = ("D_f", "ζ 1D", "ζ 3D", "k 3D over 1D", "κ", "A ~ F^")
+    header = (
+        *("D_f", "ζ 1D", "ζ 3D", "k 3D over 1D", "κ", "A ~ F^"),
+        *("κ in cells", "A in cells ~ F^", "κ, first to last load"),
+    )
     rows = [
         (
             f"{s.fractal_dimension:.1f}",
             _with_interval(s.reduced.prefactor, s.reduced.prefactor_interval),
             _with_interval(s.full.prefactor, s.full.prefactor_interval),
-            _with_interval(s.agreement.value, (s.agreement.low, s.agreement.high)),
-            _with_interval(s.kappa.value, (s.kappa.low, s.kappa.high)),
-            _with_interval(s.area_exponent.value, (s.area_exponent.low, s.area_exponent.high)),
+            *(
+                _with_interval(number.value, (number.low, number.high))
+                for number in (
+                    s.agreement,
+                    *(s.corrected.kappa, s.corrected.exponent),
+                    *(s.cells.kappa, s.cells.exponent),
+                )
+            ),
+            f"{s.corrected.kappa_ends[0]:.2f} to {s.corrected.kappa_ends[1]:.2f}",
         )
         for s in summaries
     ]
