@@ -20,18 +20,21 @@ Real = NDArray[np.float64]
 LONGER = 4
 """Where a piece shows no roll-off, waves up to this many times its side are allowed for."""
 
-_MEASURED = (0.001, 0.95)  # contact area fractions that were measured
+# What was measured: contact area fractions, and the most roll-off wavelengths.
+_MEASURED = (0.001, 0.95)
+_MOST_WAVES = 16
 
-# Half widths of the interval of log(stiffness of the whole surface over that of its piece), chosen
-# to hold 95 of 100 (benchmarks/interface_stiffness.py). With a roll-off inside they are shares of
-# the side: contact patches, the few longest waves, and the border fall with its wavelength.
-_FEW_PATCHES = 0.15  # over the root of the contact area fraction: patches are few at light loads
-_FEW_WAVES = (0.6, 0.45)  # at the lower and the upper end
-_BORDER = 0.7  # sides that do not match keep the piece from full contact
+# Half widths of the interval of log(stiffness of the whole surface over that of its piece), at the
+# lower and the upper end, chosen to hold 95 of 100 (benchmarks/interface_stiffness.py). With a
+# roll-off inside, all of them fall with its wavelength over the side.
+_FEW_PATCHES = 0.16  # over the root of the contact area fraction: patches are few at light loads
+_FEW_WAVES = (0.65, 0.4)
+# Near full contact little decides what is still open, and sides that do not match keep gaps.
+_FULL = (0.25, 0.9)
 # Without a roll-off the longer waves of the whole surface make it less stiff.
 _UNKNOWN_PATCHES = 0.02
 _UNKNOWN_WAVES = (1.8, 0.35)
-_UNKNOWN_BORDER = 0.5
+_UNKNOWN_FULL = (0.0, 0.5)
 
 _PUNCH_ERROR = 0.396  # of the stiffness of a punch on n x n points, times n
 
@@ -77,14 +80,14 @@ def share_of_the_whole(area_fraction: ArrayLike, roll_offs: float | None) -> tup
     with np.errstate(divide="ignore"):
         patches = 1 / np.sqrt(np.fmax(share, lightest))
         patches *= 1 + np.log(np.fmax(lightest / share, 1.0)) / 2  # stiffness goes on as a power
-        border = np.where(share > fullest, np.inf, np.sqrt(share / (1 - share)))
+        full = np.sqrt(np.minimum(share, fullest) / (1 - np.minimum(share, fullest)))
     if roll_offs is None:
-        low = _UNKNOWN_PATCHES * patches + _UNKNOWN_WAVES[0]
-        high = _UNKNOWN_PATCHES * patches + _UNKNOWN_WAVES[1] + _UNKNOWN_BORDER * border
+        waves, constants = 1.0, (_UNKNOWN_PATCHES, _UNKNOWN_WAVES, _UNKNOWN_FULL)
     else:
-        low = (_FEW_PATCHES * patches + _FEW_WAVES[0]) / roll_offs
-        high = (_FEW_PATCHES * patches + _FEW_WAVES[1] + _BORDER * border) / roll_offs
-    return np.exp(-low), np.exp(high)
+        waves, constants = min(roll_offs, _MOST_WAVES), (_FEW_PATCHES, _FEW_WAVES, _FULL)
+    few, long, filled = constants
+    low, high = ((few * patches + long[i] + filled[i] * full) / waves for i in (0, 1))
+    return np.exp(-low), np.where(share > fullest, np.inf, np.exp(high))
 
 
 def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = None) -> Answer:
