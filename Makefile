@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory grid-error bootstrap-coverage persson contact-area robustness soak fuzz study published clean
+.PHONY: paper paper-full test check benchmark memory grid-error interface-stiffness bootstrap-coverage persson contact-area robustness soak fuzz study published clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -39,6 +39,9 @@ persson: $(VENV)/installed
 
 bootstrap-coverage: $(VENV)/installed
 	$(BIN)/python benchmarks/bootstrap_coverage.py
+
+interface-stiffness: $(VENV)/installed
+	$(BIN)/python benchmarks/interface_stiffness.py
 
 robustness: $(VENV)/installed
 	$(BIN)/python benchmarks/robustness.py

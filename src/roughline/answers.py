@@ -49,6 +49,12 @@ class Answer:
     validity: str = ""
     source: str = ""
 
+    @property
+    def rows(self) -> Real:
+        """Values, and both ends where they are known, (1 or 3, loads). [unit]"""
+        ends = () if self.low is None or self.high is None else (self.low, self.high)
+        return np.stack([self.values, *ends])
+
 
 def saturated_stiffness(surface: Surface, E_star: float) -> float:
     """Stiffness of the flat punch with the outline and grid of a surface. [N / m]"""
@@ -62,7 +68,7 @@ def answers(
     area: float,
     pair: Interface,
     *,
-    saturated: float | None = None,
+    interface_stiffness: Answer | None = None,
     rms_height: float | None = None,
     rms_slope: float | None = None,
     frequency: float | None = None,
@@ -81,9 +87,10 @@ def answers(
         Nominal contact area. [m²]
     pair : Interface
         The materials.
-    saturated : float, optional
-        Stiffness of the flat punch of the same outline, for a free surface; without it, as for a
-        periodic one, the stiffness is the interface's own. [N / m]
+    interface_stiffness : Answer, optional
+        Of the interface alone, with its own interval, for a free surface or one that was cut out of
+        a larger one (:mod:`roughline.larger_interface`); without it, as for a surface that is
+        periodic, it is the contact stiffness.
     rms_height, rms_slope : float, optional
         Of the sum of both surfaces, for the estimates of the literature. [m], [1]
     frequency : float, optional
@@ -107,24 +114,15 @@ def answers(
         ),
         _answer("stiffness per area", "k/A_0", "N/m³", k / area, "k / A_0"),
     ]
-    own = k
-    if saturated is not None:
-        own = interface.interface_stiffness(k, saturated)
-        found.append(
-            _answer(
-                "interface stiffness",
-                "k_i",
-                "N/m",
-                own,
-                "1/k_i = 1/k - 1/k_s, k_s of the flat punch",
-                "without the bodies' own compliance; uncertain near full contact",
-            )
-        )
+    own, whose = k, ""
+    if interface_stiffness is not None:
+        found.append(interface_stiffness)
+        own, whose = interface_stiffness.rows, f"; k_i {interface_stiffness.validity}"
     if curve.area_fraction_corrected is not None:
         share = np.stack([curve.area_fraction_corrected, *(area_interval or ())])
         found += _areas(curve.force, share, area, pair)
     found += _electric(curve.force, k, pair)
-    found += _thermal(pressure, k, own / area, pair, rms_height, rms_slope)
+    found += _thermal(pressure, k, own / area, whose, pair, (rms_height, rms_slope))
     found.append(
         _answer(
             "tangential stiffness",
@@ -145,7 +143,7 @@ def answers(
                 "1",
                 interface.reflection(own / area, frequency, impedances),
                 "|z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|, K = k_i / A_0",
-                "longitudinal plane waves much longer than the distances of contact spots",
+                "longitudinal plane waves much longer than the distances of contact spots" + whose,
                 "Tattersall 1973",
             )
         )
@@ -240,9 +238,9 @@ def _thermal(
     pressure: Real,
     k: Real,
     own_per_area: Real,
+    whose: str,
     pair: Interface,
-    rms_height: float | None,
-    rms_slope: float | None,
+    amplitudes: tuple[float | None, float | None],
 ) -> list[Answer]:
     conductivities = pair.both("conductivity")
     if conductivities is None:
@@ -263,10 +261,11 @@ def _thermal(
             "W/(m² K)",
             interface.thermal_conductance(own_per_area, pair.E_star, conductivities),
             "kappa_s k_i / (E* A_0)",
-            "solid spots alone, in vacuum",
+            f"solid spots alone, in vacuum{whose}",
             "Barber 2003",
         ),
     ]
+    rms_height, rms_slope = amplitudes
     if not rms_height or not rms_slope:
         return found
     shape = (rms_height, rms_slope, conductivities)

@@ -26,7 +26,8 @@ def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
     """Stiffness of the interface alone, 1 / k_interface = 1 / k - 1 / k_s.
 
     A free surface in full contact is as stiff as its flat punch, k_s, and that compliance belongs
-    to the bodies; what is left belongs to the roughness.
+    to the bodies; what is left belongs to the roughness. Exact under a uniform mean pressure, which
+    a punch has not: see :mod:`roughline.larger_interface` for a piece of a larger surface.
 
     Parameters
     ----------

@@ -1,7 +1,9 @@
 """The measured files as a new user meets them, and what comes out of them."""
 
 import json
+import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -125,6 +127,76 @@ def test_answers_do_not_depend_on_the_unit(tmp_path, invoke, unit):
         found = json.loads(out)["answers"]
         answers[each] = np.array([item["values"][0] for item in found.values()])
     assert answers[unit] == pytest.approx(answers["m"], rel=1e-12)
+
+
+def test_the_interface_of_a_map_is_that_of_the_periodic_half_space(tmp_path, invoke):
+    """With its tilt removed, whatever was asked for; the surface behind it lies in the interval."""
+    spectrum = rl.SelfAffine(hurst=0.7, length=4e-3, rms_height=1e-6, q_roll=math.tau / 125e-6)
+    piece = spectrum.surface(256, 3).cropped((0, 64), (0, 64))
+    tilt = 1e-3 * np.arange(64)[:, np.newaxis] * piece.spacing[0]
+    np.save(tmp_path / "map.npy", piece.heights + tilt)
+    rl.write(replace(spectrum.surface(64, 3), unit="m"), tmp_path / "generated.nc")
+    question = ("--materials", "steel,copper", "--load", "2 MPa", "--load", "20 MPa")
+    question += ("--frequency", "5 MHz", "--json")
+    sizes = ("--unit", "m", "--size", "1 mm")
+
+    def answered(*arguments):
+        code, out, errors = invoke("press", *arguments, *question)
+        assert code == 0, errors
+        return json.loads(out)
+
+    found = answered(tmp_path / "map.npy", *sizes)
+    level = rl.Surface(piece.detrended().heights, (1e-3, 1e-3))
+    curve = rl.press(level, E_star=found["E_star"], forces=[2.0, 20.0], periodic=True)
+    given = {name: each for name, each in found["answers"].items() if each["values"] is not None}
+    assert given["k_i"]["values"] == pytest.approx(curve.stiffness, rel=1e-4)
+    assert given["k"]["values"] == found["curve"]["stiffness"]  # of the piece, free
+    for symbol in ("k_i", "h_c", "|R|"):
+        low, high = (np.array(given[symbol][end]) for end in ("low", "high"))
+        assert (low < given[symbol]["values"]).all()
+        assert (given[symbol]["values"] < high).all()
+        assert "of the larger surface" in given[symbol]["validity"]
+    assert any("k_i is of the larger surface" in note for note in found["notes"])
+
+    tilted = answered(tmp_path / "map.npy", *sizes, "--trend", "none")["answers"]["k_i"]
+    assert tilted["values"] == pytest.approx(curve.stiffness, rel=1e-4)
+    periodic = answered(tmp_path / "map.npy", *sizes, "--periodic")["answers"]
+    assert periodic["k_i"]["values"] == periodic["k"]["values"]
+    assert periodic["k_i"]["values"] == pytest.approx(curve.stiffness, rel=1e-4)
+    alone = answered(tmp_path / "generated.nc")["answers"]
+    assert "of this piece alone" in alone["h_c"]["validity"]
+
+
+@pytest.mark.parametrize("half", ["free", "periodic"])
+def test_without_the_periodic_half_space_the_interface_is_not_known(
+    tmp_path, invoke, monkeypatch, half
+):
+    """Ctrl-C in either half keeps what was solved, and no free stiffness stands for the other."""
+    import roughline.report.curves as curves
+
+    original = curves.press
+
+    def press(*arguments, progress, **named):
+        def stop(done, total):
+            progress(done, total)
+            if named["periodic"] == (half == "periodic"):
+                raise KeyboardInterrupt
+
+        return original(*arguments, progress=stop, **named)
+
+    monkeypatch.setattr(curves, "press", press)
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(32, 1)
+    np.save(tmp_path / "map.npy", surface.heights)
+    code, out, _ = invoke(
+        *("press", tmp_path / "map.npy", "--unit", "m", "--size", "1 mm", "--load", "2 MPa"),
+        *("--load", "20 MPa", "--materials", "steel,copper", "--json"),
+    )
+    assert code == 130
+    found = json.loads(out)["answers"]
+    solved = {symbol: [k is not None for k in found[symbol]["values"]] for symbol in ("k", "h_c")}
+    first = [True, False]
+    expected = (first, [False] * 2) if half == "free" else ([True] * 2, first)
+    assert (solved["k"], solved["h_c"]) == expected
 
 
 def test_two_rough_bodies(tmp_path, invoke):

@@ -30,7 +30,8 @@ ASSUMPTIONS = (
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less.",
     "Intervals are those of the grid and of filled points, or of what a line scan leaves open; "
-    "the scatter of material data and of other places on the part comes on top.",
+    "those of k_i, h_c and |R| of a map hold the surface behind it as well. The scatter of "
+    "material data, and for all other answers that of other places on the part, comes on top.",
 )
 
 

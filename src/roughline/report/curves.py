@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.answers import Ends
+from roughline.answers import Answer, Ends
 from roughline.contact import press
 from roughline.curve import Curve
 from roughline.errors import Interrupted
+from roughline.larger_interface import stiffness_of_the_larger_surface
 from roughline.missing import Missing
 from roughline.preparation import Preparation
 from roughline.report.pressed import Real
@@ -24,7 +25,10 @@ _SMALL = 0.001  # changes below this are not told from none [%]
 
 @dataclass(frozen=True)
 class Run:
-    """Loads and settings, for the body and for the same body filled otherwise."""
+    """Loads and settings, for the body and for the same body filled otherwise.
+
+    With `levelled`, a body is pressed without its tilt, which a periodic half-space cannot have.
+    """
 
     E_star: float
     forces: list[float]
@@ -32,6 +36,7 @@ class Run:
     n_loads: int | None
     periodic: bool
     grid_error: bool
+    levelled: bool = False
 
     @property
     def count(self) -> int:
@@ -42,6 +47,8 @@ class Run:
         self, body: Body, fields: list[int] | bool, progress: Progress | None
     ) -> tuple[Curve, bool]:
         """Press a body; loads that fail are marked. Gives whether Ctrl-C came as well."""
+        if self.levelled:
+            body = body.detrended()
         try:
             curve = press(
                 body,
@@ -140,6 +147,51 @@ def filled_otherwise(
         f"filled by {filling} instead: stiffness moves by {_at_most(share)}, "
         f"area by {_at_most(area_share)}",
     )
+
+
+def interface_alone(
+    found: Solved,
+    run: Run,
+    body: Surface,
+    fillings: tuple[Sequence[Source], Preparation | None] | None,
+    progress: Progress | None,
+) -> tuple[Answer, bool]:
+    """Stiffness of the interface of the larger surface that a body was cut out of.
+
+    The body is pressed again, into a periodic half-space, unless that was asked for to begin with.
+    Gives whether Ctrl-C came as well.
+
+    Parameters
+    ----------
+    found : Solved
+        The curve as asked for.
+    run : Run
+        How it was made.
+    body : Surface
+        What was pressed.
+    fillings : tuple, optional
+        Sources and their preparation, to fill missing points otherwise.
+    progress : callable, optional
+        As for :func:`roughline.press`.
+    """
+    converged = found.curve.converged
+    again = found
+    if not run.periodic and (found.interrupted or not converged.any()):
+        again = replace(
+            found, curve=replace(found.curve, stiffness=np.full(converged.size, np.nan))
+        )
+    elif not run.periodic:
+        forces = found.curve.force[converged].tolist()
+        run = replace(run, forces=forces, depths=[], n_loads=None, periodic=True, levelled=True)
+        again = solved(run, body, False, progress)
+        if fillings is not None and not again.interrupted:
+            again = filled_otherwise(again, run, body, *fillings, progress)
+    answer = stiffness_of_the_larger_surface(body, again.curve, again.stiffness_interval)
+    if answer.values.size < converged.size:  # loads that failed before have no force
+        rows = np.full((3, converged.size), np.nan)
+        rows[:, converged] = answer.values, answer.low, answer.high
+        answer = replace(answer, values=rows[0], low=rows[1], high=rows[2])
+    return answer, found.interrupted or again.interrupted
 
 
 def trimmed(surface: Surface) -> Surface:

@@ -9,16 +9,25 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.answers import answers, elastic_warnings, saturated_stiffness
+from roughline.answers import Answer, answers, elastic_warnings
 from roughline.characterisation import ALIKE, isotropy
 from roughline.errors import InputError
-from roughline.estimates import estimate
+from roughline.estimates import estimate, memory_for
 from roughline.interface import plasticity_index
+from roughline.larger_interface import stiffness_of_the_piece
 from roughline.line_scan import press_scan
 from roughline.materials import Interface, Material
+from roughline.memory import refuse_beyond_memory
 from roughline.moments import moments
 from roughline.preparation import Preparation
-from roughline.report.curves import Progress, Run, filled_otherwise, solved, trimmed
+from roughline.report.curves import (
+    Progress,
+    Run,
+    filled_otherwise,
+    interface_alone,
+    solved,
+    trimmed,
+)
 from roughline.report.folder import make_folder
 from roughline.report.loading import (
     DEFAULT_LOADS,
@@ -108,6 +117,8 @@ def press_file(
     if out is not None:
         make_folder(out)  # a folder that cannot be written is said before the work, not after
     asked = loading.forces(nominal_area(body)) or []
+    larger = None
+    of_larger = pair is not None and isinstance(body, Surface) and body.is_cut_out
     if isinstance(body, Line) and body.kind == "profile":
         if periodic or grid_error or loading.depths:
             raise InputError(
@@ -124,14 +135,29 @@ def press_file(
     else:
         forces = with_curve(asked) if whole_curve and asked else asked
         run = Run(modulus, forces, loading.heights() or [], loading.count, periodic, grid_error)
+        if of_larger and not periodic:
+            assert isinstance(body, Surface)
+            refuse_beyond_memory(
+                memory_for(body.shape, True, 0),
+                f"pressing {body.shape[0]} x {body.shape[1]} points periodically, for the "
+                "interface alone,",
+                "take a smaller piece or every other point, or --modulus instead of materials",
+            )
         if isinstance(body, Surface) and body.heights.size >= _LARGE:
-            cost = estimate(body.shape, run.count, periodic=periodic)
+            cost = str(estimate(body.shape, run.count, periodic=periodic))
+            if of_larger and not periodic:
+                cost += f", then {estimate(body.shape, run.count, periodic=True)} for the interface"
             announce(f"{body.shape[0]} x {body.shape[1]} points, {run.count} loads: {cost}")
         shown = forces.index(asked[-1]) if asked else 3 * run.count // 4
         found = solved(run, body, [shown] if out is not None else False, progress)
         filled = any(part.settings.get("missing_points") for part in parts)
         if filled and isinstance(body, Surface) and not found.interrupted:
             found = filled_otherwise(found, run, body, sources, preparation, progress)
+        interrupted = found.interrupted
+        if of_larger:
+            assert isinstance(body, Surface)
+            fillings = (sources, preparation) if filled else None
+            larger, interrupted = interface_alone(found, run, body, fillings, progress)
         result = Pressed(
             source,
             parts,
@@ -140,7 +166,7 @@ def press_file(
             _indices(forces, asked, found.curve.status.size),
             found.stiffness_interval,
             found.area_interval,
-            found.interrupted,
+            interrupted,
             notes=[found.note] if found.note else [],
         )
     notes = [
@@ -150,7 +176,7 @@ def press_file(
         *result.curve.warnings,
     ]
     result = replace(result, pair=pair, notes=notes)
-    return _answered(result, modulus, periodic, frequency, theories)
+    return _answered(result, modulus, periodic, larger, frequency, theories)
 
 
 def _has_spectrum(body: Body) -> bool:
@@ -167,6 +193,7 @@ def _answered(
     pressed: Pressed,
     E_star: float,
     periodic: bool,
+    of_interface: Answer | None,
     frequency: float | None,
     theories: Sequence[str],
 ) -> Pressed:
@@ -189,16 +216,13 @@ def _answered(
             lines = [theory(name, body, E_star, pressures) for name in theories]
     if pressed.pair is None:
         return replace(pressed, theories=lines, notes=notes)
-    saturated = None
-    if isinstance(body, Line):
-        saturated = E_star * body.length
-    elif not periodic:
-        saturated = saturated_stiffness(body, E_star)
+    if of_interface is None and not periodic:
+        of_interface = stiffness_of_the_piece(body, curve, pressed.stiffness_interval)
     given = answers(
         curve,
         pressed.area,
         pressed.pair,
-        saturated=saturated,
+        interface_stiffness=of_interface,
         rms_height=body.rms_height,
         rms_slope=found.rms_slope if found else None,
         frequency=frequency,
@@ -210,6 +234,8 @@ def _answered(
         index = plasticity_index(
             E_star, pressed.pair.hardness, (found.summit_deviation, found.summit_radius)
         )
+    if of_interface is not None:
+        notes = [*notes, f"the interface stiffness k_i is {of_interface.validity}"]
     notes = [*notes, *elastic_warnings(given, index)]
     if frequency is not None and pressed.pair.both("impedance") is None:
         notes.append("no reflection: the density of both materials is needed")
