@@ -64,10 +64,9 @@ class Missing:
         InputError
             If more than the largest share is missing.
         """
-        unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
-        if not unknown and not np.isfinite(np.ma.getdata(heights)).all():
+        if not np.isfinite(np.ma.getdata(heights)).all():
             heights = np.ma.masked_invalid(heights, copy=False)
-            unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+        unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
         settings: dict[str, str | int | float] = {}
         if unknown:
             heights = self.filled(heights, name)
@@ -78,16 +77,23 @@ class Missing:
             }
         return np.array(heights, dtype=np.float64, copy=None), settings
 
+    def too_many(self, mask: NDArray[np.bool_], name: str) -> InputError | None:
+        """Return what is to be said if more points are missing than are filled."""
+        unknown = int(np.count_nonzero(mask))
+        if unknown <= self.most * mask.size and unknown < mask.size:
+            return None
+        return InputError(
+            f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
+            f"up to {self.most:.0%} are filled: crop it to where points are known, or allow "
+            "more (most_missing; command line: --max-missing)"
+        )
+
     def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> NDArray[np.float64]:
         """Return masked heights with all points known; as :meth:`completed`, without the count."""
         mask = np.ma.getmaskarray(heights)
-        unknown = int(np.count_nonzero(mask))
-        if unknown > self.most * mask.size or unknown == mask.size:
-            raise InputError(
-                f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
-                f"up to {self.most:.0%} are filled: crop it to where points are known, or allow "
-                "more (most_missing; command line: --max-missing)"
-            )
+        too_many = self.too_many(mask, name)
+        if too_many is not None:
+            raise too_many
         if heights.ndim == 1:
             at = np.arange(mask.size)
             return np.interp(at, at[~mask], np.ma.getdata(heights)[~mask])

@@ -196,7 +196,7 @@ def test_points_filled_before_are_not_said_to_matter_nothing(topographies, invok
         (("--modulus", "1 GPa", "--crop", "0 um, 1 um"), "crop has 2 lengths; give 4"),
         (("--modulus", "1 GPa", "--low-pass", "5"), "without a unit"),
         (("--modulus", "1 GPa", "--against", "none.nc"), "none.nc does not exist"),
-        (("--modulus", "1 GPa", "--channel", "1"), "leave both out"),
+        (("--modulus", "1 GPa", "--channel", "1"), "has one channel; leave it out"),
         (("--modulus", "1 GPa", "--max-missing", "2"), "most_missing is 2"),
     ],
 )

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn
 
 import typer
 
@@ -59,7 +59,9 @@ MaxMissing = Annotated[
 TrendOption = Annotated[
     Trend | None,
     typer.Option(
-        help="What is removed [default: the tilt of measured ones].", rich_help_panel=PREPARATION
+        help="What is removed [default: the tilt of measured ones, and of what is cropped out of "
+        "them; our own files are kept as they are].",
+        rich_help_panel=PREPARATION,
     ),
 ]
 Crop = Annotated[
@@ -125,12 +127,13 @@ def source_of(
     size: str | None,
     fill: Filling,
     max_missing: float,
+    trend: Trend | None = None,
 ) -> Source:
-    """The file that the options describe."""
+    """The file that the options describe; a trend that is given is left to the preparation."""
     from roughline.report.source import Source
 
-    sizes = tuple(lengths(size, "size")) if size else None
-    return Source(file, unit, channel, sizes, fill.value, max_missing)
+    when_read: Literal["none", "tilt"] = "none" if trend else "tilt"
+    return Source(file, unit, channel, size, fill.value, max_missing, when_read)
 
 
 def preparation_of(
@@ -149,7 +152,7 @@ def preparation_of(
     return Preparation(
         crop=tuple(lengths(crop, "crop")) if crop else None,
         remove_outliers=remove_outliers,
-        trend=trend.value if trend else "tilt",
+        trend=trend.value if trend else None,
         low_pass=in_si(low_pass, "m", "low-pass") if low_pass else None,
         points=resample,
     )

@@ -126,6 +126,7 @@ def of_compared(compared: Compared) -> dict[str, Any]:
         "resolved": result.resolved,
         "tolerance": compared.tolerance,
         "trusted": result.trusted(compared.tolerance),
+        "warnings": result.warnings,
         "files": compared.files,
     }
 

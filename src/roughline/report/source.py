@@ -11,19 +11,25 @@ from roughline.measured import read, suspicions
 from roughline.missing import Filling
 from roughline.preparation import Preparation, prepared
 from roughline.topography import Body, Line, Surface
+from roughline.trend import Trend
 from roughline.two_bodies import facing
 
 
 @dataclass(frozen=True)
 class Source:
-    """A file, and what is needed to read it; as for :func:`roughline.read`."""
+    """A file, and what is needed to read it; as for :func:`roughline.read`.
+
+    Lengths in `sizes` have units. `trend` is what reading removes: "none" where the preparation
+    says itself what is to be removed, in its own turn.
+    """
 
     file: Path
     unit: str | None = None
     channel: str | None = None
-    sizes: tuple[float, ...] | None = None
+    sizes: str | None = None
     missing: Filling = "harmonic"
     most_missing: float = 0.1
+    trend: Trend = "tilt"
 
     def read(self, missing: Filling | None = None) -> Body:
         """Read it, with points filled as stated or by another method."""
@@ -34,6 +40,7 @@ class Source:
             sizes=self.sizes,
             missing=missing or self.missing,
             most_missing=self.most_missing,
+            trend=self.trend,
         )
 
 

@@ -155,6 +155,8 @@ def print_compared(compared: Compared) -> None:
     if not compared.comparison.resolved.all():
         console.print("* fewer than ten cells in contact: the grid decides, not the surface")
     console.print(verdict(compared), highlight=False, soft_wrap=True)
+    for warning in compared.comparison.warnings:
+        console.print(f"note: {warning}", highlight=False, soft_wrap=True)
     print_files(compared.files)
 
 
