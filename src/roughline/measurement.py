@@ -75,10 +75,19 @@ class Measurement:
         ----------
         unit, sizes, missing
             What the caller says, as for :meth:`body`.
+
+        Raises
+        ------
+        InputError
+            If what the caller says is said by the file too, or cannot be.
         """
         found: list[InputError] = []
         if not self.unit and not unit:
             found.append(unit_needed(self.file))
+        else:
+            metres_per_file_unit(self.file, self.unit, unit)
+        if self.sizes is not None and sizes is not None:
+            raise InputError(f"{self.file} states its sizes; leave them out")
         if self.sizes is None and sizes is None:
             found.append(sizes_needed(self.file, self.heights.shape))
         too_many = missing.too_many(self.unknown, self.file)
@@ -108,8 +117,6 @@ class Measurement:
         factor = metres_per_file_unit(self.file, self.unit, unit)
         if self.sizes is None:
             extent = given_sizes(self.file, self.heights.shape, sizes, unit)
-        elif sizes is not None:
-            raise InputError(f"{self.file} states its sizes; leave them out")
         else:
             extent = tuple(factor * float(size) for size in self.sizes)
         heights, filled = missing.completed(self.heights, self.file)

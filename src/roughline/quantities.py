@@ -151,9 +151,10 @@ def unit_needed(name: str) -> UnitError:
 
 def sizes_needed(name: str, points: tuple[int, ...]) -> InputError:
     """Return what is to be said of a file without sizes."""
+    example = _example_of_sizes(points)
     return InputError(
         f"{name} states no sizes for its {' x '.join(map(str, points))} points; give them, such "
-        'as sizes = "1 mm, 0.5 mm" (command line: --size "1 mm, 0.5 mm")'
+        f"as sizes = {example} (command line: --size {example})"
     )
 
 
@@ -200,9 +201,13 @@ def given_sizes(
         sizes *= len(points)
     if len(sizes) != len(points) or not all(0 < size < math.inf for size in sizes):
         lengths = "a positive length" if len(points) == 1 else f"{len(points)} positive lengths"
-        example = ", ".join(["1 mm", "0.5 mm"][: len(points)])
         raise InputError(
             f"sizes is {given!r}; {name} has {' x '.join(map(str, points))} points: give "
-            f'{lengths}, such as "{example}"; numbers without a unit are in {unit or "m"}'
+            f"{lengths}, such as {_example_of_sizes(points)}; numbers without a unit are in "
+            f"{unit or 'm'}"
         )
     return sizes
+
+
+def _example_of_sizes(points: tuple[int, ...]) -> str:
+    return '"1 mm, 0.5 mm"' if len(points) == 2 else '"1 mm"'

@@ -45,13 +45,70 @@ def test_files_that_can_be_pressed(topographies, invoke, name, points, told):
         ("di_corrupted.di", "is damaged or of a type that is not known"),
     ],
 )
-@pytest.mark.parametrize("command", ["press", "info"])
-def test_files_that_cannot_be_used_say_why(topographies, invoke, name, told, command):
-    code, out, errors = invoke(command, topographies / name, *(PRESS if command == "press" else ()))
+def test_files_that_cannot_be_used_say_why(topographies, invoke, name, told):
+    code, out, errors = invoke("press", topographies / name, *PRESS)
     assert code == 2
     assert out == ""
     assert told in errors
     assert len(errors.splitlines()) == 1
+
+
+def test_info_describes_a_file_of_which_most_is_missing(topographies, invoke, tmp_path):
+    """By SurfaceTopography itself: 233009 of 512 x 512, all but a band at 68 to 84 mm along y."""
+    code, out, errors = invoke("info", topographies / "sur-3.sur", "--out", tmp_path)
+    assert code == 0, errors
+    for text in (
+        "512 x 512",
+        "151.3 mm x 151.3 mm",
+        "233009 (88.89%), mostly one region, at the border",
+        "it cannot be pressed as it is: sur-3.sur has 233009 missing points of 262144 (89%)",
+    ):
+        assert text in out, text
+    rows = [line.strip() for line in out.splitlines() if set(line.strip()) <= set(".+#") and line]
+    assert len(rows) == 16
+    assert [set(row) == {"#"} for row in rows] == [True] * 7 + [False] * 2 + [True] * 7
+    assert (tmp_path / "file.png").stat().st_size > 10_000
+    code, out, _ = invoke("info", topographies / "sur-3.sur", "--json")
+    found = json.loads(out)
+    assert (code, found["body"], found["rms_height"]) == (0, None, None)
+    assert found["in_file"]["points"] == [512, 512]
+    assert found["missing"]["points"] == 233009
+    assert np.mean(found["missing"]["cells"]) == pytest.approx(233009 / 512**2)
+    assert len(found["obstacles"]) == 1
+
+
+def test_info_describes_a_file_without_a_unit(topographies, invoke):
+    code, out, errors = invoke("info", topographies / "xy-1.txt")
+    assert code == 0, errors
+    said = " ".join(out.split())
+    assert "points 132 unit in the file none stated length 187.2, unit not stated" in said
+    assert "it cannot be pressed as it is: xy-1.txt states no unit" in said
+    code, out, errors = invoke("info", topographies / "xy-1.txt", "--unit", "parsnip")
+    assert (code, out) == (2, "")
+    assert 'unit is "1 parsnip"' in errors
+
+
+def test_info_on_a_damaged_file_is_one_line(topographies, invoke):
+    code, out, errors = invoke("info", topographies / "di_corrupted.di")
+    assert (code, out) == (2, "")
+    assert "is damaged or of a type that is not known" in errors
+    assert len(errors.splitlines()) == 1
+
+
+def test_info_describes_arrays_and_reduced_lines(tmp_path, invoke):
+    heights = np.arange(24.0).reshape(4, 6)
+    heights[:, 0] = np.nan
+    np.save(tmp_path / "map.npy", heights)
+    code, out, errors = invoke("info", tmp_path / "map.npy", "--out", tmp_path / "out")
+    assert code == 0, errors
+    assert out.count("it cannot be pressed as it is") == 3  # unit, sizes, missing points
+    assert (tmp_path / "out" / "file.png").exists()
+    line = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).line(256, 1)
+    rl.write(rl.Line(line.heights, line.length, "m"), tmp_path / "line.nc")
+    code, out, errors = invoke("info", tmp_path / "line.nc")
+    assert code == 0, errors
+    assert "note: this is a reduced line" in out
+    assert "Rq, rms height" in out
 
 
 def test_what_was_refused_can_be_allowed(topographies, invoke):
@@ -71,6 +128,7 @@ def test_info_fits_a_screen_and_json(topographies, invoke, tmp_path, name):
     assert len(out.splitlines()) < 40
     assert "Hurst exponent" in out
     assert "missing points" in out
+    assert (tmp_path / "out" / "file.png").exists() == (name == "opd-1.opd")
     assert (tmp_path / "out" / "roughness.png").stat().st_size > 10_000
     again = rl.read(tmp_path / "out" / "prepared.nc")
     code, out, _ = invoke("info", topographies / name, "--json")

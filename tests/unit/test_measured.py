@@ -9,7 +9,7 @@ import pytest
 
 import roughline as rl
 from roughline.measured import suspicions
-from roughline.missing import Missing
+from roughline.missing import Missing, missing_points
 from roughline.preparation import prepared
 from roughline.quantities import engineering, in_si, metres_per
 from roughline.trend import without_trend
@@ -205,6 +205,43 @@ def test_too_many_missing_points_are_refused_with_numbers():
         Missing("spline")
     with pytest.raises(rl.InputError, match="most_missing is 1"):
         Missing(most=1.0)
+
+
+def missing_at(*pieces, shape=(40, 60)):
+    unknown = np.zeros(shape, dtype=bool)
+    for piece in pieces:
+        unknown[piece] = True
+    return missing_points(unknown)
+
+
+@pytest.mark.parametrize(
+    ("pieces", "said"),
+    [
+        ([], "none"),
+        ([np.s_[10:20, 5:9]], "one region, inside"),
+        ([np.s_[:, :7]], "one region, at the border"),
+        ([np.s_[:30, :40], np.s_[35, 50]], "mostly one region, at the border"),
+        ([np.s_[10:20, 5:9], np.s_[10:20, 20:24]], "2 regions, inside"),
+        ([np.s_[0:10, 5:9], np.s_[10:20, 20:24]], "2 regions, at the border and inside"),
+        ([np.s_[2:-2:4, 2:-2:4]], "scattered in 126 places, inside"),
+    ],
+)
+def test_where_points_are_missing_is_said_in_words(pieces, said):
+    assert str(missing_at(*pieces)) == said
+
+
+def test_a_coarse_map_shows_the_share_that_is_missing_in_each_piece():
+    found = missing_at(np.s_[:, :15], np.s_[0, 59])
+    assert (found.count, found.regions, found.largest, found.at_border) == (601, 2, 600, 601)
+    columns, rows = found.cells.shape
+    assert (columns, rows) == (21, 16)  # about twice as many as square characters would need
+    assert (found.cells[:, : rows // 4] == 1).all()
+    assert (found.cells[:, rows // 4 : -1] == 0).all()
+    assert found.cells[0, -1] > 0
+    line = missing_at(np.s_[30:], shape=(60,))
+    assert line.cells.shape == (48,)
+    assert line.cells[:24].sum() == 0
+    assert (line.cells[24:] == 1).all()
 
 
 def test_channels(topographies):

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roughline.errors import InputError
-from roughline.measured import read, suspicions
-from roughline.missing import Filling
+from roughline.measured import measurement, read, suspicions
+from roughline.measurement import Measurement
+from roughline.missing import Filling, Missing
 from roughline.preparation import Preparation, prepared
 from roughline.topography import Body, Line, Surface
 from roughline.trend import Trend
@@ -31,6 +32,10 @@ class Source:
     most_missing: float = 0.1
     trend: Trend = "tilt"
 
+    def measurement(self) -> Measurement:
+        """What the file holds, whether or not it can be pressed."""
+        return measurement(self.file, self.channel)
+
     def read(self, missing: Filling | None = None) -> Body:
         """Read it, with points filled as stated or by another method."""
         return read(
@@ -42,6 +47,16 @@ class Source:
             most_missing=self.most_missing,
             trend=self.trend,
         )
+
+    def body(self, found: Measurement) -> Body:
+        """The body that was measured, as :meth:`read` gives it."""
+        filling = Missing(self.missing, self.most_missing)
+        return found.body(self.unit, self.sizes, filling, self.trend)
+
+    def obstacles(self, found: Measurement) -> list[str]:
+        """What is still needed before what the file holds can be pressed."""
+        filling = Missing(self.missing, self.most_missing)
+        return [str(each) for each in found.obstacles(self.unit, self.sizes, filling)]
 
 
 def notes_on_body(body: Body) -> list[str]:

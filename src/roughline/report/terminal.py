@@ -29,7 +29,7 @@ from roughline.campaign.store import Store
 from roughline.curve import Status
 from roughline.quantities import engineering
 from roughline.report.compared import Compared, compared_table, verdict
-from roughline.report.described import Described, described_table
+from roughline.report.described import Described, described_table, missing_map
 from roughline.report.pressed import Pressed
 from roughline.report.pressed_tables import answer_table, curve_table
 from roughline.theories import TheoryCurve
@@ -142,7 +142,12 @@ def print_described(described: Described) -> None:
     for row in described_table(described):
         table.add_row(*row)
     console.print(table, highlight=False)
-    for note in (*described.notes, *described.roughness.remarks):
+    for line in missing_map(described):
+        console.print(line, highlight=False, soft_wrap=True)
+    for obstacle in described.obstacles:
+        console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
+    remarks = described.roughness.remarks if described.roughness else []
+    for note in (*described.notes, *remarks):
         console.print(f"note: {note}", highlight=False, soft_wrap=True)
     print_files(described.files)
 
@@ -216,6 +221,7 @@ def _described(body: Body) -> str:
     else:
         points = f"line of {body.heights.size} points"
         size = engineering(body.length, "m")
-    tilt = ", tilt removed" if "detrended" in body.settings else ""
+    removed = body.settings.get("detrended")
+    trend = f", {removed} removed" if removed else ""
     slope = f"rms slope {body.rms_slope:.3g}"
-    return f"{points}, {size}; rms height {engineering(body.rms_height, 'm')}, {slope}{tilt}"
+    return f"{points}, {size}; rms height {engineering(body.rms_height, 'm')}, {slope}{trend}"
