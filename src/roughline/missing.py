@@ -105,7 +105,7 @@ class Missing:
 
 
 @dataclass(frozen=True, eq=False)
-class MissingPoints:
+class MissingPattern:
     """Where points of a topography are missing.
 
     Attributes
@@ -147,9 +147,9 @@ class MissingPoints:
         return f"{grouped}, at the border and inside"
 
 
-def missing_points(
+def missing_pattern(
     unknown: NDArray[np.bool_], sides: tuple[float, ...] | None = None
-) -> MissingPoints:
+) -> MissingPattern:
     """Say where points are missing.
 
     Parameters
@@ -172,7 +172,7 @@ def missing_points(
         sums = np.add.reduceat(cells, starts, axis=axis)
         widths = np.diff([*starts, unknown.shape[axis]])
         cells = sums / widths.reshape([-1 if i == axis else 1 for i in range(unknown.ndim)])
-    return MissingPoints(
+    return MissingPattern(
         count=int(points.sum()),
         share=float(points.sum() / unknown.size),
         regions=int(regions),

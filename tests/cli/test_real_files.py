@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -196,6 +197,21 @@ def test_two_rough_bodies(tmp_path, invoke):
     assert code == 0, errors
     rms = json.loads(out)["body"]["rms_height"]
     assert rms == pytest.approx(np.sqrt(2) * 1e-6, rel=0.25)
+
+
+def test_what_laying_two_bodies_together_crops_and_resamples_is_said(tmp_path, invoke):
+    spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)
+    rl.write(replace(spectrum.surface(64, 1), unit="m"), tmp_path / "whole.nc")
+    small = spectrum.surface(96, 2).cropped((0, 48), (0, 96)).detrended()
+    rl.write(replace(small, unit="m"), tmp_path / "small.nc")
+    code, out, errors = invoke(
+        *("press", tmp_path / "whole.nc", "--against", tmp_path / "small.nc", *PRESS)
+    )
+    assert code == 0, errors
+    said = " ".join(out.split())
+    assert "first body: cropped to what both have in common, 500 µm x 1 mm" in said
+    assert "second body: resampled by cubic splines to pixels of 15.62 µm x 15.62 µm" in said
+    assert "second body: cropped" not in said
 
 
 def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke):

@@ -9,7 +9,7 @@ import pytest
 
 import roughline as rl
 from roughline.measured import suspicions
-from roughline.missing import Missing, missing_points
+from roughline.missing import Missing, missing_pattern
 from roughline.preparation import prepared
 from roughline.quantities import engineering, in_si, metres_per
 from roughline.trend import without_trend
@@ -211,7 +211,7 @@ def missing_at(*pieces, shape=(40, 60)):
     unknown = np.zeros(shape, dtype=bool)
     for piece in pieces:
         unknown[piece] = True
-    return missing_points(unknown)
+    return missing_pattern(unknown)
 
 
 @pytest.mark.parametrize(

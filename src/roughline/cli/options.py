@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn
 
 import typer
+from typer.core import TyperCommand, TyperOption
 
 from roughline.errors import InputError
 
@@ -39,6 +40,18 @@ class Trend(StrEnum):
     curvature = "curvature"
 
 
+class PanelsFirst(TyperCommand):
+    """A command whose help begins with its panels; options without one come last."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Return the parameters, those without a panel in one of their own."""
+        params = super().get_params(ctx)
+        for param in params:
+            if isinstance(param, TyperOption) and not param.rich_help_panel:
+                param.rich_help_panel = "Other options"
+        return params
+
+
 Unit = Annotated[
     str | None,
     typer.Option(help="Unit of the lengths in a file that states none.", rich_help_panel=FILE),
@@ -59,9 +72,7 @@ MaxMissing = Annotated[
 TrendOption = Annotated[
     Trend | None,
     typer.Option(
-        help="What is removed [default: the tilt of measured ones, and of what is cropped out of "
-        "them; our own files are kept as they are].",
-        rich_help_panel=PREPARATION,
+        help="What is removed [default: the tilt of measured ones].", rich_help_panel=PREPARATION
     ),
 ]
 Crop = Annotated[

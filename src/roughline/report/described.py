@@ -11,7 +11,7 @@ from roughline.body_file import write
 from roughline.characterisation import Roughness, roughness
 from roughline.errors import InputError
 from roughline.measurement import Measurement
-from roughline.missing import MissingPoints, missing_points
+from roughline.missing import MissingPattern, missing_pattern
 from roughline.preparation import Preparation, prepared
 from roughline.quantities import engineering, metres_per
 from roughline.report.folder import make_folder
@@ -35,7 +35,7 @@ class Described:
         The file.
     measurement : Measurement
         What the file holds.
-    missing : MissingPoints
+    missing : MissingPattern
         Where points are missing in the file.
     obstacles : list of str
         Why it cannot be pressed as it is; empty if it can.
@@ -51,7 +51,7 @@ class Described:
 
     source: Source
     measurement: Measurement
-    missing: MissingPoints
+    missing: MissingPattern
     obstacles: list[str]
     body: Body | None
     roughness: Roughness | None
@@ -79,7 +79,7 @@ def describe_file(source: Source, preparation: Preparation | None, out: Path | N
         If the file cannot be read, or what is asked for does not suit it.
     """
     found = source.measurement()
-    missing = missing_points(found.unknown, found.sizes)
+    missing = missing_pattern(found.unknown, found.sizes)
     obstacles = source.obstacles(found)
     files: list[Path] = []
     if out is not None:

@@ -10,7 +10,7 @@ from matplotlib.ticker import EngFormatter, Formatter, ScalarFormatter
 from numpy.typing import NDArray
 
 from roughline.measurement import Measurement
-from roughline.missing import MissingPoints
+from roughline.missing import MissingPattern
 from roughline.quantities import metres_per
 from roughline.report.style import PAGE, new_figure
 
@@ -18,7 +18,7 @@ _MISSING = "tab:red"
 _MOST_PIXELS = 600  # along a side; a picture shows no more
 
 
-def measured_figure(found: Measurement, missing: MissingPoints) -> Figure:
+def measured_figure(found: Measurement, missing: MissingPattern) -> Figure:
     """Heights, and where points are missing; with units if the file states one."""
     figure = new_figure(PAGE, 3.2)
     metres = metres_per(found.unit) if found.unit else 1.0

@@ -28,13 +28,14 @@ from roughline.report.loading import (
     with_curve,
 )
 from roughline.report.pressed import Pressed
-from roughline.report.source import Source, notes_on_parts, read_parts, together
+from roughline.report.source import Source, notes_on_facing, notes_on_parts, read_parts, together
 from roughline.theories import TheoryCurve, moments, refuse_unknown, theory
 from roughline.topography import Body, Line, Surface
 
 Announce = Callable[[str], None]
 
 _LARGE = 2**20  # points from which on the cost is told
+_MANY = 1000  # loads from which on the cost is told
 _COARSENED_FROM = 64  # points a side from which on a report estimates the grid's error
 
 
@@ -124,7 +125,7 @@ def press_file(
     else:
         forces = with_curve(asked) if whole_curve and asked else asked
         run = Run(modulus, forces, loading.heights() or [], loading.count, periodic, grid_error)
-        if isinstance(body, Surface) and body.heights.size >= _LARGE:
+        if isinstance(body, Surface) and (body.heights.size >= _LARGE or run.count >= _MANY):
             cost = estimate(body.shape, run.count, periodic=periodic)
             announce(f"{body.shape[0]} x {body.shape[1]} points, {run.count} loads: {cost}")
         shown = forces.index(asked[-1]) if asked else 3 * run.count // 4
@@ -146,6 +147,7 @@ def press_file(
     notes = [
         *loading.meaning(body),
         *notes_on_parts(parts),
+        *notes_on_facing(body),
         *result.notes,
         *result.curve.warnings,
     ]

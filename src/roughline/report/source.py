@@ -11,6 +11,7 @@ from roughline.measured import measurement, read, suspicions
 from roughline.measurement import Measurement
 from roughline.missing import Filling, Missing
 from roughline.preparation import Preparation, prepared
+from roughline.quantities import engineering
 from roughline.topography import Body, Line, Surface
 from roughline.trend import Trend
 from roughline.two_bodies import facing
@@ -102,6 +103,23 @@ def together(parts: Sequence[Body]) -> Body:
     ):
         return first
     raise InputError("two rough bodies must both be surfaces, or both line scans")
+
+
+def notes_on_facing(body: Body) -> list[str]:
+    """Say what was cropped and resampled when two surfaces were laid together."""
+    if not isinstance(body, Surface):
+        return []
+    notes = []
+    for name in ("first", "second"):
+        if f"{name}_cropped_to" in body.settings:
+            sizes = " x ".join(engineering(size, "m") for size in body.sizes)
+            notes.append(
+                f"{name} body: cropped to what both have in common, {sizes}, from x = y = 0"
+            )
+    if "second_resampled_to" in body.settings:
+        pixel = " x ".join(engineering(size, "m") for size in body.spacing)
+        notes.append(f"second body: resampled by cubic splines to pixels of {pixel}, the first's")
+    return notes
 
 
 def notes_on_parts(parts: Sequence[Body]) -> list[str]:

@@ -35,6 +35,7 @@ from roughline.report.pressed_tables import answer_table, curve_table
 from roughline.theories import TheoryCurve
 from roughline.topography import Body, Surface
 
+_MOST_SHOWN = 200  # loads that anybody reads as a table
 _MOST_ANSWERED = 3  # loads whose answers fit on a screen
 
 
@@ -110,20 +111,38 @@ def print_pressed(pressed: Pressed) -> None:
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
-    if pair is not None and pressed.asked.size <= _MOST_ANSWERED:
+    many = pressed.asked.size > _MOST_SHOWN
+    if many:
+        console.print(_in_one_line(pressed), highlight=False, soft_wrap=True)
+    elif pair is not None and pressed.asked.size <= _MOST_ANSWERED:
         header, rows = answer_table(pressed)  # formulas are for the report
         console.print(_table(header[:-1], [row[:-1] for row in rows]))
     else:
         console.print(_table(*curve_table(pressed)))
     if not curve.resolved[curve.converged].all():
         console.print("* fewer than ten points in contact: the grid decides, not the surface")
-    for i in np.flatnonzero(~curve.converged):
+    for i in np.flatnonzero(~curve.converged) if not many else ():
         console.print(f"load {i + 1}: {Status(curve.status[i]).reason}", highlight=False)
     for theory in pressed.theories:
         console.print(_theory_line(theory, pressed), highlight=False, soft_wrap=True)
     for note in pressed.notes:
         console.print(f"note: {note}", highlight=False, soft_wrap=True)
     print_files(pressed.files)
+
+
+def _in_one_line(pressed: Pressed) -> str:
+    """Both ends of a curve that is too long for a screen."""
+    curve, solved = pressed.curve, pressed.curve.converged
+    text = f"{solved.size} loads"
+    if solved.any():
+        ends = (
+            " to ".join(engineering(values[solved][end], unit) for end in (0, -1))
+            for values, unit in ((curve.force, "N"), (curve.depth, "m"), (curve.stiffness, "N/m"))
+        )
+        text += " from {}: depth {}, stiffness {}".format(*ends)
+    for status, count in Counter(curve.status[~solved].tolist()).items():
+        text += f"; {count} not solved ({Status(status).reason})"
+    return f"{text}; each of them: --out DIR or --json"
 
 
 def _theory_line(theory: TheoryCurve, pressed: Pressed) -> str:
