@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from roughline.errors import InputError, StoreError
+from roughline.measurement import Measurement
 from roughline.memory import refuse_beyond_memory
-from roughline.quantities import metres_per_file_unit
-from roughline.topography import Body, Line, Surface
+from roughline.topography import Body, Surface
 
 _FORMAT = "roughline body 1"
 
@@ -55,20 +55,16 @@ def write(body: Body, path: str | Path) -> None:
         raise StoreError(f"cannot write {path} ({error}): choose another place") from error
 
 
-def read_body_file(path: Path, unit: str | None) -> Body | None:
-    """Read a body from our own format, in metres; None if the file has another.
+def read_body_file(path: Path) -> Measurement | None:
+    """Read what a file of our own format holds; None if the file has another.
 
     Parameters
     ----------
     path : Path
         The file.
-    unit : str or None
-        Of its lengths, if it states none.
 
     Raises
     ------
-    UnitError
-        If the unit is missing or there are two.
     InputError
         If memory cannot hold it.
     """
@@ -88,16 +84,17 @@ def read_body_file(path: Path, unit: str | None) -> Body | None:
             attrs = dataset.attrs
     except (OSError, ValueError, KeyError):
         return None
-    factor = metres_per_file_unit(path.name, attrs["unit"] or None, unit)
     settings = {
         name.removeprefix("body_"): getattr(value, "item", lambda value=value: value)()
         for name, value in attrs.items()
         if name.startswith("body_")
     }
-    settings["file"] = path.name
-    sizes = tuple(factor * size for size in np.atleast_1d(attrs["sizes"]))
-    if factor != 1:
-        heights *= factor
-    if attrs["kind"] == "surface":
-        return Surface(heights, sizes, "m", settings)
-    return Line(heights, sizes[0], "m", settings, attrs["kind"])
+    return Measurement(
+        file=path.name,
+        heights=heights,
+        unit=attrs["unit"] or None,
+        sizes=tuple(np.atleast_1d(attrs["sizes"]).tolist()),
+        kind=attrs["kind"],
+        is_own=True,
+        settings={**settings, "file": path.name},
+    )

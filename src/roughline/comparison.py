@@ -13,6 +13,7 @@ from roughline.averages import Average, average, relative_difference
 from roughline.contact import press
 from roughline.errors import InputError
 from roughline.isotropic import isotropic_spectrum
+from roughline.preparation import tilt_warnings
 from roughline.spectra import SelfAffine
 from roughline.topography import Body, Surface
 from roughline.trust import Difference
@@ -50,6 +51,8 @@ class Comparison:
         Whether every surface had ten cells or more in contact.
     surfaces, lines : int
         How many were pressed.
+    warnings : tuple of str
+        What to know before the numbers are used; empty where there is nothing to say.
     """
 
     force_bar: Real
@@ -62,6 +65,7 @@ class Comparison:
     resolved: NDArray[np.bool_]
     surfaces: int
     lines: int
+    warnings: tuple[str, ...] = ()
 
     def differences(self) -> list[Difference]:
         """List the differences, load by load."""
@@ -169,6 +173,7 @@ def compare(
         resolved=resolved,
         surfaces=len(pressed),
         lines=LINES,
+        warnings=tilt_warnings(body) if isinstance(body, Surface) else (),
     )
 
 

@@ -105,7 +105,8 @@ def press(
     if not isinstance(body, Surface):
         raise InputError(
             f"body is a {type(body).__name__}; a Surface or a Line is needed: wrap heights as "
-            "Surface(heights, sizes=(Lx, Ly)) or Line(heights, length=L)"
+            "Surface(heights, sizes=(Lx, Ly)) or Line(heights, length=L), and a topography of "
+            "SurfaceTopography as Surface(topography)"
         )
     loads = surface_loads(
         body, E_star, Wish(depths, forces, n_loads), periodic, rtol, single=precision == "float32"

@@ -162,9 +162,11 @@ class Curve:
         return self.status == Status.CONVERGED
 
     def to_dataset(self) -> xarray.Dataset:
-        """Return the curve as an xarray Dataset over the dimension "load", units in attrs.
+        """Return the curve as an xarray Dataset over the loads, units in attrs.
 
-        With fields, these are included over ("load", "x", "y").
+        What was prescribed, force or depth, is the coordinate, so that
+        ``curve.to_dataset().stiffness.plot()`` shows stiffness over it. With fields, these are
+        included over it, "x" and "y".
         """
         import xarray  # here because it loads slowly
 
@@ -240,22 +242,39 @@ class Curve:
         }
         if self.warnings:
             attrs["warnings"] = "; ".join(self.warnings)
-        return xarray.Dataset(variables, attrs=attrs)
+        prescribed = "depth" if self.settings.get("control") == "depths" else "force"
+        return xarray.Dataset(variables, attrs=attrs).swap_dims(load=prescribed)
 
     def write(self, path: str | Path) -> None:
-        """Write the curve, settings included, to a NetCDF file.
+        """Write the curve to a file.
 
         Parameters
         ----------
         path : str or Path
-            Where to; an existing file is replaced.
+            Where to; an existing file is replaced. ".nc": NetCDF, with settings and fields.
+            ".csv": a table with a row for each load and units in its header, and no more.
 
         Raises
         ------
+        InputError
+            If the name ends otherwise.
         StoreError
             If the file cannot be written.
         """
+        path = Path(path)
+        if path.suffix not in (".nc", ".csv"):
+            raise InputError(
+                f'{path} ends in neither ".nc" (NetCDF) nor ".csv" (a table): rename it'
+            )
+        data = self.to_dataset()
         try:
-            self.to_dataset().to_netcdf(path, engine="h5netcdf")
+            if path.suffix == ".nc":
+                data.to_netcdf(path, engine="h5netcdf")
+                return
+            over_loads = data.drop_dims([name for name in ("x", "y") if name in data.dims])
+            table = over_loads.to_dataframe().reset_index()
+            units = {name: over_loads[name].attrs.get("units") for name in table}
+            table.columns = [f"{name} [{units[name]}]" if units[name] else name for name in table]
+            table.to_csv(path, index=False)
         except OSError as error:
             raise StoreError(f"cannot write {path} ({error}): choose another place") from error

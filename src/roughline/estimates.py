@@ -17,6 +17,7 @@ _BYTES_OF_FIELDS = 25
 # Convolutions of whole fields that a load is worth, its stiffness included, on average over a path:
 # it takes some 35, of which most are in single precision and leave rows out.
 _CONVOLUTIONS = 20
+_LEAST = 1e-3  # that a load takes on any grid [s]
 _PROBE = 512  # points along a side of the grid that is timed
 
 
@@ -77,7 +78,7 @@ def estimate(
     growth = points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
     return Estimate(
         memory_for(shape, periodic, n_loads if fields else 0),
-        n_loads * _CONVOLUTIONS * growth * min(probes),
+        n_loads * (_LEAST + _CONVOLUTIONS * growth * min(probes)),
     )
 
 

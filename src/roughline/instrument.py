@@ -14,34 +14,25 @@ from typing import Any
 import numpy as np
 
 from roughline.errors import InputError, RoughlineError
+from roughline.measurement import Measurement
 from roughline.memory import refuse_beyond_memory
-from roughline.missing import Missing
-from roughline.quantities import given_sizes, metres_per_file_unit
-from roughline.topography import MEASURED, Body, Line, Surface
+from roughline.topography import MEASURED
 
 _BYTES_PER_POINT = 24  # raw, scaled and masked
 
 
-def read_instrument(
-    path: Path,
-    unit: str | None,
-    channel: int | str | None,
-    sizes: float | tuple[float, ...] | None,
-    missing: Missing,
-) -> Body:
-    """Read a body from an instrument's file, in metres.
+def read_instrument(path: Path, channel: int | str | None) -> Measurement:
+    """Read what an instrument's file holds.
 
     Parameters
     ----------
-    path, unit, channel, sizes
+    path, channel
         As for :func:`roughline.read`.
-    missing : Missing
-        How missing points are filled.
 
     Raises
     ------
     InputError
-        If the file is damaged, of a type that is not known, or does not say enough.
+        If the file is damaged, of a type that is not known, or has no such channel.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ImportWarning)  # it says that MPI is absent; so be it
@@ -56,15 +47,7 @@ def read_instrument(
                 f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {path.name}",
                 "crop it with the instrument's software",
             )
-            stated = chosen.unit[0] if isinstance(chosen.unit, tuple) else chosen.unit
-            factor = metres_per_file_unit(path.name, stated, unit)
-            extent = _sizes_in_file_units(chosen, sizes, factor, path)
-            topography = reader.topography(
-                channel_index=chosen.index,
-                **({} if stated else {"unit": "m"}),
-                **({"physical_sizes": extent} if chosen.physical_sizes is None else {}),
-            )
-            return _body_of(topography, factor, path, stated or str(unit), chosen.name, missing)
+            return _measurement_of(reader, chosen, path)
     except (RoughlineError, MemoryError):
         raise
     except ReadFileError as error:
@@ -110,43 +93,36 @@ def _channel_of(reader: Any, wanted: int | str | None, path: Path) -> Any:
                 f"{path.name} has {len(named)} channels {text!r}: choose by number, of {listed}"
             )
         chosen = named[0]
-    if not chosen.is_height_channel or (isinstance(chosen.unit, tuple) and not chosen.unit[1]):
+    if not _holds_heights(chosen):
         raise InputError(f"channel {text!r} of {path.name} holds no heights; it has {listed}")
     return chosen
 
 
-def _sizes_in_file_units(
-    channel: Any, given: float | tuple[float, ...] | None, factor: float, path: Path
-) -> tuple[float, ...] | None:
-    if channel.physical_sizes is not None:
-        if given is not None:
-            raise InputError(f"{path.name} states its sizes; leave them out")
-        return None
-    return tuple(size / factor for size in given_sizes(path.name, channel.nb_grid_pts, given))
+def _holds_heights(channel: Any) -> bool:
+    of_lengths = not isinstance(channel.unit, tuple) or bool(channel.unit[1])
+    return bool(channel.is_height_channel) and of_lengths
 
 
-def _body_of(
-    topography: Any, factor: float, path: Path, unit: str, channel: str, missing: Missing
-) -> Body:
-    settings: dict[str, str | int | float] = {
-        "origin": MEASURED,
-        "file": path.name,
-        "file_unit": unit,
-        "channel": channel,
-    }
-    heights, found = missing.completed(topography.heights(), path.name)
-    settings |= found
-    if factor != 1:
-        heights = np.multiply(heights, factor, out=heights if heights.flags.writeable else None)
-    sizes = tuple(factor * float(size) for size in topography.physical_sizes)
-    if topography.dim == 2:
-        return Surface(heights, (sizes[0], sizes[1]), "m", settings)
-    if not topography.is_uniform:
-        positions = np.asarray(topography.positions(), dtype=np.float64) * factor
-        steps = np.diff(positions)
-        even = np.linspace(positions[0], positions[-1], positions.size)
-        heights = np.interp(even, positions, heights)
-        settings["resampled"] = (
-            f"linear, to even spacing; it was {steps.min():.3g} to {steps.max():.3g} m"
-        )
-    return Line(heights, sizes[0], "m", settings, "profile")
+def _measurement_of(reader: Any, channel: Any, path: Path) -> Measurement:
+    unit = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
+    stated = channel.physical_sizes is not None
+    topography = reader.topography(
+        channel_index=channel.index,  # it wants a unit and sizes; those that it lacks do not matter
+        **({} if unit else {"unit": "m"}),
+        **({} if stated else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}),
+    )
+    uneven = topography.dim == 1 and not topography.is_uniform
+    return Measurement(
+        file=path.name,
+        heights=topography.heights(),
+        unit=unit or None,
+        sizes=tuple(map(float, topography.physical_sizes)) if stated else None,
+        kind="surface" if topography.dim == 2 else "profile",
+        channel=channel.name,
+        channels=tuple(
+            f"{i} {each.name}" + ("" if _holds_heights(each) else " (no heights)")
+            for i, each in enumerate(reader.channels)
+        ),
+        positions=np.asarray(topography.positions(), dtype=np.float64) if uneven else None,
+        settings={"origin": MEASURED, "file": path.name, "channel": channel.name},
+    )

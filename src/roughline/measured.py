@@ -10,9 +10,11 @@ from roughline.archives import refuse_bombs
 from roughline.body_file import read_body_file
 from roughline.errors import InputError
 from roughline.instrument import read_instrument
+from roughline.measurement import Measurement
 from roughline.missing import Filling, Missing
-from roughline.quantities import engineering, given_sizes, metres_per_file_unit
-from roughline.topography import MEASURED, Body, Line, Surface
+from roughline.quantities import Sizes, engineering
+from roughline.topography import MEASURED, Body, Surface
+from roughline.trend import Trend, refuse_unknown_trend
 
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
 
@@ -22,16 +24,18 @@ def read(
     unit: str | None = None,
     *,
     channel: int | str | None = None,
-    sizes: float | tuple[float, ...] | None = None,
+    sizes: Sizes | None = None,
     missing: Filling = "harmonic",
     most_missing: float = 0.1,
+    trend: Trend = "tilt",
 ) -> Body:
     """Read a surface or a line from a file, in metres.
 
     Our own NetCDF files and the formats of SurfaceTopography are understood, plain arrays (NPY,
     text) included. A measured line scan is returned as a Line of kind "profile"; one with uneven
     spacing is interpolated linearly to as many even points. Points that the instrument could not
-    measure are filled; how many there were stands in the settings of the result.
+    measure are filled, and the tilt of its stage is removed; both stand in the settings of the
+    result. Our own files are kept as they were written.
 
     Parameters
     ----------
@@ -41,14 +45,17 @@ def read(
         Unit of all lengths in a file that states none, such as "nm" or "um".
     channel : int or str, optional
         Number, from 0, or name of the channel; default: the file's first one of heights.
-    sizes : float or tuple of float, optional
-        Length of a line, or (Lx, Ly), for a file that states no sizes; one number makes a square
-        of a square array. [m]
+    sizes : float, str, or sequence of them, optional
+        Length of a line, or both sides (Lx, Ly), for a file that states no sizes; one of them
+        makes a square of a square array. Numbers are in `unit` if that is given, like everything
+        else in the file, and in metres if not; texts have units of their own, "1 mm, 0.5 mm".
     missing : {"harmonic", "nearest"}, optional
         How missing points are filled: by the smoothest surface through their neighbours, or by
         the nearest known height.
     most_missing : float, optional
         Share of missing points above which the file is refused.
+    trend : {"tilt", "none", "mean", "curvature"}, optional
+        Least-squares polynomial that is removed from what an instrument measured.
 
     Returns
     -------
@@ -62,28 +69,42 @@ def read(
     InputError
         If the file does not exist, has no format known, is damaged or lacks points or sizes.
     """
-    path, filling = Path(path), Missing(missing, most_missing)
+    filling = Missing(missing, most_missing)
+    refuse_unknown_trend(trend)
+    return measurement(path, channel).body(unit, sizes, filling, trend)
+
+
+def measurement(path: str | Path, channel: int | str | None = None) -> Measurement:
+    """Read what a file holds, whether or not there is enough in it for a body.
+
+    Parameters
+    ----------
+    path, channel
+        As for :func:`read`.
+
+    Raises
+    ------
+    InputError
+        If the file does not exist, has no format known, is damaged, or has no such channel.
+    """
+    path = Path(path)
     if not path.is_file():
         what = "is a folder" if path.is_dir() else "does not exist"
         raise InputError(f"{path} {what}; give a file with a topography")
     if path.stat().st_size == 0:
         raise InputError(f"{path.name} is empty: export it again")
-    own = read_body_file(path, unit) if path.suffix == ".nc" else None
-    if own is not None:
-        if channel is not None or sizes is not None:
-            raise InputError(f"{path.name} has one channel and states its sizes; leave both out")
-        return own
-    if path.suffix == ".npy":
-        if channel is not None:
-            raise InputError(f"{path.name} has one channel; leave it out")
-        return _read_array(path, unit, sizes, filling)
-    refuse_bombs(path)
-    return read_instrument(path, unit, channel, sizes, filling)
+    found = read_body_file(path) if path.suffix == ".nc" else None
+    if found is None and path.suffix == ".npy":
+        found = _read_array(path)
+    if found is None:
+        refuse_bombs(path)
+        return read_instrument(path, channel)
+    if channel is not None:
+        raise InputError(f"{path.name} has one channel; leave it out")
+    return found
 
 
-def _read_array(
-    path: Path, unit: str | None, sizes: float | tuple[float, ...] | None, missing: Missing
-) -> Body:
+def _read_array(path: Path) -> Measurement:
     """Read an array in NumPy's format, x along the first axis."""
     try:
         stored = np.load(path, mmap_mode="r", allow_pickle=False)
@@ -94,14 +115,14 @@ def _read_array(
         raise InputError(
             f"{path.name} holds no array of real heights ({reason}): save one or two dimensions"
         ) from error
-    factor = metres_per_file_unit(path.name, None, unit)
-    extent = given_sizes(path.name, stored.shape, sizes)
-    heights, settings = missing.completed(np.array(stored, dtype=np.float64), path.name)
-    heights *= factor
-    settings = {"origin": MEASURED, "file": path.name, "file_unit": str(unit), **settings}
-    if heights.ndim == 2:
-        return Surface(heights, (extent[0], extent[1]), "m", settings)
-    return Line(heights, extent[0], "m", settings, "profile")
+    return Measurement(
+        file=path.name,
+        heights=np.array(stored, dtype=np.float64),
+        unit=None,
+        sizes=None,
+        kind="surface" if stored.ndim == 2 else "profile",
+        settings={"origin": MEASURED, "file": path.name},
+    )
 
 
 def suspicions(body: Body) -> list[str]:

@@ -13,6 +13,9 @@ from roughline.errors import InputError
 
 Filling = Literal["harmonic", "nearest"]
 
+_MOSTLY = 0.9  # of the missing points
+_COLUMNS, _ROWS = 48, 16  # of a coarse map, at most
+
 
 @dataclass(frozen=True)
 class Missing:
@@ -64,10 +67,9 @@ class Missing:
         InputError
             If more than the largest share is missing.
         """
-        unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
-        if not unknown and not np.isfinite(np.ma.getdata(heights)).all():
+        if not np.isfinite(np.ma.getdata(heights)).all():
             heights = np.ma.masked_invalid(heights, copy=False)
-            unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+        unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
         settings: dict[str, str | int | float] = {}
         if unknown:
             heights = self.filled(heights, name)
@@ -78,20 +80,116 @@ class Missing:
             }
         return np.array(heights, dtype=np.float64, copy=None), settings
 
+    def too_many(self, mask: NDArray[np.bool_], name: str) -> InputError | None:
+        """Return what is to be said if more points are missing than are filled."""
+        unknown = int(np.count_nonzero(mask))
+        if unknown <= self.most * mask.size and unknown < mask.size:
+            return None
+        return InputError(
+            f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
+            f"up to {self.most:.0%} are filled: crop it with the instrument's software to where "
+            "points are known, or allow more (most_missing; command line: --max-missing, and "
+            "--crop)"
+        )
+
     def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> NDArray[np.float64]:
         """Return masked heights with all points known; as :meth:`completed`, without the count."""
         mask = np.ma.getmaskarray(heights)
-        unknown = int(np.count_nonzero(mask))
-        if unknown > self.most * mask.size or unknown == mask.size:
-            raise InputError(
-                f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
-                f"up to {self.most:.0%} are filled: crop it to where points are known, or allow "
-                "more (most_missing; command line: --max-missing)"
-            )
+        too_many = self.too_many(mask, name)
+        if too_many is not None:
+            raise too_many
         if heights.ndim == 1:
             at = np.arange(mask.size)
             return np.interp(at, at[~mask], np.ma.getdata(heights)[~mask])
         return _nearest(heights, mask) if self.method == "nearest" else _harmonic(heights)
+
+
+@dataclass(frozen=True, eq=False)
+class MissingPattern:
+    """Where points of a topography are missing.
+
+    Attributes
+    ----------
+    count : int
+        How many.
+    share : float
+        Of all points. [1]
+    regions, largest : int
+        Groups of neighbouring missing points, and the points of the largest.
+    at_border : int
+        Missing points in groups that reach the border.
+    cells : ndarray, shape (columns, rows) or (columns,)
+        Share of missing points in equal pieces of the topography, along x and y. [1]
+    """
+
+    count: int
+    share: float
+    regions: int
+    largest: int
+    at_border: int
+    cells: NDArray[np.float64]
+
+    def __str__(self) -> str:
+        if not self.count:
+            return "none"
+        if self.regions == 1:
+            grouped = "one region"
+        elif self.largest >= _MOSTLY * self.count:
+            grouped = "mostly one region"
+        elif self.largest <= (1 - _MOSTLY) * self.count:
+            grouped = f"scattered in {self.regions} places"
+        else:
+            grouped = f"{self.regions} regions"
+        if self.at_border >= _MOSTLY * self.count:
+            return f"{grouped}, at the border"
+        if self.at_border <= (1 - _MOSTLY) * self.count:
+            return f"{grouped}, inside"
+        return f"{grouped}, at the border and inside"
+
+
+def missing_pattern(
+    unknown: NDArray[np.bool_], sides: tuple[float, ...] | None = None
+) -> MissingPattern:
+    """Say where points are missing.
+
+    Parameters
+    ----------
+    unknown : ndarray of bool, shape (nx, ny) or (n,)
+        Which points are missing.
+    sides : tuple of float, optional
+        Sides of the topography, for pieces that look square as characters. [length]
+    """
+    from scipy import ndimage  # here because it loads slowly
+
+    groups, regions = ndimage.label(unknown, np.ones((3,) * unknown.ndim))
+    points = np.bincount(groups.ravel(), minlength=1)
+    points[0] = 0  # what is known
+    ends = [np.take(groups, [0, -1], axis=axis).ravel() for axis in range(unknown.ndim)]
+    pieces = _pieces(unknown.shape, sides or unknown.shape)
+    cells = unknown.astype(np.float64)
+    for axis, count in enumerate(pieces):
+        starts = np.arange(count) * unknown.shape[axis] // count
+        sums = np.add.reduceat(cells, starts, axis=axis)
+        widths = np.diff([*starts, unknown.shape[axis]])
+        cells = sums / widths.reshape([-1 if i == axis else 1 for i in range(unknown.ndim)])
+    return MissingPattern(
+        count=int(points.sum()),
+        share=float(points.sum() / unknown.size),
+        regions=int(regions),
+        largest=int(points.max()),
+        at_border=int(points[np.unique(np.concatenate(ends))].sum()),
+        cells=cells,
+    )
+
+
+def _pieces(points: tuple[int, ...], sides: tuple[float, ...]) -> tuple[int, ...]:
+    """Columns and rows of a coarse map; a character is about twice as high as it is wide."""
+    if len(points) == 1:
+        return (min(_COLUMNS, points[0]),)
+    columns, rows = float(_COLUMNS), _COLUMNS * sides[1] / sides[0] / 2
+    shrink = max(1.0, rows / _ROWS)
+    columns, rows = (max(1, round(count / shrink)) for count in (columns, rows))
+    return min(columns, points[0]), min(rows, points[1])
 
 
 def _nearest(heights: Any, mask: NDArray[np.bool_]) -> NDArray[np.float64]:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roughline.errors import InputError
 from roughline.missing import Missing
-from roughline.topography import MEASURED, Body, BodyType, Line, Surface, with_heights
-from roughline.trend import DEGREES, Trend, without_trend
+from roughline.topography import Body, BodyType, Line, Surface, with_heights
+from roughline.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
 
 Real = NDArray[np.float64]
+_TILT_MATTERS = 0.05  # of the rms height, from which on a tilt is warned of
 _SPIKE = 5.0  # over what neighbours scatter by
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
 _ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
@@ -30,7 +32,9 @@ class Preparation:
     remove_outliers : bool, optional
         Whether spikes are taken out and filled like missing points. They are counted always.
     trend : {"tilt", "curvature", "mean", "none"}, optional
-        Least-squares polynomial that is removed.
+        Least-squares polynomial that is removed. Default: what was removed from the body before,
+        by :func:`roughline.read` say, is removed from what a crop or taken-out spikes leave of it;
+        nothing is removed from other bodies.
     low_pass : float, optional
         Cutoff wavelength of a Gaussian filter after ISO 16610-61 (half of the amplitude of a wave
         of that length passes). [length]
@@ -45,13 +49,13 @@ class Preparation:
 
     crop: tuple[float, ...] | None = None
     remove_outliers: bool = False
-    trend: Trend = "tilt"
+    trend: Trend | None = None
     low_pass: float | None = None
     points: int | tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
-        if self.trend not in DEGREES:
-            raise InputError(f"trend is {self.trend!r}; one of {', '.join(DEGREES)} is needed")
+        if self.trend is not None:
+            refuse_unknown_trend(self.trend)
         if self.low_pass is not None and not 0 < self.low_pass < math.inf:
             raise InputError(f"low_pass is {self.low_pass}; a positive wavelength is needed")
         for n in np.atleast_1d(self.points if self.points is not None else 2):
@@ -76,8 +80,10 @@ class Preparation:
             body = with_heights(body, filled, outliers_removed=count)
         elif count:
             body = with_heights(body, body.heights, outliers_kept=count)
-        if self.trend != "none":
-            body = body.detrended(self.trend)
+        changed = self.crop is not None or (count > 0 and self.remove_outliers)
+        trend = self.trend or (_trend_removed(body) if changed else "none")
+        if trend != "none":
+            body = body.detrended(trend)
         if self.low_pass is not None:
             body = _low_passed(body, self.low_pass)
         if self.points is not None:
@@ -86,21 +92,35 @@ class Preparation:
 
 
 def prepared(body: Body, preparation: Preparation | None = None) -> Body:
-    """Return a measured body prepared, and others as they are unless a preparation is given.
+    """Return a body prepared.
 
     Parameters
     ----------
     body : Surface or Line
         Any body.
     preparation : Preparation, optional
-        Default: the tilt of an instrument's topography is removed.
+        Default: spikes are counted, and nothing is changed.
     """
-    if preparation is None:
-        measured = body.settings.get("origin") == MEASURED
-        preparation = Preparation() if measured else Preparation(trend="none")
+    preparation = preparation or Preparation()
     if isinstance(body, Surface):
         return preparation.applied(body)
     return preparation.applied(body)  # apart, as either comes back as what it was
+
+
+def tilt_warnings(surface: Surface) -> tuple[str, ...]:
+    """Warn of a piece of a larger surface whose mean plane is much of its height.
+
+    Such a plane is mostly the stage's, or a wave longer than the piece, and the load goes to the
+    side that it lifts.
+    """
+    lower = 1 - math.sqrt(1 - tilt_share(surface.heights, surface.rms_height))
+    if not surface.is_cut_out or lower <= _TILT_MATTERS:
+        return ()
+    return (
+        f"this surface is tilted: without its mean plane the rms height would be {lower:.0%} "
+        "lower, and the side that the tilt lifts carries the load. Unless that is meant, remove it "
+        "(rl.read does by default; surface.detrended(); command line: --trend tilt)",
+    )
 
 
 def outliers(body: Body) -> NDArray[np.bool_]:
@@ -128,6 +148,12 @@ def outliers(body: Body) -> NDArray[np.bool_]:
         if scatter > 0:
             marked |= narrow[spots]
     return marked
+
+
+def _trend_removed(body: Body) -> Trend:
+    """Which trend was removed from a body before."""
+    names: tuple[Trend, ...] = get_args(Trend)
+    return next((name for name in names if name == body.settings.get("detrended")), "none")
 
 
 def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:

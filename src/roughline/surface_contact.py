@@ -17,6 +17,7 @@ from roughline.halfspace.outline import overstated_cells
 from roughline.halfspace.path import follow
 from roughline.halfspace.state import Contact, Method
 from roughline.loads import Loads
+from roughline.preparation import tilt_warnings
 from roughline.topography import Surface
 
 Field = NDArray[np.float64]
@@ -113,7 +114,7 @@ def press_surface(
         interrupted = True
         values[:, status == Status.INTERRUPTED] = np.nan
     residual, depth, force, stiffness, area, corrected, most_area, edge = values
-    warnings = () if periodic else _edge_warnings(surface, force, edge)
+    at_the_border = () if periodic else _edge_warnings(surface, force, edge)
     curve = Curve(
         depth=depth,
         force=force,
@@ -139,7 +140,7 @@ def press_surface(
             **surface.settings_as_body(),
         },
         convolutions=convolutions,
-        warnings=warnings,
+        warnings=(*tilt_warnings(surface), *at_the_border),
         fields=tuple(all_fields),
     )
     if interrupted:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -18,6 +19,11 @@ Settings = Mapping[str, str | int | float]
 MEASURED = "instrument file"
 """Origin, in the settings, of what an instrument measured."""
 
+PIECE = "topography"
+"""Origin of a topography of SurfaceTopography that is not periodic, so a piece of a larger one."""
+
+_NOT_GIVEN = (math.nan, math.nan)  # sizes
+
 # Beyond this, squares of lengths leave the range of double precision.
 _LARGEST = 1e150
 _BLOCK = 2**16  # heights looked at together
@@ -30,7 +36,9 @@ class Surface:
     Parameters
     ----------
     heights : array_like, shape (nx, ny)
-        Heights, pointing towards the other body; the array is not copied. [length]
+        Heights, pointing towards the other body; the array is not copied. [length] Or a topography
+        of SurfaceTopography, which brings its sizes along; one that states its unit is converted
+        to metres, as by :func:`roughline.read`.
     sizes : tuple of float
         Sides of the rectangle, (Lx, Ly); a cell is Lx / nx by Ly / ny. [length]
     unit : str, optional
@@ -46,11 +54,15 @@ class Surface:
     """
 
     heights: NDArray[np.float64]
-    sizes: tuple[float, float]
+    sizes: tuple[float, float] = _NOT_GIVEN
     unit: str | None = None
     settings: Settings = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
+        if hasattr(self.heights, "physical_sizes"):
+            self._take_over(self.heights)
+        if self.sizes is _NOT_GIVEN:
+            raise InputError("no sizes are given; give the sides of the surface, (Lx, Ly)")
         heights = _checked_heights(self.heights, dimensions=2)
         if heights.size < 2:
             raise InputError(
@@ -58,6 +70,30 @@ class Surface:
                 "are needed: give more points"
             )
         _freeze(self, heights=heights, sizes=_checked_sizes("sizes", self.sizes))
+
+    def _take_over(self, topography: Any) -> None:
+        """Set heights, sizes and unit to those of a topography of SurfaceTopography."""
+        from roughline.quantities import metres_per
+
+        if topography.dim != 2:
+            raise InputError("the topography is a line scan; a Surface takes a map: give a Line")
+        if self.sizes is not _NOT_GIVEN:
+            raise InputError("the topography has its own sizes; leave sizes out")
+        if topography.unit and self.unit:
+            raise InputError(f"the topography states its unit, {topography.unit}; leave unit out")
+        factor = metres_per(topography.unit) if topography.unit else 1.0
+        heights = topography.heights()
+        _set(
+            self,
+            heights=heights if factor == 1 else heights * factor,
+            sizes=tuple(factor * float(size) for size in topography.physical_sizes),
+            unit="m" if topography.unit else self.unit,
+            settings={
+                "origin": "periodic topography" if topography.is_periodic else PIECE,
+                **({"file_unit": topography.unit} if topography.unit else {}),
+                **self.settings,
+            },
+        )
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -109,7 +145,7 @@ class Surface:
     @property
     def is_cut_out(self) -> bool:
         """Whether a larger surface goes on beyond the border: a measured or a cropped one."""
-        return "cropped" in self.settings or self.settings.get("origin") == MEASURED
+        return "cropped" in self.settings or self.settings.get("origin") in (MEASURED, PIECE)
 
     def cropped(self, x: tuple[int, int], y: tuple[int, int]) -> Surface:
         """Return a rectangle of the surface.
@@ -249,11 +285,15 @@ def _as_body(settings: Settings) -> Settings:
     return {f"body_{name}": value for name, value in settings.items()}
 
 
-def _freeze(body: Body, **fields: Any) -> None:
-    """Set checked fields at birth; the settings become read-only."""
+def _set(body: Body, **fields: Any) -> None:
+    """Set fields at birth."""
     for name, value in fields.items():
         object.__setattr__(body, name, value)
-    object.__setattr__(body, "settings", MappingProxyType(dict(body.settings)))
+
+
+def _freeze(body: Body, **fields: Any) -> None:
+    """Set checked fields at birth; the settings become read-only."""
+    _set(body, **fields, settings=MappingProxyType(dict(body.settings)))
 
 
 def _checked_heights(heights: Any, dimensions: int) -> NDArray[np.float64]:

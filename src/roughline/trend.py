@@ -7,11 +7,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.errors import InputError
+
 Real = NDArray[np.float64]
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
 DEGREES: dict[str, int] = {"none": -1, "mean": 0, "tilt": 1, "curvature": 2}
 """Degree of the polynomial that goes by each name."""
+
+_BLOCK = 2**16  # heights changed together
 
 
 def without_trend(heights: Real, trend: Trend) -> Real:
@@ -24,20 +28,69 @@ def without_trend(heights: Real, trend: Trend) -> Real:
     trend : {"none", "mean", "tilt", "curvature"}
         Which.
     """
+    left = np.array(heights)
+    remove_trend(left, trend)
+    return left
+
+
+def remove_trend(heights: Real, trend: Trend) -> None:
+    """Take the least-squares polynomial out of heights in place, without a second copy of them.
+
+    Parameters
+    ----------
+    heights, trend
+        As for :func:`without_trend`; the heights are changed.
+    """
     degree = DEGREES[trend]
     if degree < 0:
-        return heights
+        return
+    if not heights.flags.c_contiguous:
+        heights = heights.T  # the polynomials of x and y change places
+    heights -= heights.mean()
     # orthonormal along each side, so each term is a projection: there are no equations to solve
     bases = [_polynomials(n, min(degree, n - 1)) for n in heights.shape]
-    centred = heights - heights.mean()
-    shares = centred
+    shares = heights
     for basis in bases:
         shares = np.tensordot(shares, basis, axes=(0, 0))
-    orders = np.indices(shares.shape).sum(axis=0)
-    fitted = np.where(orders <= degree, shares, 0.0)
-    for basis in bases:
-        fitted = np.tensordot(fitted, basis, axes=(0, 1))
-    return centred - fitted
+    along = np.where(np.indices(shares.shape).sum(axis=0) <= degree, shares, 0.0)
+    for basis in bases[1:]:
+        along = along @ basis.T
+    rows = max(1, _BLOCK * len(heights) // heights.size)
+    for start in range(0, len(heights), rows):
+        block = slice(start, start + rows)
+        heights[block] -= bases[0][block] @ along
+
+
+def tilt_share(heights: Real, rms_height: float) -> float:
+    """Return the share of the mean square height that lies in the least-squares plane. [1]
+
+    Parameters
+    ----------
+    heights : ndarray, shape (nx, ny)
+        Heights on an even grid. [length]
+    rms_height : float
+        Their root-mean-square deviation from the mean. [length]
+    """
+    if rms_height == 0:
+        return 0.0
+    mean, share = heights.mean(), 0.0
+    for axis, n in enumerate(heights.shape):
+        x = np.linspace(-1.0, 1.0, n)
+        across = (heights.mean(axis=1 - axis) - mean) / rms_height
+        share += float(x @ across) ** 2 / float(x @ x) / n
+    return min(share, 1.0)
+
+
+def refuse_unknown_trend(trend: str) -> None:
+    """Refuse a name that is no trend.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    if trend not in DEGREES:
+        raise InputError(f"trend is {trend!r}; one of {', '.join(DEGREES)} is needed")
 
 
 def _polynomials(n: int, degree: int) -> Real:

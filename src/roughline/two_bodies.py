@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.errors import InputError
-from roughline.topography import MEASURED, Settings, Surface
+from roughline.topography import MEASURED, Surface
 
 
 def facing(first: Surface, second: Surface) -> Surface:
@@ -13,7 +13,8 @@ def facing(first: Surface, second: Surface) -> Surface:
 
     The second is turned over about its y axis, so its x runs backwards, and both are laid on the
     rectangle and the points that they have in common: the smaller sides, from the corner, and the
-    first one's spacing. Gap and elastic contact depend on the sum of the heights alone.
+    first one's spacing. Gap and elastic contact depend on the sum of the heights alone. What was
+    cropped or resampled stands in the settings.
 
     Parameters
     ----------
@@ -51,10 +52,18 @@ def facing(first: Surface, second: Surface) -> Surface:
         other = ndimage.map_coordinates(
             turned, np.meshgrid(x, y, indexing="ij"), order=3, mode="nearest"
         )
-    settings: Settings = {
+    settings: dict[str, str | int | float] = {
         "origin": MEASURED if first.is_cut_out or second.is_cut_out else "two surfaces",
         **{f"first_{key}": value for key, value in first.settings.items()},
         **{f"second_{key}": value for key, value in second.settings.items()},
     }
+    for name, body in (("first", first), ("second", second)):
+        lost = [
+            size - n * step for size, n, step in zip(body.sizes, shape, first.spacing, strict=True)
+        ]
+        if any(gone > 0.5 * step for gone, step in zip(lost, body.spacing, strict=True)):
+            settings[f"{name}_cropped_to"] = f"{dx * shape[0]:.6g} x {dy * shape[1]:.6g}"
+    if not same_grid:
+        settings["second_resampled_to"] = f"{shape[0]} x {shape[1]}"
     heights = first.heights[: shape[0], : shape[1]] + other
     return Surface(heights, (dx * shape[0], dy * shape[1]), first.unit, settings)

@@ -12,7 +12,8 @@ import time
 import psutil
 import pytest
 
-from small_campaign import PLAN, finish, run, start, tree
+from roughline.campaign.cluster import deaf_to_interrupts
+from small_campaign import PLAN, finish, hear_interrupts, run, start, tree
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="signals of POSIX")
 
@@ -109,6 +110,48 @@ def test_ctrl_c(plan, undisturbed, tmp_path):
     assert "Traceback" not in err
     assert not psutil.wait_procs(workers, timeout=10)[1]
     resume(plan, store, undisturbed)
+
+
+def test_ctrl_c_in_a_script_ends_in_one_line(plan, tmp_path):
+    store, script = tmp_path / "store", tmp_path / "study.py"
+    script.write_text(
+        "from roughline import campaign\n"
+        'if __name__ == "__main__":\n'
+        f"    campaign.run(campaign.read_plan({str(plan)!r}), {str(store)!r})\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, str(script)],
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=hear_interrupts,
+    )
+    wait_for_results(store, process)
+    os.killpg(process.pid, signal.SIGINT)
+    _, _, err = finish(process, timeout=20)
+    said = f"KeyboardInterrupt: interrupted; what is done is kept in {store}: run again to go on"
+    assert err.splitlines()[-1] == said
+    assert err.count("File ") == 2, err  # the line of the script and the call that it made
+
+
+def test_interrupts_wait_for_what_must_be_whole():
+    done = []
+
+    @deaf_to_interrupts()
+    def interrupted():
+        signal.raise_signal(signal.SIGINT)
+        done.append(1)
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted()
+    assert done == [1]
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)  # as a shell's background jobs have it
+    try:
+        with deaf_to_interrupts():
+            signal.raise_signal(signal.SIGINT)
+        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_terminated(plan, undisturbed, tmp_path):

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +48,29 @@ def test_the_help_of_press_names_every_material():
     page = " ".join(roughline("press", "--help").stdout.replace("│", " ").split())
     for name in materials():
         assert f"{name}," in page or f"{name}." in page, name
+
+
+def test_the_help_of_press_begins_with_bodies_and_loads():
+    page = roughline("press", "--help").stdout
+    panels = ("Arguments", "Bodies", "Loads", "Answers", "A file", "Preparation", "Other options")
+    places = [page.index(f"─ {panel} ─") for panel in panels]
+    assert places == sorted(places)
+    assert "╭─ Options" not in page
+    assert places[-1] < page.index("Materials by name") < page.index("Examples")
+
+
+def test_many_loads_are_estimated_before_and_told_in_one_line(tmp_path, invoke):
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
+    rl.write(replace(spectrum.surface(8, 1), unit="m"), tmp_path / "small.nc")
+    code, out, errors = invoke(
+        "press", tmp_path / "small.nc", "--modulus", "1 GPa", "--loads", 1000
+    )
+    assert code == 0, errors
+    assert "8 x 8 points, 1000 loads: about" in errors
+    lines = [line for line in out.splitlines() if "stiffness" in line]
+    assert len(lines) == 1
+    assert lines[0].startswith("1000 loads from ")
+    assert len(out.splitlines()) < 6
 
 
 def test_a_generated_surface_is_pressed(surface_file, invoke, tmp_path):

@@ -47,13 +47,70 @@ def test_files_that_can_be_pressed(topographies, invoke, name, points, told):
         ("di_corrupted.di", "is damaged or of a type that is not known"),
     ],
 )
-@pytest.mark.parametrize("command", ["press", "info"])
-def test_files_that_cannot_be_used_say_why(topographies, invoke, name, told, command):
-    code, out, errors = invoke(command, topographies / name, *(PRESS if command == "press" else ()))
+def test_files_that_cannot_be_used_say_why(topographies, invoke, name, told):
+    code, out, errors = invoke("press", topographies / name, *PRESS)
     assert code == 2
     assert out == ""
     assert told in errors
     assert len(errors.splitlines()) == 1
+
+
+def test_info_describes_a_file_of_which_most_is_missing(topographies, invoke, tmp_path):
+    """By SurfaceTopography itself: 233009 of 512 x 512, all but a band at 68 to 84 mm along y."""
+    code, out, errors = invoke("info", topographies / "sur-3.sur", "--out", tmp_path)
+    assert code == 0, errors
+    for text in (
+        "512 x 512",
+        "151.3 mm x 151.3 mm",
+        "233009 (88.89%), mostly one region, at the border",
+        "it cannot be pressed as it is: sur-3.sur has 233009 missing points of 262144 (89%)",
+    ):
+        assert text in out, text
+    rows = [line.strip() for line in out.splitlines() if set(line.strip()) <= set(".+#") and line]
+    assert len(rows) == 16
+    assert [set(row) == {"#"} for row in rows] == [True] * 7 + [False] * 2 + [True] * 7
+    assert (tmp_path / "file.png").stat().st_size > 10_000
+    code, out, _ = invoke("info", topographies / "sur-3.sur", "--json")
+    found = json.loads(out)
+    assert (code, found["body"], found["rms_height"]) == (0, None, None)
+    assert found["in_file"]["points"] == [512, 512]
+    assert found["missing"]["points"] == 233009
+    assert np.mean(found["missing"]["cells"]) == pytest.approx(233009 / 512**2)
+    assert len(found["obstacles"]) == 1
+
+
+def test_info_describes_a_file_without_a_unit(topographies, invoke):
+    code, out, errors = invoke("info", topographies / "xy-1.txt")
+    assert code == 0, errors
+    said = " ".join(out.split())
+    assert "points 132 unit in the file none stated length 187.2, unit not stated" in said
+    assert "it cannot be pressed as it is: xy-1.txt states no unit" in said
+    code, out, errors = invoke("info", topographies / "xy-1.txt", "--unit", "parsnip")
+    assert (code, out) == (2, "")
+    assert 'unit is "1 parsnip"' in errors
+
+
+def test_info_on_a_damaged_file_is_one_line(topographies, invoke):
+    code, out, errors = invoke("info", topographies / "di_corrupted.di")
+    assert (code, out) == (2, "")
+    assert "is damaged or of a type that is not known" in errors
+    assert len(errors.splitlines()) == 1
+
+
+def test_info_describes_arrays_and_reduced_lines(tmp_path, invoke):
+    heights = np.arange(24.0).reshape(4, 6)
+    heights[:, 0] = np.nan
+    np.save(tmp_path / "map.npy", heights)
+    code, out, errors = invoke("info", tmp_path / "map.npy", "--out", tmp_path / "out")
+    assert code == 0, errors
+    assert out.count("it cannot be pressed as it is") == 3  # unit, sizes, missing points
+    assert (tmp_path / "out" / "file.png").exists()
+    line = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).line(256, 1)
+    rl.write(rl.Line(line.heights, line.length, "m"), tmp_path / "line.nc")
+    code, out, errors = invoke("info", tmp_path / "line.nc")
+    assert code == 0, errors
+    assert "note: this is a reduced line" in out
+    assert "Rq, rms height" in out
 
 
 def test_what_was_refused_can_be_allowed(topographies, invoke):
@@ -73,6 +130,7 @@ def test_info_fits_a_screen_and_json(topographies, invoke, tmp_path, name):
     assert len(out.splitlines()) < 40
     assert "Hurst exponent" in out
     assert "missing points" in out
+    assert (tmp_path / "out" / "file.png").exists() == (name == "opd-1.opd")
     assert (tmp_path / "out" / "roughness.png").stat().st_size > 10_000
     again = rl.read(tmp_path / "out" / "prepared.nc")
     code, out, _ = invoke("info", topographies / name, "--json")
@@ -212,6 +270,21 @@ def test_two_rough_bodies(tmp_path, invoke):
     assert rms == pytest.approx(np.sqrt(2) * 1e-6, rel=0.25)
 
 
+def test_what_laying_two_bodies_together_crops_and_resamples_is_said(tmp_path, invoke):
+    spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)
+    rl.write(replace(spectrum.surface(64, 1), unit="m"), tmp_path / "whole.nc")
+    small = spectrum.surface(96, 2).cropped((0, 48), (0, 96)).detrended()
+    rl.write(replace(small, unit="m"), tmp_path / "small.nc")
+    code, out, errors = invoke(
+        *("press", tmp_path / "whole.nc", "--against", tmp_path / "small.nc", *PRESS)
+    )
+    assert code == 0, errors
+    said = " ".join(out.split())
+    assert "first body: cropped to what both have in common, 500 µm x 1 mm" in said
+    assert "second body: resampled by cubic splines to pixels of 15.62 µm x 15.62 µm" in said
+    assert "second body: cropped" not in said
+
+
 def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke):
     spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)
     for name, seed, hole in (("whole", 1, False), ("holed", 2, True)):
@@ -268,7 +341,7 @@ def test_points_filled_before_are_not_said_to_matter_nothing(topographies, invok
         (("--modulus", "1 GPa", "--crop", "0 um, 1 um"), "crop has 2 lengths; give 4"),
         (("--modulus", "1 GPa", "--low-pass", "5"), "without a unit"),
         (("--modulus", "1 GPa", "--against", "none.nc"), "none.nc does not exist"),
-        (("--modulus", "1 GPa", "--channel", "1"), "leave both out"),
+        (("--modulus", "1 GPa", "--channel", "1"), "has one channel; leave it out"),
         (("--modulus", "1 GPa", "--max-missing", "2"), "most_missing is 2"),
     ],
 )

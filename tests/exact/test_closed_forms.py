@@ -52,6 +52,20 @@ def test_hertz_and_cone_are_the_textbooks():
     assert tip.force(tip.depth(0.3)) == pytest.approx(math.pi / 2 * 3 * 0.09 * math.tan(0.2))
 
 
+def test_indenters_take_arrays():
+    depths = np.geomspace(1e-3, 1e-1, 5)
+    ball, tip = indenters.paraboloid(2.0, E_star=3.0), indenters.cone(0.2, E_star=3.0)
+    assert ball.force(depths) == pytest.approx(4 / 3 * 3 * np.sqrt(2) * depths**1.5)
+    assert ball.stiffness(depths) == pytest.approx(6 * np.sqrt(2 * depths))
+    assert ball.depth(ball.radius(depths)) == pytest.approx(depths)
+    radii = 2 * depths / (np.pi * np.tan(0.2))
+    assert tip.force(depths) == pytest.approx(np.pi / 2 * 3 * radii**2 * np.tan(0.2))
+    middle = indenters.hertz_pressure(depths, 2.0, 3.0, 0.0)
+    assert middle == pytest.approx(1.5 * ball.force(depths) / (np.pi * ball.radius(depths) ** 2))
+    with pytest.raises(ValueError, match=r"depth is -1\.0; a positive"):
+        ball.force([1.0, -1.0])
+
+
 def test_flat_punches():
     assert punch.square_stiffness(2.0, 3.0) == pytest.approx(rl.EXACT_PUNCH * 6, rel=2e-6)
     assert math.isclose(rl.PAPER_PUNCH, 1.012 * 2 / math.sqrt(math.pi), abs_tol=5e-5)

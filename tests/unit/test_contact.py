@@ -206,10 +206,35 @@ def test_a_written_curve_carries_units_and_settings(surface, tmp_path):
     curve.write(tmp_path / "curve.nc")
     with xarray.open_dataset(tmp_path / "curve.nc", engine="h5netcdf") as data:
         assert data.stiffness.values == pytest.approx(curve.stiffness)
-        assert data.pressure.dims == ("load", "x", "y")
+        assert data.pressure.dims == ("force", "x", "y")
         assert data.stiffness.attrs["units"] == "force/length"
         assert data.attrs["roughline_version"] == rl.__version__
         assert data.attrs["body_seed"] == "entropy 7, spawn key ()"
         assert data.attrs["rtol"] == 1e-6
     with pytest.raises(rl.StoreError, match="cannot write"):
         curve.write(tmp_path / "no" / "such" / "folder.nc")
+
+
+@pytest.mark.parametrize("control", ["force", "depth"])
+def test_a_curve_is_drawn_over_what_was_prescribed(surface, line, control):
+    from matplotlib.figure import Figure
+
+    for body in (surface, line):
+        curve = rl.press(body, E_star=1.0, **{f"{control}s": [0.1, 0.3, 1.0]})
+        (drawn,) = curve.to_dataset().stiffness.plot(ax=(axes := Figure().subplots()))
+        assert drawn.get_xdata() == pytest.approx(getattr(curve, control))
+        assert drawn.get_ydata() == pytest.approx(curve.stiffness)
+        assert control in axes.get_xlabel()
+
+
+def test_a_curve_is_written_as_its_name_says(surface, tmp_path):
+    curve = rl.press(surface, E_star=1.0, forces=[0.1, 0.3], fields=True)
+    curve.write(str(tmp_path / "curve.csv"))
+    header, *rows = (tmp_path / "curve.csv").read_text(encoding="utf-8").splitlines()
+    assert header.startswith("force [force],depth [length],stiffness [force/length],status,")
+    assert "pressure" not in header
+    assert [float(row.split(",")[2]) for row in rows] == curve.stiffness.tolist()
+    for name in ("curve.h5", "curve", "curve.txt"):
+        with pytest.raises(rl.InputError, match=f'{name} ends in neither ".nc"'):
+            curve.write(tmp_path / name)
+        assert not (tmp_path / name).exists()

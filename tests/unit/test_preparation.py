@@ -44,13 +44,21 @@ def test_curvature_is_the_least_squares_fit():
     assert without_trend(h, "curvature").ravel() == pytest.approx(h.ravel() - fit, abs=1e-12)
 
 
-def test_measured_bodies_lose_their_tilt_and_others_nothing():
-    tilted = ROUGH.heights + 1e-5 * X
-    assert prepared(rl.Surface(tilted, (1, 1))).heights is not None
-    assert (prepared(rl.Surface(tilted, (1, 1))).heights == tilted).all()
-    found = prepared(as_measured(tilted))
-    assert found.settings["detrended"] == "tilt"
-    assert found.rms_height < 1.1e-6
+def test_of_a_piece_the_trend_is_removed_that_was_removed_of_the_whole():
+    tilted = as_measured(ROUGH.heights + 1e-5 * X)
+    piece = Preparation(crop=(0, 5e-4, 0, 1e-3))
+    for trend in ("tilt", "curvature"):
+        found = prepared(tilted.detrended(trend), piece)
+        again = without_trend(tilted.heights[:48], trend)
+        assert found.heights == pytest.approx(again, abs=1e-18)
+        assert found.settings["detrended"] == trend
+    for kept in (tilted, rl.Surface(tilted.heights, tilted.sizes)):
+        assert (prepared(kept).heights == tilted.heights).all()
+        assert (prepared(kept, piece).heights == tilted.heights[:48]).all()
+        assert (prepared(kept, Preparation(remove_outliers=True)).heights == tilted.heights).all()
+    level = tilted.detrended()
+    left = prepared(level, Preparation(crop=piece.crop, trend="none"))
+    assert (left.heights == level.heights[:48]).all()
 
 
 def test_spikes_are_counted_and_removed_only_when_asked():

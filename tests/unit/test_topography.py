@@ -57,6 +57,36 @@ def test_scaled_heights_say_so():
     assert surface.settings["height_factor"] == 3.0
 
 
+@pytest.mark.parametrize(("unit", "metres"), [("µm", 1e-6), ("mm", 1e-3), (None, 1.0)])
+def test_a_topography_of_surfacetopography_is_taken(unit, metres):
+    from SurfaceTopography import Topography
+
+    given = Topography(wave(), (20.0, 30.0), unit=unit)
+    found = rl.Surface(given)
+    assert found.sizes == pytest.approx((20 * metres, 30 * metres))
+    assert found.heights == pytest.approx(wave() * metres)
+    assert found.unit == ("m" if unit else None)
+    assert found.is_cut_out
+    assert not rl.Surface(Topography(wave(), (1.0, 1.0), periodic=True)).is_cut_out
+    assert found.scaled(2.0).sizes == found.sizes
+
+
+def test_what_is_no_map_or_says_things_twice_is_refused():
+    from SurfaceTopography import Topography, UniformLineScan
+
+    given = Topography(wave(), (20.0, 30.0), unit="um")
+    for arguments, message in (
+        ((given, (1.0, 1.0)), "has its own sizes; leave sizes out"),
+        ((UniformLineScan(wave()[0], 1.0),), "the topography is a line scan"),
+        ((wave(),), r"no sizes are given; give the sides of the surface, \(Lx, Ly\)"),
+        ((Topography(np.ma.masked_greater(wave(), 0.9), (1.0, 1.0)),), "heights are masked"),
+    ):
+        with pytest.raises(rl.InputError, match=message):
+            rl.Surface(*arguments)
+    with pytest.raises(rl.InputError, match="states its unit, um; leave unit out"):
+        rl.Surface(given, unit="m")
+
+
 def test_bodies_are_values():
     heights = wave()
     surface = rl.Surface(heights, (1, 1))

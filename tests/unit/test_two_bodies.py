@@ -32,6 +32,11 @@ def test_other_grids_are_laid_on_the_first():
     common = rl.facing(first, small)
     assert common.sizes == pytest.approx((5e-4, 5e-4))
     assert common.shape == (32, 32)
+    assert common.settings["first_cropped_to"] == "0.0005 x 0.0005"
+    assert "second_cropped_to" not in common.settings
+    assert "second_resampled_to" not in common.settings  # the same spacing
+    assert both.settings["second_resampled_to"] == "64 x 64"
+    assert not {"first_cropped_to", "second_cropped_to"} & set(both.settings)
 
 
 def test_what_does_not_fit_is_refused():

@@ -6,8 +6,9 @@ import logging
 import multiprocessing
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from multiprocessing import resource_tracker
 from pathlib import Path
@@ -76,22 +77,24 @@ def local(workers: int) -> Iterator[Cluster]:
 
     # for workers that are started later, too
     settings = _UNDISTURBED | {_ENVIRONMENT: _KEEP_MEMORY}
-    with _quiet(), dask.config.set(settings):
-        try:
-            with _deaf_to_interrupts():
-                cluster = LocalCluster(
-                    n_workers=workers,
-                    threads_per_worker=1,
-                    processes=True,
-                    memory_limit=0,  # cases that do not fit are refused before
-                    dashboard_address="127.0.0.1:0",
-                    silence_logs=logging.CRITICAL,
+    with _quiet(), dask.config.set(settings), ExitStack() as ending:
+        with deaf_to_interrupts():
+            try:
+                cluster = ending.enter_context(
+                    LocalCluster(
+                        n_workers=workers,
+                        threads_per_worker=1,
+                        processes=True,
+                        memory_limit=0,  # cases that do not fit are refused before
+                        dashboard_address="127.0.0.1:0",
+                        silence_logs=logging.CRITICAL,
+                    )
                 )
-        except (OSError, RuntimeError, TimeoutError) as error:
-            raise ClusterError(f"workers on this machine do not start ({error})") from error
-        with cluster, Client(cluster, set_as_default=False) as client:
-            # a worker that dies while it starts is given up by Dask, unless asked again
-            yield Cluster(client, client.dashboard_link, lambda: cluster.scale(workers))
+            except (OSError, RuntimeError, TimeoutError) as error:
+                raise ClusterError(f"workers on this machine do not start ({error})") from error
+            client = ending.enter_context(Client(cluster, set_as_default=False))
+        # a worker that dies while it starts is given up by Dask, unless asked again
+        yield Cluster(client, client.dashboard_link, lambda: cluster.scale(workers))
 
 
 @contextmanager
@@ -137,12 +140,32 @@ def _check_versions(client: Any) -> None:
 
 
 @contextmanager
-def _deaf_to_interrupts() -> Iterator[None]:
-    """Hold interrupts back; threads and processes that are started meanwhile never get any.
+def deaf_to_interrupts() -> Iterator[None]:
+    """Hold interrupts back until the end of the context, so that what is within is done whole.
 
-    So workers leave them to their parent. Dask starts its workers, later ones too, from a thread
-    that begins with the first.
+    Threads and processes that are started meanwhile never get any, so workers leave them to their
+    parent. Dask starts its workers, later ones too, from a thread that begins with the first.
     """
+    heard = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(heard):
+        with _blocked_for_children():
+            yield
+        return
+    came: list[int] = []
+    # a thread of some library may take the signal, whatever this one blocks: so it is noted
+    signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    try:
+        with _blocked_for_children():
+            yield
+    finally:
+        signal.signal(signal.SIGINT, heard)
+    if came:
+        heard(signal.SIGINT, None)
+
+
+@contextmanager
+def _blocked_for_children() -> Iterator[None]:
+    """Block interrupts of this thread, and of the threads and processes that it starts."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
@@ -194,8 +217,9 @@ def refuse_unguarded_script() -> None:
             "in a file"
         )
     trial = multiprocessing.get_context("spawn").Process(target=_nothing)
-    trial.start()
-    trial.join()
+    with deaf_to_interrupts():
+        trial.start()
+        trial.join()
     if trial.exitcode == _IMPORTED:
         raise InputError(
             "this script starts the campaign again whenever a worker imports it: put what it does "

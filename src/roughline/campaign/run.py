@@ -7,7 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
-from contextlib import AbstractContextManager, suppress
+from contextlib import AbstractContextManager, ExitStack, suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from functools import partial
@@ -119,25 +119,46 @@ def run(
         If the store cannot be used or written.
     ClusterError
         If the cluster cannot be used, or is lost.
+    KeyboardInterrupt
+        On Ctrl-C, saying where what is done is kept.
     """
     report = progress or (lambda name, done, failed, total: None)
     say = announce or (lambda text: None)
     _check(scheduler, workers, threads)
+    try:
+        return _computed(plan, Path(store), scheduler, workers, threads, report, say)
+    except KeyboardInterrupt:
+        kept = f"interrupted; what is done is kept in {store}: run again to go on"
+        raise KeyboardInterrupt(kept) from None
+
+
+def _computed(
+    plan: Plan,
+    store: Path,
+    scheduler: str | None,
+    workers: int | None,
+    threads: int | None,
+    report: Progress,
+    say: Callable[[str], None],
+) -> Summary:
+    """Compute what a store lacks; as :func:`run`."""
     if scheduler is None:
         clusters.refuse_unguarded_script()
     refuse_countless(plan)
-    if not Path(store).exists():  # else it shows below what is missing
+    if not store.exists():  # else it shows below what is missing
         whole = {ensemble.name: ensemble.cases for ensemble in plan.ensembles}
-        refuse_beyond_disk(plan, whole, Path(store))
-    with writing(store, plan) as writer:
-        batches = {ensemble.name: writer.missing(ensemble) for ensemble in plan.ensembles}
+        refuse_beyond_disk(plan, whole, store)
+    with ExitStack() as ending:
+        with clusters.deaf_to_interrupts():
+            writer = ending.enter_context(writing(store, plan))
+            batches = {ensemble.name: writer.missing(ensemble) for ensemble in plan.ensembles}
         missing = {name: sum(len(b.cells) for b in found) for name, found in batches.items()}
         draws = plan.gallery is not None and not writer.has_gallery
         if not (draws or any(missing.values())):
             _tell_all(plan, missing, report)
             return Summary()
         cost = cost_of(plan, missing)
-        refuse_beyond_disk(plan, missing, Path(store))
+        refuse_beyond_disk(plan, missing, store)
         cores = fft.available_cores()
         if scheduler is None:
             workers = workers_that_fit(max(cost.memory, 1), workers)
@@ -159,7 +180,7 @@ def run(
             try:
                 campaign.work(batches, draws)
             finally:
-                _log(Path(store), started, campaign, threads or 1)
+                _log(store, started, campaign, threads or 1)
         return campaign.summary
 
 
@@ -263,8 +284,9 @@ class _Campaign:
             return
         outcome = _failed(batch, error) if error is not None else future.result()
         future.release()
-        self.writer.put(batch, outcome)
-        self.summary.add(batch, outcome)
+        with clusters.deaf_to_interrupts():  # of what is counted, everything is written
+            self.writer.put(batch, outcome)
+            self.summary.add(batch, outcome)
         name, total = batch.ensemble.name, batch.ensemble.cases
         done = total - self.missing[name] + self.summary.done[name]
         self.report(name, done, self.summary.failed[name], total)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import sys
 from typing import Annotated
 
@@ -11,6 +12,7 @@ from roughline._version import __version__
 from roughline.cli.campaign import app as campaign_app
 from roughline.cli.campaign import paper
 from roughline.cli.contact import compare, press
+from roughline.cli.options import PanelsFirst
 from roughline.cli.topography import generate, info
 from roughline.errors import ConvergenceError, RoughlineError
 
@@ -21,7 +23,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",
 )
-for command in (press, info, compare, generate, paper):
+_summary, _, _details = (inspect.getdoc(press) or "").partition("\n\n")
+app.command(cls=PanelsFirst, help=_summary, epilog=_details)(press)
+for command in (info, compare, generate, paper):
     app.command()(command)
 app.add_typer(campaign_app, name="campaign")
 

@@ -159,7 +159,7 @@ def press(
 
     if threads is not None:
         set_threads(threads)
-    source = options.source_of(file, unit, channel, size, fill, max_missing)
+    source = options.source_of(file, unit, channel, size, fill, max_missing, trend)
     with interruptible("there is no result"), load_progress() as progress:
         result = ask(
             source,

@@ -7,9 +7,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn
 
 import typer
+from typer.core import TyperCommand, TyperOption
 
 from roughline.errors import InputError
 
@@ -37,6 +38,18 @@ class Trend(StrEnum):
     mean = "mean"
     tilt = "tilt"
     curvature = "curvature"
+
+
+class PanelsFirst(TyperCommand):
+    """A command whose help begins with its panels; options without one come last."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Return the parameters, those without a panel in one of their own."""
+        params = super().get_params(ctx)
+        for param in params:
+            if isinstance(param, TyperOption) and not param.rich_help_panel:
+                param.rich_help_panel = "Other options"
+        return params
 
 
 Unit = Annotated[
@@ -125,12 +138,13 @@ def source_of(
     size: str | None,
     fill: Filling,
     max_missing: float,
+    trend: Trend | None = None,
 ) -> Source:
-    """The file that the options describe."""
+    """The file that the options describe; a trend that is given is left to the preparation."""
     from roughline.report.source import Source
 
-    sizes = tuple(lengths(size, "size")) if size else None
-    return Source(file, unit, channel, sizes, fill.value, max_missing)
+    when_read: Literal["none", "tilt"] = "none" if trend else "tilt"
+    return Source(file, unit, channel, size, fill.value, max_missing, when_read)
 
 
 def preparation_of(
@@ -149,7 +163,7 @@ def preparation_of(
     return Preparation(
         crop=tuple(lengths(crop, "crop")) if crop else None,
         remove_outliers=remove_outliers,
-        trend=trend.value if trend else "tilt",
+        trend=trend.value if trend else None,
         low_pass=in_si(low_pass, "m", "low-pass") if low_pass else None,
         points=resample,
     )

@@ -38,7 +38,7 @@ def info(
     from roughline.report.machine import of_described
     from roughline.report.terminal import print_described
 
-    source = options.source_of(file, unit, channel, size, fill, max_missing)
+    source = options.source_of(file, unit, channel, size, fill, max_missing, trend)
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     result = describe_file(source, steps, out)
     if json:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-import math
+import numpy as np
+from numpy.typing import ArrayLike
 
 
-def positive(**quantities: float) -> None:
-    """Refuse quantities that are not positive and finite.
+def positive(**quantities: ArrayLike) -> None:
+    """Refuse quantities, or arrays of them, that are not positive and finite.
 
     Raises
     ------
     ValueError
-        With the name of the first that is not.
+        With the name and the value of the first that is not.
     """
     for name, value in quantities.items():
-        if not 0 < value < math.inf:
-            raise ValueError(f"{name} is {value}; a positive, finite number is needed")
+        values = np.asarray(value, dtype=np.float64)
+        wrong = ~((values > 0) & (values < np.inf))
+        if wrong.any():
+            first = values[wrong].flat[0]
+            raise ValueError(f"{name} is {first}; a positive, finite number is needed")

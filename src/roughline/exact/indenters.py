@@ -15,14 +15,16 @@ from dataclasses import dataclass
 from math import gamma, pi, sqrt, tan
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from roughline.exact._checks import positive
+
+Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class PowerLawIndenter:
-    """Rigid indenter f(r) = c r^n on an elastic half-space.
+    """Rigid indenter f(r) = c r^n on an elastic half-space; depths and radii may be arrays.
 
     Attributes
     ----------
@@ -52,22 +54,22 @@ class PowerLawIndenter:
         n = self.exponent
         return sqrt(pi) / 2 * n * gamma(n / 2) / gamma((n + 1) / 2)
 
-    def radius(self, depth: float) -> float:
-        """Contact radius a, from d = kappa_n c a^n. [length]"""
+    def radius(self, depth: ArrayLike) -> Real:
+        """Contact radius a, from d = kappa_n c a^n; of one depth or an array of them. [length]"""
         positive(depth=depth)
-        return float((depth / (self.stretch * self.coefficient)) ** (1 / self.exponent))
+        return (np.asarray(depth) / (self.stretch * self.coefficient)) ** (1 / self.exponent)
 
-    def depth(self, radius: float) -> float:
+    def depth(self, radius: ArrayLike) -> Real:
         """Depth d = g(a). [length]"""
         positive(radius=radius)
-        return float(self.stretch * self.coefficient * radius**self.exponent)
+        return self.stretch * self.coefficient * np.asarray(radius) ** self.exponent
 
-    def force(self, depth: float) -> float:
+    def force(self, depth: ArrayLike) -> Real:
         """Force F = 2 n / (n + 1) E* a d. [force]"""
         n = self.exponent
-        return 2 * n / (n + 1) * self.E_star * self.radius(depth) * depth
+        return 2 * n / (n + 1) * self.E_star * self.radius(depth) * np.asarray(depth)
 
-    def stiffness(self, depth: float) -> float:
+    def stiffness(self, depth: ArrayLike) -> Real:
         """Stiffness k = dF/dd = 2 E* a. [force / length]"""
         return 2 * self.E_star * self.radius(depth)
 
@@ -85,17 +87,19 @@ def cone(slope_angle: float, E_star: float) -> PowerLawIndenter:
 
 
 def hertz_pressure(
-    depth: float, radius_of_curvature: float, E_star: float, r: NDArray[np.float64]
-) -> NDArray[np.float64]:
+    depth: ArrayLike, radius_of_curvature: float, E_star: float, r: ArrayLike
+) -> Real:
     """Hertz's pressure p0 sqrt(1 - r² / a²), p0 = (2 / pi) E* sqrt(d / R), zero outside.
 
     Parameters
     ----------
-    depth, radius_of_curvature : float
-        d and R. [length]
+    depth : float or ndarray
+        d; an array is broadcast with `r`. [length]
+    radius_of_curvature : float
+        R. [length]
     E_star : float
         Contact modulus. [pressure]
-    r : ndarray
+    r : float or ndarray
         Distances from the axis. [length]
 
     Returns
@@ -104,5 +108,5 @@ def hertz_pressure(
         Pressure. [pressure]
     """
     a = paraboloid(radius_of_curvature, E_star).radius(depth)
-    p0 = 2 / pi * E_star * sqrt(depth / radius_of_curvature)
-    return p0 * np.sqrt(np.maximum(0.0, 1 - (r / a) ** 2))
+    p0 = 2 / pi * E_star * np.sqrt(np.asarray(depth) / radius_of_curvature)
+    return p0 * np.sqrt(np.maximum(0.0, 1 - (np.asarray(r) / a) ** 2))

@@ -9,13 +9,20 @@ import numpy as np
 
 from roughline.body_file import write
 from roughline.characterisation import Roughness, roughness
+from roughline.errors import InputError
+from roughline.measurement import Measurement
+from roughline.missing import MissingPattern, missing_pattern
 from roughline.preparation import Preparation, prepared
-from roughline.quantities import engineering
+from roughline.quantities import engineering, metres_per
 from roughline.report.folder import make_folder
+from roughline.report.measured_figures import measured_figure
 from roughline.report.pressed_figures import roughness_figure
 from roughline.report.source import Source, notes_on_body
 from roughline.report.style import save, styled
 from roughline.topography import Body, Surface
+
+_MAPPED_FROM = 0.01  # share of missing points from which on a coarse map shows more than words
+_SHADES = ".+#"
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,10 +33,16 @@ class Described:
     ----------
     source : Source
         The file.
-    body : Surface or Line
-        Prepared, in metres.
-    roughness : Roughness
-        Its parameters.
+    measurement : Measurement
+        What the file holds.
+    missing : MissingPattern
+        Where points are missing in the file.
+    obstacles : list of str
+        Why it cannot be pressed as it is; empty if it can.
+    body : Surface or Line or None
+        Prepared, in metres; None if there is too little in the file.
+    roughness : Roughness or None
+        Its parameters; None without a body, and for a reduced line, which is no topography.
     notes : list of str
         What was filled, what is suspicious.
     files : list of Path
@@ -37,66 +50,139 @@ class Described:
     """
 
     source: Source
-    body: Body
-    roughness: Roughness
+    measurement: Measurement
+    missing: MissingPattern
+    obstacles: list[str]
+    body: Body | None
+    roughness: Roughness | None
     notes: list[str]
     files: list[Path]
 
 
 def describe_file(source: Source, preparation: Preparation | None, out: Path | None) -> Described:
-    """Read a file, prepare it, and describe it.
+    """Read a file, prepare what it holds, and describe it.
+
+    A file that lacks a unit, sizes or too many points is described as far as it goes.
 
     Parameters
     ----------
     source : Source
         The topography.
     preparation : Preparation or None
-        Default: the tilt of measured topographies is removed.
+        Default: only the tilt of measured topographies is removed.
     out : Path or None
-        Folder for a figure and the prepared body; None writes nothing.
+        Folder for figures and the prepared body; None writes nothing.
 
     Raises
     ------
     InputError
-        If the file cannot be used, or holds a reduced line.
+        If the file cannot be read, or what is asked for does not suit it.
     """
-    body = prepared(source.read(), preparation)
-    found = roughness(body)
+    found = source.measurement()
+    missing = missing_pattern(found.unknown, found.sizes)
+    obstacles = source.obstacles(found)
     files: list[Path] = []
     if out is not None:
         make_folder(out)
-        with styled():
-            files += save(roughness_figure(body, found), out, "roughness")
+        if missing.count or obstacles:
+            with styled():
+                files += save(measured_figure(found, missing), out, "file")
+    if obstacles:
+        return Described(source, found, missing, obstacles, None, None, [], files)
+    body = prepared(source.body(found), preparation)
+    notes, parameters = notes_on_body(body), None
+    try:
+        parameters = roughness(body)
+    except InputError as error:  # a reduced line is no topography
+        notes.append(str(error))
+    if out is not None:
+        if parameters is not None:
+            with styled():
+                files += save(roughness_figure(body, parameters), out, "roughness")
         write(body, out / "prepared.nc")
         files.append(out / "prepared.nc")
-    return Described(source, body, found, notes_on_body(body), files)
+    return Described(source, found, missing, obstacles, body, parameters, notes, files)
 
 
 def described_table(described: Described) -> list[tuple[str, str]]:
-    """Return names and values of what is known, in SI units."""
-    body, found, fit = described.body, described.roughness, described.roughness.fit
-    of_surface = isinstance(body, Surface)
-    letter = "S" if of_surface else "R"
-    rows = [
-        ("file", f"{described.source.file.name}, {body.settings.get('channel', 'own format')}"),
-        ("points", " x ".join(map(str, body.heights.shape))),
-        ("unit in the file", str(body.settings.get("file_unit", body.unit or "none"))),
+    """Return names and values of what is known, in SI units where the file states its unit."""
+    rows = _rows_of_file(described)
+    body = described.body
+    if body is not None:
+        letter = "S" if isinstance(body, Surface) else "R"
+        rows += [
+            (f"{letter}q, rms height", engineering(body.rms_height, "m")),
+            (f"{letter}dq, rms slope", f"{body.rms_slope:.4g}"),
+        ]
+        if described.roughness is not None:
+            rows += _rows_of_roughness(described.roughness, letter)
+    return rows
+
+
+def missing_map(described: Described) -> list[str]:
+    """Return a coarse map of the missing points in characters; empty if there are few."""
+    missing = described.missing
+    if missing.share < _MAPPED_FROM:
+        return []
+    rows = np.atleast_2d(missing.cells.T)[::-1]
+    shades = np.where(rows == 0, 0, np.where(rows <= 0.5, 1, 2))
+    return [
+        "missing points, x to the right" + (" and y upwards:" if missing.cells.ndim == 2 else ":"),
+        *("  " + "".join(_SHADES[shade] for shade in row) for row in shades),
+        f"  {_SHADES[0]} none, {_SHADES[1]} up to half, {_SHADES[2]} more than half of a piece",
     ]
+
+
+def _rows_of_file(described: Described) -> list[tuple[str, str]]:
+    """What the file holds, and of the body its points and sizes."""
+    found, body, missing = described.measurement, described.body, described.missing
+    channel = "own format" if found.is_own else found.channel
+    rows = [("file", ", ".join(filter(None, (described.source.file.name, channel))))]
+    if len(found.channels) > 1:
+        rows.append(("channels", ", ".join(found.channels)))
+    points = found.heights.shape if body is None else body.heights.shape
+    stated = found.unit or "none stated"
+    if not found.unit and described.source.unit:
+        stated += f"; {described.source.unit} is given"
+    rows += [("points", _times(points)), ("unit in the file", stated), *_rows_of_sizes(described)]
+    if points != found.heights.shape:
+        rows.append(("points in the file", _times(found.heights.shape)))
+    where = f", {missing}" if missing.count else ""
+    return [*rows, ("missing points", f"{missing.count} ({missing.share:.2%}){where}")]
+
+
+def _rows_of_sizes(described: Described) -> list[tuple[str, str]]:
+    """Sides and the distance of points: of the body, or else as far as the file says."""
+    found, body = described.measurement, described.body
+    names = ("sizes", "pixel") if found.kind == "surface" else ("length", "spacing")
+    sizes: tuple[float, ...]
+    spacings: tuple[float, ...]
     if isinstance(body, Surface):
-        rows += [
-            ("sizes", " x ".join(engineering(size, "m") for size in body.sizes)),
-            ("pixel", " x ".join(engineering(size, "m") for size in body.spacing)),
-        ]
+        sizes, spacings = body.sizes, body.spacing
+    elif body is not None:
+        sizes, spacings = (body.length,), (body.spacing,)
+    elif found.sizes is None:
+        return [(names[0], "none stated")]
     else:
-        rows += [
-            ("length", engineering(body.length, "m")),
-            ("spacing", engineering(body.spacing, "m")),
+        metres = metres_per(found.unit) if found.unit else 1.0
+        sizes = tuple(metres * size for size in found.sizes)
+        spacings = tuple(
+            size / points for size, points in zip(sizes, found.heights.shape, strict=True)
+        )
+    if body is None and not found.unit:
+        return [
+            (name, f"{' x '.join(f'{length:.4g}' for length in lengths)}, unit not stated")
+            for name, lengths in zip(names, (sizes, spacings), strict=True)
         ]
-    missing = body.settings.get("missing_points", 0)
-    rows += [
-        ("missing points", f"{missing} ({float(body.settings.get('missing_share', 0)):.2%})"),
-        (f"{letter}q, rms height", engineering(found.rms_height, "m")),
-        (f"{letter}dq, rms slope", f"{found.rms_slope:.4g}"),
+    return [
+        (name, " x ".join(engineering(length, "m") for length in lengths))
+        for name, lengths in zip(names, (sizes, spacings), strict=True)
+    ]
+
+
+def _rows_of_roughness(found: Roughness, letter: str) -> list[tuple[str, str]]:
+    fit = found.fit
+    rows = [
         (f"{letter}sk, skewness", _number(found.skewness)),
         (f"{letter}ku, kurtosis", _number(found.kurtosis)),
         ("summits", f"{found.summits}, skewness of heights {_number(found.summit_skewness)}"),
@@ -127,6 +213,10 @@ def _wavelength(q: float | None, interval: tuple[float, float], otherwise: str) 
 
 def _span(interval: tuple[float, float]) -> str:
     return f"{interval[0]:.2f} to {interval[1]:.2f}"
+
+
+def _times(points: tuple[int, ...]) -> str:
+    return " x ".join(map(str, points))
 
 
 def _number(value: float) -> str:

@@ -83,12 +83,31 @@ def of_pressed(pressed: Pressed) -> dict[str, Any]:
 
 def of_described(described: Described) -> dict[str, Any]:
     """What a topography is like, in SI units."""
-    found, fit = described.roughness, described.roughness.fit
+    found, missing = described.roughness, described.missing
+    fit = found.fit if found is not None else None
     names = ("rms_height", "rms_slope", "skewness", "kurtosis", "summits", "summit_skewness")
     return {
         "file": described.source.file,
-        "body": _of_body(described.body),
-        **{name: getattr(found, name) for name in (*names, "isotropy")},
+        "in_file": {
+            "points": described.measurement.heights.shape,
+            "sizes": described.measurement.sizes,
+            "unit": described.measurement.unit,
+            "kind": described.measurement.kind,
+            "channel": described.measurement.channel,
+            "channels": described.measurement.channels,
+        },
+        "missing": {
+            "points": missing.count,
+            "share": missing.share,
+            "where": str(missing),
+            "regions": missing.regions,
+            "largest_region": missing.largest,
+            "at_border": missing.at_border,
+            "cells": missing.cells,
+        },
+        "obstacles": described.obstacles,
+        "body": None if described.body is None else _of_body(described.body),
+        **{name: getattr(found, name, None) for name in (*names, "isotropy")},
         "self_affine": None
         if fit is None
         else {
@@ -106,7 +125,7 @@ def of_described(described: Described) -> dict[str, Any]:
                 "objections",
             )
         },
-        "remarks": found.remarks,
+        "remarks": found.remarks if found is not None else [],
         "notes": described.notes,
         "files": described.files,
     }
@@ -126,6 +145,7 @@ def of_compared(compared: Compared) -> dict[str, Any]:
         "resolved": result.resolved,
         "tolerance": compared.tolerance,
         "trusted": result.trusted(compared.tolerance),
+        "warnings": result.warnings,
         "files": compared.files,
     }
 

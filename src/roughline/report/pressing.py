@@ -37,13 +37,14 @@ from roughline.report.loading import (
     with_curve,
 )
 from roughline.report.pressed import Pressed
-from roughline.report.source import Source, notes_on_parts, read_parts, together
+from roughline.report.source import Source, notes_on_facing, notes_on_parts, read_parts, together
 from roughline.theories import TheoryCurve, refuse_unknown, theory
 from roughline.topography import Body, Line, Surface
 
 Announce = Callable[[str], None]
 
 _LARGE = 2**20  # points from which on the cost is told
+_MANY = 1000  # loads from which on the cost is told
 _COARSENED_FROM = 64  # points a side from which on a report estimates the grid's error
 
 
@@ -143,7 +144,7 @@ def press_file(
                 "interface alone,",
                 "take a smaller piece or every other point, or --modulus instead of materials",
             )
-        if isinstance(body, Surface) and body.heights.size >= _LARGE:
+        if isinstance(body, Surface) and (body.heights.size >= _LARGE or run.count >= _MANY):
             cost = str(estimate(body.shape, run.count, periodic=periodic))
             if of_larger and not periodic:
                 cost += f", then {estimate(body.shape, run.count, periodic=True)} for the interface"
@@ -172,6 +173,7 @@ def press_file(
     notes = [
         *loading.meaning(body),
         *notes_on_parts(parts),
+        *notes_on_facing(body),
         *result.notes,
         *result.curve.warnings,
     ]

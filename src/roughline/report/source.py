@@ -7,23 +7,35 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roughline.errors import InputError
-from roughline.measured import read, suspicions
-from roughline.missing import Filling
+from roughline.measured import measurement, read, suspicions
+from roughline.measurement import Measurement
+from roughline.missing import Filling, Missing
 from roughline.preparation import Preparation, prepared
+from roughline.quantities import engineering
 from roughline.topography import Body, Line, Surface
+from roughline.trend import Trend
 from roughline.two_bodies import facing
 
 
 @dataclass(frozen=True)
 class Source:
-    """A file, and what is needed to read it; as for :func:`roughline.read`."""
+    """A file, and what is needed to read it; as for :func:`roughline.read`.
+
+    Lengths in `sizes` have units. `trend` is what reading removes: "none" where the preparation
+    says itself what is to be removed, in its own turn.
+    """
 
     file: Path
     unit: str | None = None
     channel: str | None = None
-    sizes: tuple[float, ...] | None = None
+    sizes: str | None = None
     missing: Filling = "harmonic"
     most_missing: float = 0.1
+    trend: Trend = "tilt"
+
+    def measurement(self) -> Measurement:
+        """What the file holds, whether or not it can be pressed."""
+        return measurement(self.file, self.channel)
 
     def read(self, missing: Filling | None = None) -> Body:
         """Read it, with points filled as stated or by another method."""
@@ -34,7 +46,18 @@ class Source:
             sizes=self.sizes,
             missing=missing or self.missing,
             most_missing=self.most_missing,
+            trend=self.trend,
         )
+
+    def body(self, found: Measurement) -> Body:
+        """The body that was measured, as :meth:`read` gives it."""
+        filling = Missing(self.missing, self.most_missing)
+        return found.body(self.unit, self.sizes, filling, self.trend)
+
+    def obstacles(self, found: Measurement) -> list[str]:
+        """What is still needed before what the file holds can be pressed."""
+        filling = Missing(self.missing, self.most_missing)
+        return [str(each) for each in found.obstacles(self.unit, self.sizes, filling)]
 
 
 def notes_on_body(body: Body) -> list[str]:
@@ -80,6 +103,23 @@ def together(parts: Sequence[Body]) -> Body:
     ):
         return first
     raise InputError("two rough bodies must both be surfaces, or both line scans")
+
+
+def notes_on_facing(body: Body) -> list[str]:
+    """Say what was cropped and resampled when two surfaces were laid together."""
+    if not isinstance(body, Surface):
+        return []
+    notes = []
+    for name in ("first", "second"):
+        if f"{name}_cropped_to" in body.settings:
+            sizes = " x ".join(engineering(size, "m") for size in body.sizes)
+            notes.append(
+                f"{name} body: cropped to what both have in common, {sizes}, from x = y = 0"
+            )
+    if "second_resampled_to" in body.settings:
+        pixel = " x ".join(engineering(size, "m") for size in body.spacing)
+        notes.append(f"second body: resampled by cubic splines to pixels of {pixel}, the first's")
+    return notes
 
 
 def notes_on_parts(parts: Sequence[Body]) -> list[str]:

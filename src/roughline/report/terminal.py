@@ -29,12 +29,13 @@ from roughline.campaign.store import Store
 from roughline.curve import Status
 from roughline.quantities import engineering
 from roughline.report.compared import Compared, compared_table, verdict
-from roughline.report.described import Described, described_table
+from roughline.report.described import Described, described_table, missing_map
 from roughline.report.pressed import Pressed
 from roughline.report.pressed_tables import answer_table, curve_table
 from roughline.theories import TheoryCurve
 from roughline.topography import Body, Surface
 
+_MOST_SHOWN = 200  # loads that anybody reads as a table
 _MOST_ANSWERED = 3  # loads whose answers fit on a screen
 
 
@@ -110,20 +111,38 @@ def print_pressed(pressed: Pressed) -> None:
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
-    if pair is not None and pressed.asked.size <= _MOST_ANSWERED:
+    many = pressed.asked.size > _MOST_SHOWN
+    if many:
+        console.print(_in_one_line(pressed), highlight=False, soft_wrap=True)
+    elif pair is not None and pressed.asked.size <= _MOST_ANSWERED:
         header, rows = answer_table(pressed)  # formulas are for the report
         console.print(_table(header[:-1], [row[:-1] for row in rows]))
     else:
         console.print(_table(*curve_table(pressed)))
     if not curve.resolved[curve.converged].all():
         console.print("* fewer than ten points in contact: the grid decides, not the surface")
-    for i in np.flatnonzero(~curve.converged):
+    for i in np.flatnonzero(~curve.converged) if not many else ():
         console.print(f"load {i + 1}: {Status(curve.status[i]).reason}", highlight=False)
     for theory in pressed.theories:
         console.print(_theory_line(theory, pressed), highlight=False, soft_wrap=True)
     for note in pressed.notes:
         console.print(f"note: {note}", highlight=False, soft_wrap=True)
     print_files(pressed.files)
+
+
+def _in_one_line(pressed: Pressed) -> str:
+    """Both ends of a curve that is too long for a screen."""
+    curve, solved = pressed.curve, pressed.curve.converged
+    text = f"{solved.size} loads"
+    if solved.any():
+        ends = (
+            " to ".join(engineering(values[solved][end], unit) for end in (0, -1))
+            for values, unit in ((curve.force, "N"), (curve.depth, "m"), (curve.stiffness, "N/m"))
+        )
+        text += " from {}: depth {}, stiffness {}".format(*ends)
+    for status, count in Counter(curve.status[~solved].tolist()).items():
+        text += f"; {count} not solved ({Status(status).reason})"
+    return f"{text}; each of them: --out DIR or --json"
 
 
 def _theory_line(theory: TheoryCurve, pressed: Pressed) -> str:
@@ -142,7 +161,12 @@ def print_described(described: Described) -> None:
     for row in described_table(described):
         table.add_row(*row)
     console.print(table, highlight=False)
-    for note in (*described.notes, *described.roughness.remarks):
+    for line in missing_map(described):
+        console.print(line, highlight=False, soft_wrap=True)
+    for obstacle in described.obstacles:
+        console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
+    remarks = described.roughness.remarks if described.roughness else []
+    for note in (*described.notes, *remarks):
         console.print(f"note: {note}", highlight=False, soft_wrap=True)
     print_files(described.files)
 
@@ -155,6 +179,8 @@ def print_compared(compared: Compared) -> None:
     if not compared.comparison.resolved.all():
         console.print("* fewer than ten cells in contact: the grid decides, not the surface")
     console.print(verdict(compared), highlight=False, soft_wrap=True)
+    for warning in compared.comparison.warnings:
+        console.print(f"note: {warning}", highlight=False, soft_wrap=True)
     print_files(compared.files)
 
 
@@ -214,6 +240,7 @@ def _described(body: Body) -> str:
     else:
         points = f"line of {body.heights.size} points"
         size = engineering(body.length, "m")
-    tilt = ", tilt removed" if "detrended" in body.settings else ""
+    removed = body.settings.get("detrended")
+    trend = f", {removed} removed" if removed else ""
     slope = f"rms slope {body.rms_slope:.3g}"
-    return f"{points}, {size}; rms height {engineering(body.rms_height, 'm')}, {slope}{tilt}"
+    return f"{points}, {size}; rms height {engineering(body.rms_height, 'm')}, {slope}{trend}"

@@ -1,0 +1,100 @@
+"""The figure of a file: heights as it has them, and where points are missing."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.ticker import EngFormatter, Formatter, ScalarFormatter
+from numpy.typing import NDArray
+
+from roughline.measurement import Measurement
+from roughline.missing import MissingPattern
+from roughline.quantities import metres_per
+from roughline.report.style import PAGE, new_figure
+
+_MISSING = "tab:red"
+_MOST_PIXELS = 600  # along a side; a picture shows no more
+
+
+def measured_figure(found: Measurement, missing: MissingPattern) -> Figure:
+    """Heights, and where points are missing; with units if the file states one."""
+    figure = new_figure(PAGE, 3.2)
+    metres = metres_per(found.unit) if found.unit else 1.0
+    unknown = found.unknown
+    heights = np.ma.MaskedArray(np.ma.getdata(found.heights) * metres, unknown)
+    sides = tuple(metres * side for side in found.sizes or ())
+    share = f"{missing.count} of {unknown.size} points are missing ({missing.share:.2%})"
+    if heights.ndim == 1:
+        axes = figure.subplots()
+        _draw_line(axes, found, heights, sides)
+        if missing.count:
+            axes.set_title(share, fontsize=9)
+        return figure
+    left, right = figure.subplots(1, 2)
+    extent = (0.0, *heights.shape[:1], 0.0, *heights.shape[1:])
+    if sides:
+        extent = (0.0, sides[0], 0.0, sides[1])
+    steps = tuple(max(1, n // _MOST_PIXELS) for n in heights.shape)
+    thinned = heights[:: steps[0], :: steps[1]]
+    shown = left.imshow(thinned.T, origin="lower", extent=extent, cmap="cividis")
+    ticks = _ticks(found.unit is not None)
+    bar = figure.colorbar(
+        shown, ax=(left, right), orientation="horizontal", format=ticks, shrink=0.6, aspect=40
+    )
+    bar.ax.locator_params(nbins=5)
+    bar.set_label("height" + _of(found))
+    right.imshow(
+        _any_of(unknown, steps).T,
+        origin="lower",
+        extent=extent,
+        cmap=ListedColormap(["0.92", _MISSING]),
+        vmin=0,
+        vmax=1,
+        interpolation="nearest",
+    )
+    right.set_title(share, fontsize=9)
+    for axes in (left, right):
+        _label(axes, found)
+        axes.locator_params(nbins=5)
+        axes.yaxis.set_major_formatter(_ticks(found.unit is not None and bool(sides)))
+        axes.set_ylabel(axes.get_xlabel().replace("x", "y", 1))
+    return figure
+
+
+def _draw_line(
+    axes: Axes, found: Measurement, heights: NDArray[np.float64], sides: tuple[float, ...]
+) -> None:
+    """Heights of a line scan; red where they are missing."""
+    step = sides[0] / heights.size if sides else 1.0
+    x = (np.arange(heights.size) + 0.5) * step
+    if found.positions is not None and found.sizes is not None:
+        x = found.positions * sides[0] / found.sizes[0]
+    axes.plot(x, heights, color="k", linewidth=0.6)
+    for point in np.flatnonzero(np.ma.getmaskarray(heights)):
+        axes.axvspan(x[point] - step / 2, x[point] + step / 2, color=_MISSING, linewidth=1)
+    _label(axes, found)
+    axes.yaxis.set_major_formatter(_ticks(found.unit is not None))
+    axes.set_ylabel("height" + _of(found))
+
+
+def _label(axes: Axes, found: Measurement) -> None:
+    axes.set_xlabel("x" + _of(found) if found.sizes is not None else "x [points]")
+    axes.xaxis.set_major_formatter(_ticks(found.unit is not None and found.sizes is not None))
+
+
+def _of(found: Measurement) -> str:
+    return "" if found.unit else " [the file states no unit]"
+
+
+def _ticks(has_unit: bool) -> Formatter:
+    return EngFormatter("m") if has_unit else ScalarFormatter()
+
+
+def _any_of(unknown: NDArray[np.bool_], steps: tuple[int, ...]) -> NDArray[np.bool_]:
+    """Whether any point is missing in each pixel of the picture, so that single ones show."""
+    for axis, step in enumerate(steps):
+        starts = np.arange(0, unknown.shape[axis], step)
+        unknown = np.logical_or.reduceat(unknown, starts, axis=axis)
+    return unknown
