@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from roughline.archives import refuse_bombs
 from roughline.body_file import read_body_file
 from roughline.errors import InputError
 from roughline.instrument import read_instrument
-from roughline.missing import Filling, Missing
+from roughline.missing import Filling, Marking, Missing
 from roughline.quantities import engineering, given_sizes, metres_per_file_unit
 from roughline.topography import MEASURED, Body, Line, Surface
 
@@ -62,7 +63,45 @@ def read(
     InputError
         If the file does not exist, has no format known, is damaged or lacks points or sizes.
     """
-    path, filling = Path(path), Missing(missing, most_missing)
+    return _read(Path(path), unit, channel, sizes, Missing(missing, most_missing))
+
+
+def missing_points(
+    path: str | Path,
+    unit: str | None = None,
+    *,
+    channel: int | str | None = None,
+    sizes: float | tuple[float, ...] | None = None,
+) -> Body | None:
+    """Read which points of a file the instrument could not measure.
+
+    Parameters
+    ----------
+    path, unit, channel, sizes
+        As for :func:`read`.
+
+    Returns
+    -------
+    Surface, Line or None
+        As high as 1 where a point is missing, and 0 elsewhere. None for our own files, whose points
+        were filled before they were written.
+
+    Raises
+    ------
+    UnitError, InputError
+        As for :func:`read`.
+    """
+    body = _read(Path(path), unit, channel, sizes, Marking())
+    return replace(body, heights=np.sign(body.heights)) if "marked" in body.settings else None
+
+
+def _read(
+    path: Path,
+    unit: str | None,
+    channel: int | str | None,
+    sizes: float | tuple[float, ...] | None,
+    filling: Missing,
+) -> Body:
     if not path.is_file():
         what = "is a folder" if path.is_dir() else "does not exist"
         raise InputError(f"{path} {what}; give a file with a topography")

@@ -94,6 +94,17 @@ class Missing:
         return _nearest(heights, mask) if self.method == "nearest" else _harmonic(heights)
 
 
+class Marking(Missing):
+    """Marks missing points instead of filling them, however many they are."""
+
+    def completed(
+        self, heights: Any, name: str
+    ) -> tuple[NDArray[np.float64], dict[str, str | int | float]]:
+        """Return 1 where a height is missing and 0 elsewhere, and how often that is."""
+        mask = np.ma.getmaskarray(np.ma.masked_invalid(heights, copy=False))
+        return mask.astype(np.float64), {"marked": int(np.count_nonzero(mask))}
+
+
 def _nearest(heights: Any, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
     from scipy import ndimage
 

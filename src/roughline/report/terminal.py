@@ -30,12 +30,19 @@ from roughline.curve import Status
 from roughline.quantities import engineering
 from roughline.report.compared import Compared, compared_table, verdict
 from roughline.report.described import Described, described_table
+from roughline.report.page import value_and_interval
 from roughline.report.pressed import Pressed
-from roughline.report.pressed_tables import answer_table, curve_table
+from roughline.report.pressed_tables import (
+    UNRESOLVED,
+    answer_table,
+    curve_table,
+    star_is_shown,
+)
 from roughline.theories import TheoryCurve
 from roughline.topography import Body, Surface
 
 _MOST_ANSWERED = 3  # loads whose answers fit on a screen
+_SHORTEST_NAME = 20  # columns that the name of an answer needs at least
 
 
 class _Rate(ProgressColumn):
@@ -110,20 +117,32 @@ def print_pressed(pressed: Pressed) -> None:
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
-    if pair is not None and pressed.asked.size <= _MOST_ANSWERED:
-        header, rows = answer_table(pressed)  # formulas are for the report
-        console.print(_table(header[:-1], [row[:-1] for row in rows]))
+    answered = pair is not None and pressed.asked.size <= _MOST_ANSWERED
+    if answered:
+        _print_table(console, *answer_table(pressed, slice(None)))  # formulas are for the report
     else:
-        console.print(_table(*curve_table(pressed)))
-    if not curve.resolved[curve.converged].all():
-        console.print("* fewer than ten points in contact: the grid decides, not the surface")
-    for i in np.flatnonzero(~curve.converged):
-        console.print(f"load {i + 1}: {Status(curve.status[i]).reason}", highlight=False)
+        _print_table(console, *curve_table(pressed))
+    if star_is_shown(pressed):
+        console.print(UNRESOLVED, highlight=False)
+    if pair is not None and not answered:
+        console.print(f"answers at more than {_MOST_ANSWERED} loads: --json, or --report")
+    for failure in _failures(pressed):
+        console.print(failure, highlight=False)
     for theory in pressed.theories:
         console.print(_theory_line(theory, pressed), highlight=False, soft_wrap=True)
     for note in pressed.notes:
-        console.print(f"note: {note}", highlight=False, soft_wrap=True)
+        console.print(f"note: {note}", highlight=False, soft_wrap=not console.is_terminal)
     print_files(pressed.files)
+
+
+def _failures(pressed: Pressed) -> list[str]:
+    """Say which loads were not solved, and why."""
+    curve = pressed.curve
+    asked = dict(zip(pressed.asked.tolist(), pressed.headings, strict=True))
+    return [
+        f"load {asked.get(int(i), 'of the curve')}: {Status(curve.status[i]).reason}"
+        for i in np.flatnonzero(~curve.converged)
+    ]
 
 
 def _theory_line(theory: TheoryCurve, pressed: Pressed) -> str:
@@ -179,8 +198,34 @@ def print_status(store: Store) -> None:
         console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)
 
 
+def _print_table(console: Console, header: list[str], rows: list[list[str]]) -> None:
+    """Print a table of names and values; where it is too wide, intervals stand below values."""
+    if _width(header, rows) > console.width:
+        rows = [[_stacked(cell) for cell in row] for row in rows]
+    table = _table(header, rows)
+    table.columns[0].justify = "left"
+    if _width(header, [["", *row[1:]] for row in rows]) + _SHORTEST_NAME <= console.width:
+        for column in table.columns[1:]:
+            column.no_wrap = True  # the names are broken in lines instead
+    console.print(table)
+
+
+def _stacked(cell: str) -> str:
+    """A value, and its interval without brackets below it."""
+    value, *interval = value_and_interval(cell)
+    return "\n".join([value, *(each.strip("()") for each in interval)])
+
+
+def _width(header: list[str], rows: list[list[str]]) -> int:
+    """Columns of the screen that a table takes, with two between its own."""
+    columns = zip(header, *rows, strict=True)
+    return sum(
+        2 + max(len(line) for cell in cells for line in cell.split("\n")) for cells in columns
+    )
+
+
 def _table(header: list[str], rows: list[list[str]]) -> Table:
-    table = Table(box=None, header_style="bold")
+    table = Table(box=None, header_style="bold", pad_edge=False, padding=(0, 2, 0, 0))
     for name in header:
         table.add_column(name, justify="right", overflow="fold")
     for row in rows:
