@@ -109,10 +109,9 @@ def refuse_decimal_comma(text: str, name: str) -> None:
         If a comma stands between digits.
     """
     if comma := _DECIMAL_COMMA.search(text):
-        number = comma[0]
         raise UnitError(
-            f'{name} is "{text}", with a comma in "{number}"; numbers take a point: '
-            f"{number.replace(',', '.')}"
+            f'{name} is "{text}", with a comma in "{comma[0]}"; numbers take a decimal point, such '
+            "as 0.33, and no commas"
         )
 
 

@@ -6,6 +6,7 @@ import pytest
 import roughline as rl
 from roughline.exact.indenters import PowerLawIndenter
 
+CLAIMED_ON_64 = np.array([0.109, 0.017, 0.060])  # of the sphere below, on 64 x 64 points
 PUNCH = 1.15230  # k / (E* L) of a square punch, tests/exact
 
 
@@ -94,7 +95,7 @@ def test_points_need_not_be_multiples_of_four(n):
     round_ = rl.Surface(-(x[:, np.newaxis] ** 2 + x**2), (1.0, 1.0))
     curve = rl.press(round_, E_star=1.0, forces=forces, grid_error=True)
     assert (np.abs(curve.stiffness - 2 * radii) <= curve.stiffness_error).all()
-    assert (curve.stiffness_error < 0.05 * curve.stiffness).all()
+    assert (curve.stiffness_error / curve.stiffness < 1.1 * CLAIMED_ON_64).all()
     area = np.pi * radii**2
     assert (np.abs(curve.area_fraction_corrected - area) <= curve.area_fraction_error).all()
     flat = rl.Surface(np.full((n, n), 0.3), (1.0, 1.0))  # stays flat on every grid

@@ -103,11 +103,9 @@ def _lead(pressed: Pressed) -> str:
     names = {each.symbol: each.name for each in pressed.answers}
     found = [f"{names[symbol]} {shown[symbol]}" for symbol in _LEADING if symbol in shown]
     unsure = curve.converged[largest] and not curve.resolved[largest]
-    return (
-        f"{pair.first.name} on {pair.second.name} under {pressed.headings[largest]} "
-        f"({shown['F']} in all, {shown['p']} in the mean): {', '.join(found)}"
-        + (f" ({UNRESOLVED.removeprefix('* ')})" if unsure else "")
-        + "."
+    return _sentence(
+        f"{pair.first.name} on {pair.second.name} under {shown['F']}, {shown['p']} over the "
+        f"nominal area: {', '.join(found)}" + (f" ({UNRESOLVED})" if unsure else "")
     )
 
 
@@ -138,7 +136,7 @@ def _sections(
     pair = pressed.pair
     assert pair is not None
     settings = "; ".join(f"{key} = {_shown(value)}" for key, value in settings_of(pressed).items())
-    legend = [UNRESOLVED] if star_is_shown(pressed) else []
+    legend = [f"A star behind a load: {UNRESOLVED}."] if star_is_shown(pressed) else []
     return [
         Section(
             "Answers",
@@ -172,10 +170,10 @@ def _abreast(pressed: Pressed) -> list[slice]:
 
 
 def _caption(pressed: Pressed) -> str:
-    outlined = any(isinstance(marks, Surface) for marks in pressed.filled)
+    marked = any(marks is not None for marks in pressed.filled)
     return (
         "Heights"
-        + (" (red outlines: filled points)" if outlined else "")
+        + (" (red: filled points)" if marked else "")
         + ", spectrum with the nearest self-affine law, stiffness over force (open marks: fewer "
         "than ten points in contact)"
         + (", and theories for the same spectrum" if pressed.theories else "")

@@ -107,7 +107,7 @@ def _table(table: Table, width: float, style: Any) -> Any:
         ("BOTTOMPADDING", (0, 0), (-1, -1), 0.9),
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
     ]
-    return Grid(rows, _widths(lines, width, style), style=rules, repeatRows=1)
+    return Grid(rows, _widths(lines, width, style), style=rules, repeatRows=1, hAlign="LEFT")
 
 
 def _unbroken(cell: str) -> str:

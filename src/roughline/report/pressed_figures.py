@@ -14,7 +14,7 @@ from roughline.characterisation import Roughness
 from roughline.curve import Curve
 from roughline.interface import partial_slip
 from roughline.isotropic import IsotropicSpectrum
-from roughline.quantities import engineering, prefix
+from roughline.quantities import decimal, engineering, prefix
 from roughline.report.folder import make_folder
 from roughline.report.pressed import Pressed
 from roughline.report.style import PAGE, new_figure, save, styled
@@ -157,7 +157,7 @@ def draw_heights(axes: Axes, body: Body) -> None:
 
 
 def draw_filled(axes: Axes, pressed: Pressed) -> None:
-    """Outline on a map of heights where points were missing and have been filled."""
+    """Mark on a map of heights where points were missing and have been filled."""
     if not isinstance(pressed.body, Surface):
         return
     _, size = _prefixed(np.array(pressed.body.sizes), "m")
@@ -170,6 +170,7 @@ def draw_filled(axes: Axes, pressed: Pressed) -> None:
                 (np.arange(n) + 0.5) / n * side * size
                 for n, side in zip(shown.shape, marks.sizes, strict=True)
             )
+            axes.contourf(x, y, shown.T, levels=[0.5, 1], colors="tab:red", alpha=0.3)
             axes.contour(x, y, shown.T, levels=[0.5], colors="tab:red", linewidths=0.7)
     axes.axis(bounds)
 
@@ -189,8 +190,9 @@ def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
             interpolation="nearest",
         )
         assert curve.area_fraction_corrected is not None
-        share, force = curve.area_fraction_corrected[i], engineering(curve.force[i], "N", 3)
-        axes.set_title(f"corrected contact area {share:.3%} at {force}", fontsize=9)
+        share = decimal(100 * curve.area_fraction_corrected[i], 4)
+        force = engineering(curve.force[i], "N")
+        axes.set_title(f"corrected area {share}% at {force}", fontsize=8)
         return
 
 

@@ -13,7 +13,7 @@ _NARROW = 0.1  # half width of an interval up to which it is written as ±
 _LEAST = 1e-4  # half width below which an interval says nothing
 _SHARES = ("A/A_0",)  # symbols of what is written in per cent
 
-UNRESOLVED = "* fewer than ten points in contact: the grid decides, not the surface"
+UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
 """What the star behind a load means."""
 
 

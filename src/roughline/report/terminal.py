@@ -123,9 +123,9 @@ def print_pressed(pressed: Pressed) -> None:
     else:
         _print_table(console, *curve_table(pressed))
     if star_is_shown(pressed):
-        console.print(UNRESOLVED, highlight=False)
+        console.print(f"* {UNRESOLVED}", highlight=False)
     if pair is not None and not answered:
-        console.print(f"answers at more than {_MOST_ANSWERED} loads: --json, or --report")
+        console.print(f"answers at more than {_MOST_ANSWERED} loads are for --json and --report")
     for failure in _failures(pressed):
         console.print(failure, highlight=False)
     for theory in pressed.theories:
