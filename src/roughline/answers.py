@@ -225,7 +225,7 @@ def _electric(force: Real, k: Real, pair: Interface) -> list[Answer]:
     if pair.hardness is not None:
         found.append(
             _answer(
-                "Holm's estimate",
+                "Holm's single-spot estimate",
                 "R_Holm",
                 "ohm",
                 interface.holm_resistance(force, pair.hardness, resistivities),
