@@ -100,6 +100,21 @@ def test_filling_alone_makes_no_interval(holed, invoke):
     assert all(each["low"] is None and each["high"] is None for each in found["answers"].values())
 
 
+def test_the_other_filling_is_pressed_under_the_same_loads(holed, invoke, monkeypatch):
+    pressed = []
+    original = curves.press
+
+    def press(*arguments, **named):
+        pressed.append(original(*arguments, **named))
+        return pressed[-1]
+
+    monkeypatch.setattr(curves, "press", press)
+    code, _, errors = invoke("press", *holed, "--modulus", "100 GPa", "--loads", "3")
+    assert code == 0, errors
+    first, other = (curve.force.tolist() for curve in pressed)
+    assert first == other
+
+
 def test_an_interval_holds_the_grids_error_and_the_fillings(holed, invoke):
     code, out, errors = invoke("press", *holed, *PAIR, "--load", "10 N", "--json")
     assert code == 0, errors
@@ -109,6 +124,18 @@ def test_an_interval_holds_the_grids_error_and_the_fillings(holed, invoke):
     assert error > 1e-3 * value  # 64 points a side leave more open
     assert low <= value / (1 + error / value) * (1 + 1e-12)
     assert high >= value + error
+
+
+def test_no_interval_is_of_width_nothing(tmp_path, invoke):
+    np.save(tmp_path / "flat.npy", np.zeros((64, 64)))  # its area is the same on every grid
+    code, out, errors = invoke(
+        *("press", tmp_path / "flat.npy", "--unit", "m", "--size", "1 mm"),
+        *("--modulus", "100 GPa", "--load", "1 N"),
+    )
+    assert code == 0, errors
+    assert "100% ± 0.01%" in " ".join(out.split())
+    half_widths = [float(each) for each in re.findall(r"± (\S+)%", out)]
+    assert min(half_widths) >= 0.01
 
 
 @pytest.mark.parametrize("arguments", [("--load", "10 N"), ("--loads", "5")])

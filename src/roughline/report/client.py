@@ -43,7 +43,8 @@ ASSUMPTIONS = (
     "static loads.",
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less.",
-    "Intervals are those of the grid and of filled points, or of what a line scan leaves open; "
+    "Intervals, where given, are those of the grid and of filled points, or of what a line scan "
+    "leaves open; "
     "the scatter of material data and of other places on the part comes on top.",
 )
 

@@ -105,7 +105,10 @@ def filled_otherwise(
     if np.array_equal(other.heights, body.heights):
         note = "the points were filled before the file was written: what that changes is not known"
         return replace(found, note=note)
-    moved, interrupted = replace(run, grid_error=False).press(other, False, progress)
+    again = replace(run, grid_error=False)
+    if run.n_loads is not None and curve.converged.all():
+        again = replace(again, n_loads=None, forces=curve.force.tolist())  # not spaced anew
+    moved, interrupted = again.press(other, False, progress)
     stiffness, share = _change(curve.stiffness, moved.stiffness)
     area, area_share = _change(curve.area_fraction_corrected, moved.area_fraction_corrected)
     note = (

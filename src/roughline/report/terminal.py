@@ -139,10 +139,11 @@ def _failures(pressed: Pressed) -> list[str]:
     """Say which loads were not solved, and why."""
     curve = pressed.curve
     asked = dict(zip(pressed.asked.tolist(), pressed.headings, strict=True))
-    return [
+    told = (
         f"load {asked.get(int(i), 'of the curve')}: {Status(curve.status[i]).reason}"
         for i in np.flatnonzero(~curve.converged)
-    ]
+    )
+    return list(dict.fromkeys(told))  # loads of the curve alone share a line
 
 
 def _theory_line(theory: TheoryCurve, pressed: Pressed) -> str:
