@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from roughline import interface
 from roughline.contact import press
 from roughline.curve import Curve
 from roughline.materials import Interface
+from roughline.quantities import decimal
 from roughline.topography import Surface
 
 Real = NDArray[np.float64]
@@ -54,6 +55,12 @@ class Answer:
         """Values, and both ends where they are known, (1 or 3, loads). [unit]"""
         ends = () if self.low is None or self.high is None else (self.low, self.high)
         return np.stack([self.values, *ends])
+
+    def at(self, loads: NDArray[np.intp]) -> Answer:
+        """The same at some of the loads, by their numbers."""
+        values, *ends = self.rows[:, loads]
+        low, high = ends or (None, None)
+        return replace(self, values=values, low=low, high=high)
 
 
 def saturated_stiffness(surface: Surface, E_star: float) -> float:
@@ -222,12 +229,13 @@ def _electric(force: Real, k: Real, pair: Interface) -> list[Answer]:
     if pair.hardness is not None:
         found.append(
             _answer(
-                "Holm's estimate",
+                "Holm's single-spot estimate",
                 "R_Holm",
                 "ohm",
                 interface.holm_resistance(force, pair.hardness, resistivities),
                 "(rho1 + rho2) / (4 a), pi a² = F / H",
-                "one plastic spot, whatever the roughness",
+                "for comparison: all of the load on one plastic spot; spots apart resist less, and "
+                "elastic ones, which are smaller, more",
                 "Holm 1967",
             )
         )
@@ -256,12 +264,12 @@ def _thermal(
             "Barber 2003",
         ),
         _answer(
-            "interface conductance per area",
+            "thermal conductance per area",
             "h_c",
             "W/(m² K)",
             interface.thermal_conductance(own_per_area, pair.E_star, conductivities),
             "kappa_s k_i / (E* A_0)",
-            f"solid spots alone, in vacuum{whose}",
+            f"the same without the bodies' constriction to A_0, as k_i is{whose}",
             "Barber 2003",
         ),
     ]
@@ -311,13 +319,43 @@ def elastic_warnings(found: Sequence[Answer], plasticity: float | None) -> list[
             worst = float(np.nanmax(each.values))
             if worst > interface.ELASTIC_UP_TO:
                 warnings.append(
-                    f"the mean contact pressure reaches {worst:.2g} of the softer body's hardness; "
+                    f"the mean contact pressure reaches {decimal(worst, 2)} of the softer body's "
+                    "hardness; "
                     f"beyond {interface.ELASTIC_UP_TO:g} the summits yield: area and conductance "
                     "are then larger than these elastic ones, towards the plastic estimates"
                 )
     if plasticity is not None and plasticity > 1:
         warnings.append(
-            f"the plasticity index is {plasticity:.2g}, over 1: summits yield at first touch; "
-            "under repeated loads they deform elastically about their flattened shape"
+            f"the plasticity index is {decimal(plasticity, 2)}, over 1: summits yield at first "
+            "touch; under repeated loads they deform elastically about their flattened shape"
         )
     return warnings
+
+
+def left_out(pair: Interface, frequency: float | None) -> list[str]:
+    """Say which answers :func:`answers` leaves out because a material lacks a value.
+
+    Parameters
+    ----------
+    pair : Interface
+        The materials.
+    frequency : float or None
+        Of an ultrasonic wave, if its reflection is wanted. [Hz]
+    """
+    needed = {
+        "hardness": "no contact pressure over hardness, and no estimates with it",
+        "resistivity": "no constriction resistance",
+        "conductivity": "no thermal conductance",
+    }
+    found = []
+    if frequency is not None and not all(each.carries_sound for each in (pair.first, pair.second)):
+        found.append("no reflection: a rigid or an incompressible body carries no such wave")
+    elif frequency is not None:
+        needed["density"] = "no reflection"
+    for quantity, answer in needed.items():
+        if lacking := pair.lacking(quantity):
+            found.append(
+                f"{answer}: the {quantity} of {' and of '.join(lacking)} is not known; give it "
+                f'with the material, as "{quantity}=..."'
+            )
+    return found

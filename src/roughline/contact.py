@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from roughline.curve import Curve, Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
 from roughline.estimates import memory_for
-from roughline.grid_error import refuse_indivisible, with_grid_error
+from roughline.grid_error import refuse_few_points, with_grid_error
 from roughline.line_contact import press_line
 from roughline.loads import Wish, surface_loads
 from roughline.memory import refuse_beyond_memory
@@ -119,7 +119,7 @@ def press(
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
     )
     if grid_error:
-        refuse_indivisible(body)
+        refuse_few_points(body)
     # compiled loops load slowly, so only here
     from roughline.halfspace.state import Method
     from roughline.surface_contact import press_surface

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from roughline.curve import Curve
 from roughline.errors import InputError
-from roughline.topography import Surface
+from roughline.preparation import resampled
+from roughline.topography import Surface, with_heights
 
 Real = NDArray[np.float64]
 
@@ -28,7 +29,8 @@ def with_grid_error(
 ) -> Curve:
     """Add to a curve the discretisation errors estimated from grids of n / 2 and n / 4 points.
 
-    The coarse grids see the means of two by two points. The larger of the last difference and half
+    The coarse grids see the means of two by two points, or of equal pieces where a side has an odd
+    number of points. The larger of the last difference and half
     of the one before, as a difference of logarithms, times a safety factor, and times the growth of
     the differences where they grow over all loads: a grid convergence index [1]_ for quantities
     that go on as powers of the spacing. An area is at least as uncertain as its perimeter
@@ -55,8 +57,8 @@ def with_grid_error(
     .. [1] P. J. Roache, "Perspective: a method for uniform reporting of grid refinement studies",
        J. Fluids Eng. 116, 405-413 (1994).
     """
-    half = surface.coarsened()
-    curves = [press_coarse(grid) for grid in (half.coarsened(), half)] + [curve]
+    half = _halved(surface)
+    curves = [press_coarse(grid) for grid in (_halved(half), half)] + [curve]
     areas = [_area(each) for each in curves]
     most = curve.area_fraction_most
     assert most is not None
@@ -67,14 +69,24 @@ def with_grid_error(
     )
 
 
-def refuse_indivisible(surface: Surface) -> None:
-    """Refuse a surface that cannot be halved twice."""
-    if any(n % 4 or n // 4 < _FEWEST for n in surface.shape):
+def refuse_few_points(surface: Surface) -> None:
+    """Refuse a surface that has too few points to be halved twice."""
+    if min(surface.shape) < 4 * _FEWEST:
         raise InputError(
             f"grid_error needs grids of n / 2 and n / 4 points, and the surface has "
-            f"{surface.shape[0]} x {surface.shape[1]}: crop it to multiples of 4, at least "
-            f"{4 * _FEWEST}"
+            f"{surface.shape[0]} x {surface.shape[1]}: give at least {4 * _FEWEST} a side"
         )
+
+
+def _halved(surface: Surface) -> Surface:
+    """The surface on half as many points a side, over the same sides."""
+    nx, ny = surface.shape
+    if nx % 2 == 0 and ny % 2 == 0:
+        return surface.coarsened()
+    # below the highest point, so that rounding leaves a flat punch flat
+    return resampled(
+        with_heights(surface, surface.heights - surface.heights.max()), (nx // 2, ny // 2)
+    )
 
 
 def _area(curve: Curve) -> Real:

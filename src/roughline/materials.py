@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, replace
 from importlib import resources
 
 from roughline.errors import InputError, UnitError
-from roughline.quantities import in_si
+from roughline.quantities import in_si, refuse_decimal_comma
 
 _UNITS = {
     "E": "Pa",
@@ -79,12 +79,17 @@ class Material:
         return self.E / (2 * (1 + self.nu))
 
     @property
+    def carries_sound(self) -> bool:
+        """Whether longitudinal waves have a finite speed: not if it is rigid or incompressible."""
+        return not math.isinf(self.E) and self.nu != 0.5
+
+    @property
     def impedance(self) -> float | None:
         """Acoustic impedance of longitudinal waves, density times their speed. [kg / (m² s)]
 
         None without a density, and for a rigid or an incompressible material.
         """
-        if self.density is None or math.isinf(self.E) or self.nu == 0.5:
+        if self.density is None or not self.carries_sound:
             return None
         nu = self.nu
         return math.sqrt(self.density * self.E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)))
@@ -179,6 +184,7 @@ def _settings(text: str, description: str) -> dict[str, float]:
         if name in given:
             raise InputError(f'the material "{description}" gives {name} twice')
         if name == "nu":
+            refuse_decimal_comma(value, name)
             try:
                 given[name] = float(value)
             except ValueError:
@@ -236,6 +242,15 @@ class Interface:
         """
         known = [each.hardness for each in (self.first, self.second) if not math.isinf(each.E)]
         return min(value for value in known if value) if known and all(known) else None
+
+    def lacking(self, quantity: str) -> list[str]:
+        """Name the bodies of which a property is not known; a rigid one needs no hardness."""
+        return [
+            f"the {which} body ({each.name})"
+            for which, each in (("first", self.first), ("second", self.second))
+            if getattr(each, quantity) is None
+            and not (quantity == "hardness" and math.isinf(each.E))
+        ]
 
     def both(self, quantity: str) -> tuple[float, float] | None:
         """Return a property of both, None unless both are known."""

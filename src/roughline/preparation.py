@@ -87,7 +87,7 @@ class Preparation:
         if self.low_pass is not None:
             body = _low_passed(body, self.low_pass)
         if self.points is not None:
-            body = _resampled(body, self.points)
+            body = resampled(body, self.points)
         return body
 
 
@@ -191,8 +191,23 @@ def _low_passed(body: BodyType, cutoff: float) -> BodyType:
     return with_heights(body, heights, low_pass=cutoff)
 
 
-def _resampled(body: BodyType, points: int | tuple[int, int]) -> BodyType:
-    """Means over cells where the new grid is coarser, cubic splines where it is finer."""
+def resampled(body: BodyType, points: int | tuple[int, int]) -> BodyType:
+    """Return the body on another grid over the same sides.
+
+    Means over cells where the new grid is coarser, cubic splines where it is finer.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        Any body.
+    points : int or tuple of int
+        As for :class:`Preparation`.
+
+    Raises
+    ------
+    InputError
+        If there are not as many numbers as the body has sides.
+    """
     from scipy import ndimage
 
     shape = body.heights.shape

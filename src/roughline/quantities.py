@@ -20,10 +20,29 @@ Sizes = float | str | Sequence[float | str]
 
 _NUMBER_AND_UNIT = re.compile(
     r"\s*(?P<number>[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|[-+]?(inf|nan))\s*"
-    r"(?P<unit>[^\W\d][\w*/^ .]{0,30}|1/[\w*/^ .]{1,30}|)\s*",
+    r"(?P<unit>[^\W\d][\w*/^ .()·-]{0,30}|1/[\w*/^ .()·-]{1,30}|)\s*",
     re.IGNORECASE,
 )
+_EXPONENT = re.compile(r"(?<=[^\W\d_])(-?\d+)\b")  # of "mm2", "m-3"
+_DECIMAL_COMMA = re.compile(r"\d+,\d+")
 
+_PREFIXES = {
+    -18: "a",
+    -15: "f",
+    -12: "p",
+    -9: "n",
+    -6: "µ",
+    -3: "m",
+    0: "",
+    3: "k",
+    6: "M",
+    9: "G",
+    12: "T",
+    15: "P",
+    18: "E",
+}
+_SIGNS = {"ohm": "Ω"}
+_EXACT = 15  # digits that a double always keeps
 
 _EXAMPLES = {
     "Pa": "110 GPa",
@@ -59,21 +78,45 @@ def in_si(text: str, unit: str, name: str) -> float:
     Raises
     ------
     UnitError
-        If there is no unit, or one of another dimension.
+        If there is no unit, or one of another dimension, or a decimal comma.
     """
     example = _EXAMPLES[unit]
+    refuse_decimal_comma(text, name)
     parts = _NUMBER_AND_UNIT.fullmatch(text)
     if parts and not parts["unit"]:
         raise UnitError(f'{name} is "{text}", without a unit; give one, such as "{example}"')
     try:
         if not parts:
             raise ValueError("no number with a unit")
-        units = _registry().parse_units(parts["unit"])
-        return float(_registry().Quantity(float(parts["number"]), units).to(unit).magnitude)
+        units = _registry().parse_units(_EXPONENT.sub(r"**\1", parts["unit"].replace("·", "*")))
+        value = _registry().Quantity(float(parts["number"]), units).to(unit).magnitude
+        return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without what prefixes round
     except Exception as error:  # the parser raises whatever a senseless unit leads it to
         raise UnitError(
             f'{name} is "{text}", which is no quantity in {unit}; such as "{example}" is'
         ) from error
+
+
+def refuse_decimal_comma(text: str, name: str) -> None:
+    """Refuse a number such as 0,33.
+
+    Parameters
+    ----------
+    text : str
+        What was given.
+    name : str
+        What it is, for the message.
+
+    Raises
+    ------
+    UnitError
+        If a comma stands between digits.
+    """
+    if comma := _DECIMAL_COMMA.search(text):
+        raise UnitError(
+            f'{name} is "{text}", with a comma in "{comma[0]}"; numbers take a decimal point, such '
+            "as 0.33, and no commas"
+        )
 
 
 def metres_per(unit: str) -> float:
@@ -102,6 +145,7 @@ def load_in_newtons(text: str, area: float) -> float:
     UnitError
         If it is neither.
     """
+    refuse_decimal_comma(text, "load")
     for unit, factor in (("N", 1.0), ("Pa", area)):
         try:
             return factor * in_si(text, unit, "load")
@@ -115,8 +159,51 @@ def load_in_newtons(text: str, area: float) -> float:
 
 def engineering(value: float, unit: str, digits: int = 4) -> str:
     """Write an SI value with a prefix, such as 1.234e-6 m as "1.234 µm"."""
-    quantity = _registry().Quantity(value, unit)
-    return f"{quantity.to_compact():.{digits}g~P}"
+    factor, prefixed = prefix(value, unit, digits)
+    return f"{decimal(value * factor, digits)} {prefixed}"
+
+
+def prefix(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
+    """Choose a prefix for an SI value that is written with so many digits.
+
+    Parameters
+    ----------
+    value : float
+        In the unit.
+    unit : str
+        Without prefix, such as "N/m" or "m²".
+    digits : int, optional
+        What rounds to 1000 gets the next prefix.
+
+    Returns
+    -------
+    factor : float
+        From the unit to the prefixed one.
+    prefixed : str
+        The unit with its prefix.
+    """
+    sign = _SIGNS.get(unit, unit)
+    if value == 0 or not math.isfinite(value):
+        return 1.0, sign
+    exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
+    if unit == "m²":  # the prefix is squared as well, and areas run from 0.01 to 10000
+        thousands = _within_prefixes(3 * ((exponent + 2) // 6))
+        return 10.0 ** (-2 * thousands), f"{_PREFIXES[thousands]}{sign}"
+    thousands = _within_prefixes(3 * (exponent // 3))
+    return 10.0**-thousands, f"{_PREFIXES[thousands]}{sign}"
+
+
+def _within_prefixes(exponent: int) -> int:
+    return min(max(exponent, min(_PREFIXES)), max(_PREFIXES))
+
+
+def decimal(value: float, digits: int) -> str:
+    """Write a number with so many significant digits, without an exponent where it is short."""
+    return (
+        f"{float(f'{value:.{digits}g}'):.10g}"
+        if 1e-4 <= abs(value) < 1e6
+        else f"{value:.{digits}g}"
+    )
 
 
 def metres_per_file_unit(name: str, stated: str | None, given: str | None) -> float:

@@ -114,6 +114,9 @@ def press_surface(
         interrupted = True
         values[:, status == Status.INTERRUPTED] = np.nan
     residual, depth, force, stiffness, area, corrected, most_area, edge = values
+    # what was prescribed is given back as it came; the residual holds what the pressures miss of it
+    prescribed = depth if loads.control == "depths" else force
+    np.copyto(prescribed, loads.values, where=status == Status.CONVERGED)
     at_the_border = () if periodic else _edge_warnings(surface, force, edge)
     curve = Curve(
         depth=depth,
@@ -190,13 +193,15 @@ def _edge_warnings(surface: Surface, force: Field, edge: Field) -> tuple[str, ..
     beyond = np.flatnonzero(edge > EDGE_SHARE)
     if not surface.is_cut_out or not beyond.size:
         return ()
+    ends = [f"{force[i]:.3g}" for i in (beyond[0], beyond[-1])]
+    unit = " N" if surface.unit == "m" else ""
+    at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
     return (
-        f"at forces of {force[beyond[0]]:.3g} to {force[beyond[-1]]:.3g}"
-        f"{' N' if surface.unit == 'm' else ''}, up to {edge[beyond].max():.0%} of the force is "
-        f"carried within {EDGE_WIDTH:.0%} of the border, where this surface was cut out of a "
-        "larger one: what lies beyond would share the load, so depth, stiffness and area are those "
-        "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or "
-        "periodic=True",
+        f"at {at}{unit}, up to {edge[beyond].max():.0%} of the force is carried within "
+        f"{EDGE_WIDTH:.0%} of the border, where this surface was cut out of a larger one: what "
+        "lies beyond would share the load, so depth, stiffness and area are those of the piece "
+        "alone, a punch with this outline. Take a larger piece, lower loads, or the periodic "
+        "half-space",
     )
 
 

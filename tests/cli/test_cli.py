@@ -109,7 +109,7 @@ def test_the_table_is_in_si_units(surface_file, invoke):
     assert code == 0
     surface = rl.read(surface_file)
     curve = rl.press(surface, E_star=1e6, depths=[0.5e-6])
-    row = next(line for line in out.splitlines() if line.strip().startswith("1"))
+    row = next(line for line in out.splitlines() if line.strip().startswith("0.5 um"))
     assert "500 nm" in row
     assert f"{curve.stiffness[0]:.4g} N/m" in row
     assert f"{curve.area_fraction[0]:.3%}" in row

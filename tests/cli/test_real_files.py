@@ -164,8 +164,10 @@ def test_a_report_a_client_could_receive(topographies, invoke, tmp_path):
     assert pdf.count(b"/Type /Page\n") == 1
     # the grid's error, as a report estimates it
     bare = " ".join(re.sub("<[^>]*>", " ", page).split())
-    interval = r"(± \S+%|\(\S+.* to \S+ \S+\))"
-    assert re.search(rf"contact stiffness k \S+ \S+ {interval} dF/dd", bare)
+    interval = r"(± \S+%|\(\S+ to \S+\))"
+    assert re.search(rf"contact stiffness k \S+ MN/m {interval} stiffness per area", bare)
+    assert "contact stiffness k dF/dd at frozen contact, exact" in bare
+    assert "red: filled points" in bare
     assert "wrote" in out
 
 

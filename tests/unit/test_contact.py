@@ -54,6 +54,14 @@ def test_n_loads_span_first_touch_to_saturation(surface, line):
     assert curve.resolved.all()
 
 
+def test_what_is_prescribed_comes_back_as_it_was_given(surface, line):
+    loads = [0.1 / 3, 0.3, 10 / 3]  # in other units and back they would be off in the last digit
+    scaled = rl.Surface(surface.heights / 7, (1 / 3, 1 / 3))
+    for body in (surface, scaled, line):
+        assert rl.press(body, E_star=0.7, forces=loads).force.tolist() == loads
+        assert rl.press(body, E_star=0.7, depths=loads).depth.tolist() == loads
+
+
 @pytest.mark.parametrize(
     ("loads", "message"),
     [

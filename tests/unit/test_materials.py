@@ -6,6 +6,7 @@ import pytest
 
 import roughline as rl
 from roughline.materials import (
+    Interface,
     Material,
     contact_modulus,
     material,
@@ -37,6 +38,8 @@ def test_by_name_by_values_and_both():
     assert (hard.E, hard.hardness) == (materials()["steel"].E, 2e9)
     assert hard.resistivity == pytest.approx(2e-7)
     assert "hardness, resistivity given" in hard.source
+    warm = material("steel conductivity=20 W/(m K) density=7.9e3 kg/m3")
+    assert (warm.conductivity, warm.density) == (20, 7900)
 
 
 @pytest.mark.parametrize(
@@ -53,6 +56,8 @@ def test_by_name_by_values_and_both():
         ("steel colour=grey", 'a material has no "colour"'),
         ("steel nu=zero", 'nu is "zero"; a number such as 0.3 is needed'),
         ("steel nu=0.2 nu=0.3", "gives nu twice"),
+        ("steel nu=0,33", 'nu is "0,33", with a comma in "0,33"; numbers take a decimal point'),
+        ("E=70,5 GPa nu=0.3", 'a comma in "70,5"'),
         ("steel density=inf kg/m^3", "density of steel is inf"),
     ],
 )
@@ -71,6 +76,18 @@ def test_pairs():
     for pair in (contact_modulus, tangential_modulus):
         with pytest.raises(rl.InputError, match="both materials are rigid"):
             pair(rigid, rigid)
+
+
+def test_a_pair_says_what_it_lacks():
+    steel, glass, rigid = (materials()[name] for name in ("steel", "glass", "rigid"))
+    assert Interface(steel, glass).lacking("resistivity") == ["the second body (glass)"]
+    assert Interface(glass, glass).lacking("resistivity") == [
+        "the first body (glass)",
+        "the second body (glass)",
+    ]
+    assert Interface(steel, glass).lacking("hardness") == []
+    assert Interface(steel, rigid).lacking("hardness") == []  # a rigid body never yields
+    assert Interface(steel, rigid).lacking("conductivity") == ["the second body (rigid)"]
 
 
 def test_impedance_of_steel_is_the_textbook_value():

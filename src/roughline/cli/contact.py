@@ -87,13 +87,15 @@ def press(
         ),
     ] = None,
     grid_error: Annotated[
-        bool,
+        bool | None,
         typer.Option(
-            "--grid-error",
-            help="Estimate discretisation errors from coarser grids [a report does].",
+            "--grid-error/--no-grid-error",
+            help="Estimate discretisation errors from coarser grids [default: where that takes "
+            "some seconds, and for a report].",
+            show_default=False,
             rich_help_panel=ANSWERS,
         ),
-    ] = False,
+    ] = None,
     report: Annotated[
         Path | None,
         typer.Option(
@@ -131,8 +133,8 @@ def press(
     hardness, electrical and thermal contact conductance and tangential stiffness; with --report it
     writes them with their formulas, the surface, the preparation, the assumptions and this command
     on one page, as HTML and PDF. A value is followed by ± or by both ends of its interval: what
-    the grid, filled points or a single line scan leave open. A star marks fewer than ten points in
-    contact, where the grid decides.
+    the grid and filled points, or a single line scan, leave open. A star behind a load marks fewer
+    than ten points in contact, where the grid decides.
 
     Materials by name: alumina, aluminium, brass, copper, fused-silica, glass, gold, nickel, pmma,
     ptfe, rigid, silicon, silver, stainless-steel, steel, tin, titanium, tungsten, zinc. Others by
@@ -150,7 +152,7 @@ def press(
     roughline press scan.sur --against other.sur --materials "E=3 GPa nu=0.38, rigid" --load "2 MPa"
 
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
-    "steel hardness=6 GPa, gold" --load "1 N" --load "10 N" --theory persson --grid-error
+    "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
     from roughline.fft import set_threads
     from roughline.report.machine import of_pressed
@@ -177,7 +179,7 @@ def press(
             theories=theory or [],
             report=report,
             out=out,
-            command=shlex.join(["roughline", *sys.argv[1:]]),
+            command=shlex.join(["roughline", *map(_without_folders, sys.argv[1:])]),
             announce=announce,
             progress=progress,
         )
@@ -189,6 +191,12 @@ def press(
         end_interrupted("the loads solved before are above")
     if not result.curve.converged.all():
         raise typer.Exit(1)
+
+
+def _without_folders(argument: str) -> str:
+    """An argument as others may see it: of an absolute path, the last name alone."""
+    option, sign, value = argument.rpartition("=")
+    return f"{option}{sign}{Path(value).name}" if Path(value).is_absolute() else argument
 
 
 def compare(

@@ -171,8 +171,9 @@ def preparation_of(
 
 def lengths(text: str, name: str) -> list[float]:
     """Read lengths with units between commas. [m]"""
-    from roughline.quantities import in_si
+    from roughline.quantities import in_si, refuse_decimal_comma
 
+    refuse_decimal_comma(text, name)
     return [in_si(part, "m", name) for part in text.split(",")]
 
 

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from datetime import date
+from functools import partial
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from roughline._version import __version__
 from roughline.characterisation import Roughness, roughness
@@ -14,24 +18,35 @@ from roughline.report.pressed import Pressed
 from roughline.report.pressed_figures import (
     draw_area,
     draw_contact,
+    draw_filled,
     draw_heights,
     draw_partial_slip,
     draw_spectrum,
     draw_stiffness,
     write_pressed,
 )
-from roughline.report.pressed_tables import answer_table, quantity
+from roughline.report.pressed_tables import (
+    UNRESOLVED,
+    answer_table,
+    formula_table,
+    quantity,
+    star_is_shown,
+)
 from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.topography import Body, Line, Surface
+
+_LEADING = ("k", "A/A_0", "R", "h_c")  # symbols of the answers that the page begins with
+_ABREAST = 4  # loads that fit beside each other on a page
 
 ASSUMPTIONS = (
     "Linear elastic half-spaces, small slopes, no friction in the normal problem, no adhesion, "
     "static loads.",
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less.",
-    "Intervals are those of the grid and of filled points, or of what a line scan leaves open; "
-    "those of k_i, h_c and |R| of a map hold the surface behind it as well. The scatter of "
-    "material data, and for all other answers that of other places on the part, comes on top.",
+    "Intervals, where given, are those of the grid and of filled points, or of what a line scan "
+    "leaves open; those of k_i, h_c and |R| of a map hold the surface behind it as well. The "
+    "scatter of material data, and for all other answers that of other places on the part, comes "
+    "on top.",
 )
 
 
@@ -64,10 +79,11 @@ def write_report(
     with styled():
         overview = save(_overview(pressed, described, friction), folder, "overview")
     title, lead = f"Contact of {pressed.source.file.name}", _lead(pressed)
+    made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
     sections = _sections(pressed, described, overview[0], command)
     page = folder / "report.html"
-    page.write_text(render(title, lead, sections), encoding="utf-8")
-    write_pdf(folder / "report.pdf", title, lead, sections)
+    page.write_text(render(title, lead, sections, made), encoding="utf-8")
+    write_pdf(folder / "report.pdf", title, lead, sections, made)
     return [page, folder / "report.pdf", *files, *overview]
 
 
@@ -81,17 +97,17 @@ def settings_of(pressed: Pressed) -> dict[str, Any]:
 
 
 def _lead(pressed: Pressed) -> str:
-    pair = pressed.pair
+    """The answers at the largest load, by the names that they have in the table."""
+    pair, curve = pressed.pair, pressed.at_asked
     assert pair is not None
-    last = int(pressed.asked[-1])
-    named = {each.symbol: quantity(each, last) for each in pressed.answers}
-    load = f"{named['F']} ({named['p']})"
-    return (
-        f"{pair.first.name} on {pair.second.name} under {load}: contact stiffness {named['k']}"
-        + (f", real contact area {named['A/A_0']} of the nominal one" if "A/A_0" in named else "")
-        + (f", constriction resistance {named['R']}" if "R" in named else "")
-        + (f", thermal conductance {named['h_c']}" if "h_c" in named else "")
-        + "."
+    largest = int(np.argmax(pressed.asked))
+    shown = {each.symbol: quantity(each, largest) for each in pressed.answers}
+    names = {each.symbol: each.name for each in pressed.answers}
+    found = [f"{names[symbol]} {shown[symbol]}" for symbol in _LEADING if symbol in shown]
+    unsure = curve.converged[largest] and not curve.resolved[largest]
+    return _sentence(
+        f"{pair.first.name} on {pair.second.name} under {shown['F']}, {shown['p']} over the "
+        f"nominal area: {', '.join(found)}" + (f" ({UNRESOLVED})" if unsure else "")
     )
 
 
@@ -99,6 +115,7 @@ def _overview(pressed: Pressed, described: Roughness | None, friction: float | N
     figure = new_figure(PAGE, 4.6)
     panels = figure.subplots(2, 2 if friction is None else 3).ravel()
     draw_heights(panels[0], pressed.body)
+    draw_filled(panels[0], pressed)
     remaining = list(panels[1:])
     if described is not None:
         draw_spectrum(remaining.pop(0), described)
@@ -120,40 +137,60 @@ def _sections(
 ) -> list[Section]:
     pair = pressed.pair
     assert pair is not None
-    header, rows = answer_table(pressed)
-    sources = {each.source for each in pressed.answers if each.source}
-    settings = "; ".join(f"{key} = {value}" for key, value in settings_of(pressed).items())
+    settings = "; ".join(f"{key} = {_shown(value)}" for key, value in settings_of(pressed).items())
+    legend = [f"A star behind a load: {UNRESOLVED}."] if star_is_shown(pressed) else []
     return [
         Section(
             "Answers",
             [f"Materials: {_material(pair.first)}; {_material(pair.second)}."],
-            tables=[Table(header, rows, numbers=range(1, len(header) - 1))],
-            note=" ".join(_sentence(note) for note in pressed.notes),
+            notes=[*legend, *map(_sentence, pressed.notes)],
+            tables=[
+                Table(header, rows, numbers=range(1, len(header)))
+                for header, rows in map(partial(answer_table, pressed), _abreast(pressed))
+            ],
         ),
         Section(
             "Surface",
             [_surface(pressed, described)],
-            pictures=[
-                Picture(
-                    overview,
-                    "Overview",
-                    "Heights, spectrum with the nearest self-affine law, stiffness over force "
-                    "(open marks: fewer than ten points in contact)"
-                    + (", and theories for the same spectrum" if pressed.theories else "")
-                    + ".",
-                )
-            ],
+            pictures=[Picture(overview, "Overview", _caption(pressed))],
         ),
+        Section("Where the answers are from", tables=[Table(*formula_table(pressed))]),
         Section(
             "Assumptions",
             [
                 *ASSUMPTIONS,
                 *(f"{theory.name}: {theory.validity}." for theory in pressed.theories),
-                f"Formulas: {'; '.join(sorted(sources))}.",
             ],
         ),
         Section("To do it again", [command, settings]),
     ]
+
+
+def _abreast(pressed: Pressed) -> list[slice]:
+    """Loads that stand beside each other in a table."""
+    return [slice(i, i + _ABREAST) for i in range(0, pressed.asked.size, _ABREAST)]
+
+
+def _caption(pressed: Pressed) -> str:
+    marked = any(marks is not None for marks in pressed.filled)
+    return (
+        "Heights"
+        + (" (red: filled points)" if marked else "")
+        + ", spectrum with the nearest self-affine law, stiffness over force (open marks: fewer "
+        "than ten points in contact)"
+        + (", and theories for the same spectrum" if pressed.theories else "")
+        + (
+            ", and the points in contact at the largest load; their area is corrected for the "
+            "outline's steps, as in the table"
+            if isinstance(pressed.body, Surface)
+            else ""
+        )
+        + "."
+    )
+
+
+def _shown(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def _material(material: Any) -> str:

@@ -77,43 +77,23 @@ class Solved:
         Loads that failed are marked.
     interrupted : bool
         Whether Ctrl-C came.
-    stiffness_error, area_error : ndarray, shape (loads,), or None
-        Of stiffness [N / m] and corrected area fraction [1].
-    most_area : ndarray, shape (loads,), or None
-        What the area fraction does not exceed. [1]
+    stiffness_interval, area_interval : tuple of ndarray, shape (loads,), or None
+        Both ends, of stiffness [N / m] and of the corrected area fraction [1].
     note : str
         What another way to fill missing points changes, if that was tried.
     """
 
     curve: Curve
-    interrupted: bool
-    stiffness_error: Real | None
-    area_error: Real | None
-    most_area: Real | None
+    interrupted: bool = False
+    stiffness_interval: Ends | None = None
+    area_interval: Ends | None = None
     note: str = ""
-
-    @property
-    def stiffness_interval(self) -> Ends | None:
-        """Both ends, if an error is known. [N / m]"""
-        return _ends(self.curve.stiffness, self.stiffness_error, None)
-
-    @property
-    def area_interval(self) -> Ends | None:
-        """Both ends, if an error is known. [1]"""
-        return _ends(self.curve.area_fraction_corrected, self.area_error, self.most_area)
 
 
 def solved(run: Run, body: Body, fields: list[int] | bool, progress: Progress | None) -> Solved:
     """Press a body; what its grid leaves open is known if the run says so."""
     curve, interrupted = run.press(body, fields, progress)
-    # whole cells overstate an area under summits, and finer waves take away from it
-    return Solved(
-        curve,
-        interrupted,
-        curve.stiffness_error,
-        curve.area_fraction_error,
-        curve.area_fraction_most,
-    )
+    return Solved(curve, interrupted, *_intervals(curve))
 
 
 def filled_otherwise(
@@ -124,29 +104,25 @@ def filled_otherwise(
     preparation: Preparation | None,
     progress: Progress | None,
 ) -> Solved:
-    """Press the body with its missing points filled otherwise; the change is part of the errors."""
+    """Press the body with its missing points filled otherwise; the change adds to the errors."""
     curve = found.curve
     filling = Missing(sources[0].missing).other
     other = together(read_parts(sources, preparation, filling))
     assert isinstance(other, Surface)
-    if other.shape != body.shape:
-        other = trimmed(other)
     if np.array_equal(other.heights, body.heights):
         note = "the points were filled before the file was written: what that changes is not known"
         return replace(found, note=note)
-    moved, interrupted = run.press(other, False, progress)
+    again = replace(run, grid_error=False)
+    if run.n_loads is not None and curve.converged.all():
+        again = replace(again, n_loads=None, forces=curve.force.tolist())  # not spaced anew
+    moved, interrupted = again.press(other, False, progress)
     stiffness, share = _change(curve.stiffness, moved.stiffness)
     area, area_share = _change(curve.area_fraction_corrected, moved.area_fraction_corrected)
-    assert found.most_area is not None
-    return Solved(
-        curve,
-        interrupted,
-        _combined(found.stiffness_error, stiffness),
-        _combined(found.area_error, area),
-        found.most_area + area,
+    note = (
         f"filled by {filling} instead: stiffness moves by {_at_most(share)}, "
-        f"area by {_at_most(area_share)}",
+        f"area by {_at_most(area_share)}"
     )
+    return Solved(curve, interrupted, *_intervals(curve, stiffness, area), note)
 
 
 def interface_alone(
@@ -194,10 +170,26 @@ def interface_alone(
     return answer, found.interrupted or again.interrupted
 
 
-def trimmed(surface: Surface) -> Surface:
-    """The surface without the last rows and columns that cannot be coarsened twice."""
-    nx, ny = (n - n % 4 for n in surface.shape)
-    return surface if (nx, ny) == surface.shape else surface.cropped((0, nx), (0, ny))
+def _intervals(
+    curve: Curve, stiffness: Real | float = 0.0, area: Real | float = 0.0
+) -> tuple[Ends | None, Ends | None]:
+    """Intervals of stiffness and area from the grid's errors and from further ones.
+
+    None without the grid's: further errors alone are narrower than what is unknown.
+    """
+    value, error, most = (
+        curve.area_fraction_corrected,
+        curve.area_fraction_error,
+        curve.area_fraction_most,
+    )
+    if curve.stiffness_error is None or value is None or error is None or most is None:
+        return None, None
+    low, high = _ends(value, np.hypot(error, area))
+    return (
+        _ends(curve.stiffness, np.hypot(curve.stiffness_error, stiffness)),
+        # whole cells overstate an area under summits, and finer waves take away from it
+        (low, np.minimum(high, most + area)),
+    )
 
 
 def _change(before: Real | None, after: Real | None) -> tuple[Real, float]:
@@ -213,14 +205,7 @@ def _at_most(per_cent: float) -> str:
     return f"up to {per_cent:.2g}%" if per_cent >= _SMALL else f"less than {_SMALL}%"
 
 
-def _combined(error: Real | None, change: Real) -> Real:
-    return change if error is None else np.hypot(error, change)
-
-
-def _ends(value: Real | None, error: Real | None, most: Real | None) -> Ends | None:
+def _ends(value: Real, error: Real) -> Ends:
     """Both ends of an interval; nothing that is positive gets below zero."""
-    if value is None or error is None:
-        return None
-    high = value + error
     with np.errstate(invalid="ignore"):
-        return value / (1 + error / value), high if most is None else np.minimum(high, most)
+        return value / (1 + error / value), value + error

@@ -34,17 +34,22 @@ class Loading:
     depths: Sequence[str] = ()
     count: int | None = None
 
-    def forces(self, area: float) -> list[float] | None:
-        """Total forces on a nominal area, rising. [N]"""
-        found = sorted({load_in_newtons(text, area) for text in self.loads})
-        for force in found:
-            if not 0 < force < np.inf:
-                raise InputError(f"a load of {force:g} N is given; give positive ones")
-        return found or None
+    @property
+    def texts(self) -> list[str]:
+        """The loads or depths as they were given, in their order; none if they are spaced."""
+        return [*self.loads, *self.depths]
 
-    def heights(self) -> list[float] | None:
-        """Depths, rising. [m]"""
-        return sorted({in_si(text, "m", "depth") for text in self.depths}) or None
+    def forces(self, area: float) -> list[float]:
+        """Total forces on a nominal area, in the order of the texts. [N]"""
+        found = [load_in_newtons(text, area) for text in self.loads]
+        for text, force in zip(self.loads, found, strict=True):
+            if not 0 < force < np.inf:
+                raise InputError(f'load is "{text}"; give positive ones')
+        return found
+
+    def heights(self) -> list[float]:
+        """Depths, in the order of the texts. [m]"""
+        return [in_si(text, "m", "depth") for text in self.depths]
 
     def meaning(self, body: Body) -> list[str]:
         """Say of each load what it is in all, and over which area."""
@@ -66,8 +71,8 @@ def nominal_area(body: Body) -> float:
 
 
 def with_curve(asked: list[float]) -> list[float]:
-    """Loads for a whole curve up to the largest, those asked for among them."""
-    curve = np.geomspace(_LIGHTEST * asked[-1], asked[-1], _CURVE_LOADS)
+    """Loads for a whole curve up to the largest, those asked for among them, rising."""
+    curve = np.geomspace(_LIGHTEST * max(asked), max(asked), _CURVE_LOADS)
     apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
     return sorted({*asked, *apart})
 

@@ -27,13 +27,14 @@ def to_json(content: Mapping[str, Any]) -> str:
 
 
 def of_pressed(pressed: Pressed) -> dict[str, Any]:
-    """What pressing gave, in SI units, over the loads of the curve."""
-    curve = pressed.curve
+    """What pressing gave, in SI units, over the loads that were asked for, in their order."""
+    curve = pressed.at_asked
     return {
         "file": pressed.source.file,
         "body": _of_body(pressed.body),
         "E_star": curve.E_star,
         "nominal_area": pressed.area,
+        "loads": pressed.headings,
         "curve": {
             name: getattr(curve, name)
             for name in (
@@ -49,9 +50,8 @@ def of_pressed(pressed: Pressed) -> dict[str, Any]:
             )
         }
         | {"status": [Status(value).name.lower() for value in curve.status]},
-        "stiffness_interval": pressed.stiffness_interval,
-        "area_fraction_interval": pressed.area_interval,
-        "asked": pressed.asked,
+        "stiffness_interval": pressed.ends_at_asked(pressed.stiffness_interval),
+        "area_fraction_interval": pressed.ends_at_asked(pressed.area_interval),
         "answers": {
             each.symbol: {
                 "name": each.name,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
@@ -11,6 +12,8 @@ from pathlib import Path
 import jinja2
 
 from roughline.verdict import Verdict
+
+_INTERVAL = re.compile(r" (?=[(±])")
 
 
 @dataclass(frozen=True)
@@ -39,22 +42,25 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and what stands below it, in this order."""
+    """A heading and what stands below it, in this order; `notes` are a list."""
 
     heading: str
     paragraphs: Sequence[str] = ()
     note: str = ""
+    notes: Sequence[str] = ()
     tables: Sequence[Table] = ()
     pictures: Sequence[Picture] = field(default=())
 
 
-def render(title: str, lead: str, sections: Sequence[Section]) -> str:
-    """Return the page as HTML."""
+def render(title: str, lead: str, sections: Sequence[Section], made: str = "") -> str:
+    """Return the page as HTML; `made` says when and with what."""
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["verdict_class"] = _verdict_class
-    environment.filters["value_and_interval"] = _value_and_interval
+    environment.filters["value_and_interval"] = value_and_interval
     source = files("roughline.report").joinpath("page.html.jinja").read_text(encoding="utf-8")
-    return environment.from_string(source).render(title=title, lead=lead, sections=sections)
+    return environment.from_string(source).render(
+        title=title, lead=lead, sections=sections, made=made
+    )
 
 
 def render_markdown(title: str, lead: str, sections: Sequence[Section], folder: str) -> str:
@@ -62,6 +68,7 @@ def render_markdown(title: str, lead: str, sections: Sequence[Section], folder: 
     parts = [f"# {title}", lead]
     for section in sections:
         parts += [f"## {section.heading}", *section.paragraphs]
+        parts += ["\n".join(f"- {note}" for note in section.notes)] if section.notes else []
         parts += [_markdown_table(table) for table in section.tables]
         for picture in section.pictures:
             parts += [
@@ -81,10 +88,9 @@ def _markdown_table(table: Table) -> str:
     return "\n".join(f"| {' | '.join(row)} |" for row in cells)
 
 
-def _value_and_interval(cell: str) -> list[str]:
-    """Where a number may be broken in two lines: before the bracket with its interval."""
-    value, bracket, interval = cell.partition(" (")
-    return [value, f"({interval}"] if bracket else [value]
+def value_and_interval(cell: str) -> list[str]:
+    """Where a number may be broken in two lines: before its interval."""
+    return _INTERVAL.split(cell, maxsplit=1)
 
 
 def _verdict_class(words: str) -> str:

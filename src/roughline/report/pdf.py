@@ -10,20 +10,23 @@ from xml.sax.saxutils import escape
 from matplotlib import get_data_path
 
 from roughline.errors import StoreError
-from roughline.report.page import Section, Table
+from roughline.report.page import Section, Table, value_and_interval
 
 _SIZE = 6.6  # of the text, so that a page holds it [points]
 _MARGIN = 36  # [points]
+_PADDING = 6  # left and right of a cell, as ReportLab has it [points]
 
 
-def write_pdf(path: Path, title: str, lead: str, sections: Sequence[Section]) -> None:
+def write_pdf(
+    path: Path, title: str, lead: str, sections: Sequence[Section], made: str = ""
+) -> None:
     """Write a page as PDF, one sheet of A4; what is too long is made smaller.
 
     Parameters
     ----------
     path : Path
         Replaced if it exists.
-    title, lead, sections
+    title, lead, sections, made
         As for :func:`roughline.report.page.render`.
 
     Raises
@@ -42,14 +45,17 @@ def write_pdf(path: Path, title: str, lead: str, sections: Sequence[Section]) ->
         pdfmetrics.registerFont(TTFont(name, folder / f"{file}.ttf"))
     width = A4[0] - 2 * _MARGIN
     text, heading = _style(_SIZE, bold=False), _style(1.25 * _SIZE, bold=True)
+    item = text.clone("item", leftIndent=1.5 * _SIZE, bulletIndent=0.4 * _SIZE)
     top = _style(2 * _SIZE, bold=True)
-    flow: list[Any] = [Paragraph(escape(title), top), Paragraph(escape(lead), text)]
+    flow: list[Any] = [Paragraph(escape(line), text) for line in (lead, made) if line]
+    flow.insert(0, Paragraph(escape(title), top))
     for section in sections:
         flow.append(Spacer(1, _SIZE * 0.5))
         flow.append(Paragraph(escape(section.heading), heading))
         flow += [Paragraph(escape(paragraph), text) for paragraph in section.paragraphs]
         if section.note:
             flow.append(Paragraph(f"<i>{escape(section.note)}</i>", text))
+        flow += [Paragraph(escape(note), item, bulletText="•") for note in section.notes]
         flow += [_table(table, width, text) for table in section.tables]
         for picture in section.pictures:
             wide, high = ImageReader(str(picture.path)).getSize()
@@ -86,9 +92,14 @@ def _table(table: Table, width: float, style: Any) -> Any:
     from reportlab.platypus import Paragraph
     from reportlab.platypus import Table as Grid
 
-    rows = [[Paragraph(escape(cell), style) for cell in row] for row in (table.header, *table.rows)]
-    loads = len(table.header) - 2
-    columns = [0.24 * width, *[0.42 * width / loads] * loads, 0.34 * width]
+    lines = [table.header, *table.rows]
+    rows = [
+        [
+            Paragraph(escape(_unbroken(cell) if i in table.numbers else cell), style)
+            for i, cell in enumerate(line)
+        ]
+        for line in lines
+    ]
     rules = [
         ("LINEBELOW", (0, 0), (-1, 0), 0.8, colors.black),
         ("LINEBELOW", (0, 1), (-1, -1), 0.2, colors.lightgrey),
@@ -96,4 +107,25 @@ def _table(table: Table, width: float, style: Any) -> Any:
         ("BOTTOMPADDING", (0, 0), (-1, -1), 0.9),
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
     ]
-    return Grid(rows, columns, style=rules, repeatRows=1)
+    return Grid(rows, _widths(lines, width, style), style=rules, repeatRows=1, hAlign="LEFT")
+
+
+def _unbroken(cell: str) -> str:
+    """A number that is broken before its interval only."""
+    return " ".join(piece.replace(" ", "\u00a0") for piece in value_and_interval(cell))
+
+
+def _widths(lines: Sequence[Sequence[str]], width: float, style: Any) -> list[float]:
+    """Widths of columns: what each needs in one line, or a share of what narrow ones leave."""
+    from reportlab.pdfbase.pdfmetrics import stringWidth
+
+    needed = [
+        2 * _PADDING + max(stringWidth(cell, style.fontName, style.fontSize) for cell in column)
+        for column in zip(*lines, strict=True)
+    ]
+    given = dict.fromkeys(range(len(needed)), 0.0)
+    left = width
+    for place, i in enumerate(sorted(given, key=needed.__getitem__)):
+        given[i] = min(needed[i], left / (len(needed) - place))
+        left -= given[i]
+    return list(given.values())

@@ -14,7 +14,7 @@ from roughline.characterisation import Roughness
 from roughline.curve import Curve
 from roughline.interface import partial_slip
 from roughline.isotropic import IsotropicSpectrum
-from roughline.quantities import engineering
+from roughline.quantities import decimal, engineering, prefix
 from roughline.report.folder import make_folder
 from roughline.report.pressed import Pressed
 from roughline.report.style import PAGE, new_figure, save, styled
@@ -22,7 +22,6 @@ from roughline.topography import Body, Surface
 
 Real = NDArray[np.float64]
 
-_PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 _MOST_PIXELS = 600  # along a side; a picture shows no more
 _DASHES = ("--", ":", "-.")
 
@@ -53,7 +52,7 @@ def write_pressed(pressed: Pressed, out: Path) -> list[Path]:
     with styled():
         written += save(curve_figure(pressed), out, "curve")
         if isinstance(pressed.body, Surface):
-            written += save(contact_figure(pressed.body, pressed.curve), out, "contact")
+            written += save(contact_figure(pressed.body, pressed), out, "contact")
     return written
 
 
@@ -70,12 +69,13 @@ def curve_figure(pressed: Pressed) -> Figure:
     return figure
 
 
-def contact_figure(surface: Surface, curve: Curve) -> Figure:
+def contact_figure(surface: Surface, pressed: Pressed) -> Figure:
     """Topography, and the real contact area at the last load whose fields are there."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
     draw_heights(left, surface)
-    draw_contact(right, surface, curve)
+    draw_filled(left, pressed)
+    draw_contact(right, surface, pressed.curve)
     return figure
 
 
@@ -156,6 +156,25 @@ def draw_heights(axes: Axes, body: Body) -> None:
     _label_sides(axes, body)
 
 
+def draw_filled(axes: Axes, pressed: Pressed) -> None:
+    """Mark on a map of heights where points were missing and have been filled."""
+    if not isinstance(pressed.body, Surface):
+        return
+    _, size = _prefixed(np.array(pressed.body.sizes), "m")
+    bounds = axes.axis()
+    for i, marks in enumerate(pressed.filled):
+        if isinstance(marks, Surface) and 0 < marks.heights.mean() < 1:
+            # the second of two bodies is turned over
+            shown = _highest(marks.heights if i == 0 else marks.heights[::-1])
+            x, y = (
+                (np.arange(n) + 0.5) / n * side * size
+                for n, side in zip(shown.shape, marks.sizes, strict=True)
+            )
+            axes.contourf(x, y, shown.T, levels=[0.5, 1], colors="tab:red", alpha=0.3)
+            axes.contour(x, y, shown.T, levels=[0.5], colors="tab:red", linewidths=0.7)
+    axes.axis(bounds)
+
+
 def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
     """Real contact area at the last load whose fields are there."""
     _label_sides(axes, surface)
@@ -170,8 +189,10 @@ def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
             cmap="binary",
             interpolation="nearest",
         )
-        share, force = found.contact.mean(), engineering(curve.force[i], "N", 3)
-        axes.set_title(f"contact {share:.2%} at F = {force}", fontsize=9)
+        assert curve.area_fraction_corrected is not None
+        share = decimal(100 * curve.area_fraction_corrected[i], 4)
+        force = engineering(curve.force[i], "N")
+        axes.set_title(f"corrected area {share}% at {force}", fontsize=8)
         return
 
 
@@ -220,9 +241,15 @@ def _thinned(heights: Real) -> Real:
     return heights[:: steps[0], :: steps[1]]
 
 
+def _highest(marks: Real) -> Real:
+    """Marks on as many points as a picture can show; none is lost."""
+    steps = [max(1, n // _MOST_PIXELS) for n in marks.shape]
+    for axis, step in enumerate(steps):
+        marks = np.maximum.reduceat(marks, np.arange(0, marks.shape[axis], step), axis=axis)
+    return marks
+
+
 def _prefixed(values: Real, unit: str) -> tuple[str, float]:
     """Choose a prefix for values in an SI unit; return the unit, and the factor to it."""
-    largest = float(np.nanmax(np.abs(values), initial=0.0))
-    power = 3 * int(np.floor(np.log10(largest) / 3)) if 0 < largest < np.inf else 0
-    power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
-    return _PREFIXES[power] + unit, 10.0**-power
+    factor, prefixed = prefix(float(np.nanmax(np.abs(values), initial=0.0)), unit)
+    return prefixed, factor

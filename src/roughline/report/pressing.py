@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.answers import Answer, answers, elastic_warnings
+from roughline.answers import Answer, answers, elastic_warnings, left_out
 from roughline.characterisation import ALIKE, isotropy
 from roughline.errors import InputError
 from roughline.estimates import estimate, memory_for
@@ -17,16 +17,17 @@ from roughline.interface import plasticity_index
 from roughline.larger_interface import stiffness_of_the_piece
 from roughline.line_scan import press_scan
 from roughline.materials import Interface, Material
+from roughline.measured import suspicions
 from roughline.memory import refuse_beyond_memory
 from roughline.moments import moments
 from roughline.preparation import Preparation
 from roughline.report.curves import (
     Progress,
     Run,
+    Solved,
     filled_otherwise,
     interface_alone,
     solved,
-    trimmed,
 )
 from roughline.report.folder import make_folder
 from roughline.report.loading import (
@@ -37,7 +38,15 @@ from roughline.report.loading import (
     with_curve,
 )
 from roughline.report.pressed import Pressed
-from roughline.report.source import Source, notes_on_facing, notes_on_parts, read_parts, together
+from roughline.report.source import (
+    Source,
+    filled_regions,
+    notes_on_facing,
+    notes_on_parts,
+    notes_on_points,
+    read_parts,
+    together,
+)
 from roughline.theories import TheoryCurve, refuse_unknown, theory
 from roughline.topography import Body, Line, Surface
 
@@ -45,7 +54,8 @@ Announce = Callable[[str], None]
 
 _LARGE = 2**20  # points from which on the cost is told
 _MANY = 1000  # loads from which on the cost is told
-_COARSENED_FROM = 64  # points a side from which on a report estimates the grid's error
+_COARSENED_FROM = 64  # points a side from which on the grid's error is estimated unasked
+_CHEAP = 2**24  # points times loads up to which that takes a few seconds
 
 
 def press_file(
@@ -57,7 +67,7 @@ def press_file(
     against: Source | None = None,
     preparation: Preparation | None = None,
     periodic: bool = False,
-    grid_error: bool = False,
+    grid_error: bool | None = None,
     frequency: float | None = None,
     theories: Sequence[str] = (),
     whole_curve: bool = False,
@@ -81,8 +91,11 @@ def press_file(
         Topography of the second body; without it, that one is smooth.
     preparation : Preparation, optional
         Of each topography; default: the tilt of measured ones is removed.
-    periodic, grid_error
+    periodic : bool
         As for :func:`roughline.press`.
+    grid_error : bool, optional
+        Whether the grid's error is estimated; default: where that is cheap, and with a whole curve.
+        Without it no interval is given.
     frequency : float, optional
         Of an ultrasonic wave. [Hz]
     theories : sequence of str
@@ -113,29 +126,29 @@ def press_file(
     body = together(parts)
     if theories and not _has_spectrum(body):
         raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
-    if whole_curve and isinstance(body, Surface) and min(body.shape) >= _COARSENED_FROM:
-        grid_error, body = True, trimmed(body)
     if out is not None:
         make_folder(out)  # a folder that cannot be written is said before the work, not after
-    asked = loading.forces(nominal_area(body)) or []
+    asked, depths = loading.forces(nominal_area(body)), loading.heights()
+    forces = with_curve(asked) if whole_curve and asked else sorted({*asked})
+    unknown: list[str] = []
     larger = None
     of_larger = pair is not None and isinstance(body, Surface) and body.is_cut_out
+    interrupted = False
     if isinstance(body, Line) and body.kind == "profile":
-        if periodic or grid_error or loading.depths:
+        if periodic or grid_error or depths:
             raise InputError(
                 "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
                 "loads, through its spectrum"
             )
-        forces = asked or default_forces(body, modulus, loading.count or DEFAULT_LOADS)
-        forces = with_curve(forces) if whole_curve else forces
+        forces = forces or default_forces(body, modulus, loading.count or DEFAULT_LOADS)
         second = parts[1] if len(parts) > 1 else None
         assert second is None or isinstance(second, Line)
         scan = press_scan(body, E_star=modulus, forces=forces, against=second)
-        indices = _indices(forces, asked, len(forces))
-        result = Pressed(source, parts, body, scan.curve, indices, (scan.low, scan.high))
+        found = Solved(scan.curve, stiffness_interval=(scan.low, scan.high))
     else:
-        forces = with_curve(asked) if whole_curve and asked else asked
-        run = Run(modulus, forces, loading.heights() or [], loading.count, periodic, grid_error)
+        count = len(forces) or len(depths) or loading.count or 0
+        estimated = _grid_error_is_estimated(body, grid_error, count, whole_curve)
+        run = Run(modulus, forces, sorted({*depths}), loading.count, periodic, estimated)
         if of_larger and not periodic:
             assert isinstance(body, Surface)
             refuse_beyond_memory(
@@ -144,12 +157,12 @@ def press_file(
                 "interface alone,",
                 "take a smaller piece or every other point, or --modulus instead of materials",
             )
-        if isinstance(body, Surface) and (body.heights.size >= _LARGE or run.count >= _MANY):
-            cost = str(estimate(body.shape, run.count, periodic=periodic))
+        if isinstance(body, Surface) and (body.heights.size >= _LARGE or count >= _MANY):
+            cost = str(estimate(body.shape, count, periodic=periodic))
             if of_larger and not periodic:
-                cost += f", then {estimate(body.shape, run.count, periodic=True)} for the interface"
-            announce(f"{body.shape[0]} x {body.shape[1]} points, {run.count} loads: {cost}")
-        shown = forces.index(asked[-1]) if asked else 3 * run.count // 4
+                cost += f", then {estimate(body.shape, count, periodic=True)} for the interface"
+            announce(f"{body.shape[0]} x {body.shape[1]} points, {count} loads: {cost}")
+        shown = forces.index(max(asked)) if asked else 3 * count // 4
         found = solved(run, body, [shown] if out is not None else False, progress)
         filled = any(part.settings.get("missing_points") for part in parts)
         if filled and isinstance(body, Surface) and not found.interrupted:
@@ -159,26 +172,57 @@ def press_file(
             assert isinstance(body, Surface)
             fillings = (sources, preparation) if filled else None
             larger, interrupted = interface_alone(found, run, body, fillings, progress)
-        result = Pressed(
-            source,
-            parts,
-            body,
-            found.curve,
-            _indices(forces, asked, found.curve.status.size),
-            found.stiffness_interval,
-            found.area_interval,
-            interrupted,
-            notes=[found.note] if found.note else [],
-        )
+        if isinstance(body, Surface) and found.curve.stiffness_error is None:
+            unknown.append(_no_grid_error(body, grid_error, found.interrupted))
+    result = Pressed(
+        source,
+        parts,
+        body,
+        found.curve,
+        _indices(forces or sorted({*depths}), asked or depths, found.curve.status.size),
+        loading.texts,
+        found.stiffness_interval,
+        found.area_interval,
+        interrupted,
+        pair,
+        filled=filled_regions(sources, parts, preparation) if out is not None else [],
+    )
+    result, broken = _answered(result, periodic, larger, frequency, theories)
     notes = [
+        *notes_on_parts(parts, suspicions),
+        *broken,
+        *found.curve.warnings,
+        *unknown,
+        *_left_out(result, frequency),
+        *notes_on_parts(parts, notes_on_points),
+        *([found.note] if found.note else []),
         *loading.meaning(body),
-        *notes_on_parts(parts),
         *notes_on_facing(body),
-        *result.notes,
-        *result.curve.warnings,
     ]
-    result = replace(result, pair=pair, notes=notes)
-    return _answered(result, modulus, periodic, larger, frequency, theories)
+    return replace(result, notes=notes)
+
+
+def _grid_error_is_estimated(
+    body: Body, wanted: bool | None, count: int, whole_curve: bool
+) -> bool:
+    """Whether the grid's error is estimated: as it is wanted, or else where that is cheap."""
+    if wanted is not None or isinstance(body, Line):
+        return bool(wanted)
+    cheap = whole_curve or body.heights.size * count <= _CHEAP
+    return cheap and min(body.shape) >= _COARSENED_FROM
+
+
+def _no_grid_error(body: Surface, wanted: bool | None, interrupted: bool) -> str:
+    """Say that values come without an interval, and why."""
+    if interrupted:
+        why = "interrupted before"
+    elif wanted is not None:
+        why = "not wanted"
+    elif min(body.shape) < _COARSENED_FROM:
+        why = f"fewer than {_COARSENED_FROM} points a side; --grid-error does it still"
+    else:
+        why = "it takes a third longer; --grid-error does it"
+    return f"grid error not estimated, so values come without intervals ({why})"
 
 
 def _has_spectrum(body: Body) -> bool:
@@ -186,59 +230,66 @@ def _has_spectrum(body: Body) -> bool:
     return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
 
 
-def _indices(forces: list[float], asked: list[float], count: int) -> NDArray[np.intp]:
-    """Which of the loads were asked for; all if none was named."""
-    return np.flatnonzero(np.isin(forces, asked)) if asked else np.arange(count)
+def _indices(levels: list[float], asked: list[float], count: int) -> NDArray[np.intp]:
+    """Which of the loads were asked for, in the order asked; all if none was named."""
+    return np.array([levels.index(load) for load in asked]) if asked else np.arange(count)
 
 
 def _answered(
     pressed: Pressed,
-    E_star: float,
     periodic: bool,
     of_interface: Answer | None,
     frequency: float | None,
     theories: Sequence[str],
-) -> Pressed:
-    """Add theories, answers and what the answers warn of."""
-    body, curve = pressed.body, pressed.curve
+) -> tuple[Pressed, list[str]]:
+    """Add theories, answers for the loads asked for; gives which assumptions do not hold."""
+    body, curve, pair = pressed.body, pressed.curve, pressed.pair
     found = None
     lines: list[TheoryCurve] = []
-    notes = pressed.notes
+    broken = []
     if isinstance(body, Surface) and _has_spectrum(body):
         alike = isotropy(body)
         if theories and alike < ALIKE:
-            notes = [
-                *notes,
-                f"theories assume equal directions; slopes differ, least {alike:.2f} "
-                "of the largest",
-            ]
+            broken.append(
+                f"theories assume equal directions; slopes differ, least {alike:.2f} of the largest"
+            )
         found = moments(body)
         pressures = curve.force[curve.converged] / body.area
         if pressures.size:
-            lines = [theory(name, body, E_star, pressures) for name in theories]
-    if pressed.pair is None:
-        return replace(pressed, theories=lines, notes=notes)
-    if of_interface is None and not periodic:
-        of_interface = stiffness_of_the_piece(body, curve, pressed.stiffness_interval)
+            lines = [theory(name, body, curve.E_star, pressures) for name in theories]
+    if pair is None:
+        return replace(pressed, theories=lines), broken
+    ends = pressed.ends_at_asked(pressed.stiffness_interval)
+    if of_interface is not None:
+        of_interface = of_interface.at(pressed.asked)
+    elif not periodic:
+        of_interface = stiffness_of_the_piece(body, pressed.at_asked, ends)
     given = answers(
-        curve,
+        pressed.at_asked,
         pressed.area,
-        pressed.pair,
+        pair,
         interface_stiffness=of_interface,
         rms_height=body.rms_height,
         rms_slope=found.rms_slope if found else None,
         frequency=frequency,
-        stiffness_interval=pressed.stiffness_interval,
-        area_interval=pressed.area_interval,
+        stiffness_interval=ends,
+        area_interval=pressed.ends_at_asked(pressed.area_interval),
     )
     index = None
-    if found is not None and pressed.pair.hardness is not None:
-        index = plasticity_index(
-            E_star, pressed.pair.hardness, (found.summit_deviation, found.summit_radius)
-        )
+    if found is not None and pair.hardness is not None:
+        summits = found.summit_deviation, found.summit_radius
+        index = plasticity_index(curve.E_star, pair.hardness, summits)
+    broken = elastic_warnings(given, index) + broken
     if of_interface is not None:
-        notes = [*notes, f"the interface stiffness k_i is {of_interface.validity}"]
-    notes = [*notes, *elastic_warnings(given, index)]
-    if frequency is not None and pressed.pair.both("impedance") is None:
-        notes.append("no reflection: the density of both materials is needed")
-    return replace(pressed, answers=given, theories=lines, notes=notes)
+        broken.append(f"the interface stiffness k_i is {of_interface.validity}")
+    return replace(pressed, answers=given, theories=lines), broken
+
+
+def _left_out(pressed: Pressed, frequency: float | None) -> list[str]:
+    """Say which answers are not there, and why."""
+    if pressed.pair is None:
+        return []
+    notes = left_out(pressed.pair, frequency)
+    if pressed.curve.area_fraction is None:
+        notes.append("no contact area: the reduced model of a line does not predict it")
+    return notes

@@ -10,7 +10,7 @@ from pathlib import Path
 from roughline.errors import InputError
 from roughline.materials import Material, material
 from roughline.preparation import Preparation
-from roughline.quantities import in_si
+from roughline.quantities import in_si, refuse_decimal_comma
 from roughline.report.client import write_report
 from roughline.report.curves import Progress
 from roughline.report.loading import DEFAULT_LOADS, Loading
@@ -31,7 +31,7 @@ def ask(
     against: Path | None,
     preparation: Preparation | None,
     periodic: bool,
-    grid_error: bool,
+    grid_error: bool | None,
     friction: float | None,
     frequency: str | None,
     theories: Sequence[str],
@@ -111,6 +111,7 @@ def ask(
 
 def _pair(text: str) -> tuple[Material, Material]:
     """Read two materials."""
+    refuse_decimal_comma(text, "materials")
     parts = [part.strip() for part in text.split(",")]
     if len(parts) != 2:
         raise InputError(

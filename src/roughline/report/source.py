@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+
+import numpy as np
 
 from roughline.errors import InputError
 from roughline.measured import measurement, read, suspicions
@@ -59,9 +61,23 @@ class Source:
         filling = Missing(self.missing, self.most_missing)
         return [str(each) for each in found.obstacles(self.unit, self.sizes, filling)]
 
+    def missing_points(self) -> Body | None:
+        """Where points are missing, as heights of 1; None where they were filled before."""
+        found = measurement(self.file, self.channel)
+        if found.is_own:
+            return None
+        marked = replace(found, heights=found.unknown.astype(np.float64))
+        body = marked.body(self.unit, self.sizes, Missing(), "none")
+        return replace(body, heights=np.sign(body.heights))
+
 
 def notes_on_body(body: Body) -> list[str]:
-    """Say what was filled, what spikes there are, and what is suspicious."""
+    """Say what is suspicious, what was filled, and what spikes there are."""
+    return suspicions(body) + notes_on_points(body)
+
+
+def notes_on_points(body: Body) -> list[str]:
+    """Say what was filled, and what spikes there are."""
     notes = []
     if body.settings.get("missing_points"):
         count, share = body.settings["missing_points"], float(body.settings["missing_share"])
@@ -73,7 +89,7 @@ def notes_on_body(body: Body) -> list[str]:
         )
     if body.settings.get("outliers_removed"):
         notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")
-    return notes + suspicions(body)
+    return notes
 
 
 def read_parts(
@@ -81,6 +97,21 @@ def read_parts(
 ) -> list[Body]:
     """Read and prepare each topography; missing points are filled as stated or otherwise."""
     return [prepared(each.read(filling), preparation) for each in sources]
+
+
+def filled_regions(
+    sources: Sequence[Source], parts: Sequence[Body], preparation: Preparation | None
+) -> list[Surface | None]:
+    """Read for each map where points were filled: 1 there, 0 elsewhere; None if none is known.
+
+    They are cropped like the map, and have its file's points.
+    """
+    crop = Preparation(crop=preparation.crop if preparation else None, trend="none")
+    found: list[Surface | None] = []
+    for source, part in zip(sources, parts, strict=True):
+        marks = source.missing_points() if part.settings.get("missing_points") else None
+        found.append(crop.applied(marks) if isinstance(marks, Surface) else None)
+    return found
 
 
 def together(parts: Sequence[Body]) -> Body:
@@ -122,13 +153,12 @@ def notes_on_facing(body: Body) -> list[str]:
     return notes
 
 
-def notes_on_parts(parts: Sequence[Body]) -> list[str]:
-    """Say of each topography what :func:`notes_on_body` says."""
+def notes_on_parts(parts: Sequence[Body], say: Callable[[Body], list[str]]) -> list[str]:
+    """Say something of each topography, and of which of two it is."""
     if len(parts) == 1:
-        return notes_on_body(parts[0])
-    names = ("first", "second")
+        return say(parts[0])
     return [
         f"{which} body: {note}"
-        for which, part in zip(names, parts, strict=True)
-        for note in notes_on_body(part)
+        for which, part in zip(("first", "second"), parts, strict=True)
+        for note in say(part)
     ]

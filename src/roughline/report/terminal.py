@@ -30,13 +30,20 @@ from roughline.curve import Status
 from roughline.quantities import engineering
 from roughline.report.compared import Compared, compared_table, verdict
 from roughline.report.described import Described, described_table, missing_map
+from roughline.report.page import value_and_interval
 from roughline.report.pressed import Pressed
-from roughline.report.pressed_tables import answer_table, curve_table
+from roughline.report.pressed_tables import (
+    UNRESOLVED,
+    answer_table,
+    curve_table,
+    star_is_shown,
+)
 from roughline.theories import TheoryCurve
 from roughline.topography import Body, Surface
 
 _MOST_SHOWN = 200  # loads that anybody reads as a table
 _MOST_ANSWERED = 3  # loads whose answers fit on a screen
+_SHORTEST_NAME = 20  # columns that the name of an answer needs at least
 
 
 class _Rate(ProgressColumn):
@@ -112,21 +119,23 @@ def print_pressed(pressed: Pressed) -> None:
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
     many = pressed.asked.size > _MOST_SHOWN
+    answered = pair is not None and pressed.asked.size <= _MOST_ANSWERED
     if many:
         console.print(_in_one_line(pressed), highlight=False, soft_wrap=True)
-    elif pair is not None and pressed.asked.size <= _MOST_ANSWERED:
-        header, rows = answer_table(pressed)  # formulas are for the report
-        console.print(_table(header[:-1], [row[:-1] for row in rows]))
+    elif answered:
+        _print_table(console, *answer_table(pressed, slice(None)))  # formulas are for the report
     else:
-        console.print(_table(*curve_table(pressed)))
-    if not curve.resolved[curve.converged].all():
-        console.print("* fewer than ten points in contact: the grid decides, not the surface")
-    for i in np.flatnonzero(~curve.converged) if not many else ():
-        console.print(f"load {i + 1}: {Status(curve.status[i]).reason}", highlight=False)
+        _print_table(console, *curve_table(pressed))
+    if star_is_shown(pressed) and not many:
+        console.print(f"* {UNRESOLVED}", highlight=False)
+    if pair is not None and not answered:
+        console.print(f"answers at more than {_MOST_ANSWERED} loads are for --json and --report")
+    for failure in _failures(pressed) if not many else ():
+        console.print(failure, highlight=False)
     for theory in pressed.theories:
         console.print(_theory_line(theory, pressed), highlight=False, soft_wrap=True)
     for note in pressed.notes:
-        console.print(f"note: {note}", highlight=False, soft_wrap=True)
+        console.print(f"note: {note}", highlight=False, soft_wrap=not console.is_terminal)
     print_files(pressed.files)
 
 
@@ -143,6 +152,17 @@ def _in_one_line(pressed: Pressed) -> str:
     for status, count in Counter(curve.status[~solved].tolist()).items():
         text += f"; {count} not solved ({Status(status).reason})"
     return f"{text}; each of them: --out DIR or --json"
+
+
+def _failures(pressed: Pressed) -> list[str]:
+    """Say which loads were not solved, and why."""
+    curve = pressed.curve
+    asked = dict(zip(pressed.asked.tolist(), pressed.headings, strict=True))
+    told = (
+        f"load {asked.get(int(i), 'of the curve')}: {Status(curve.status[i]).reason}"
+        for i in np.flatnonzero(~curve.converged)
+    )
+    return list(dict.fromkeys(told))  # loads of the curve alone share a line
 
 
 def _theory_line(theory: TheoryCurve, pressed: Pressed) -> str:
@@ -205,8 +225,34 @@ def print_status(store: Store) -> None:
         console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)
 
 
+def _print_table(console: Console, header: list[str], rows: list[list[str]]) -> None:
+    """Print a table of names and values; where it is too wide, intervals stand below values."""
+    if _width(header, rows) > console.width:
+        rows = [[_stacked(cell) for cell in row] for row in rows]
+    table = _table(header, rows)
+    table.columns[0].justify = "left"
+    if _width(header, [["", *row[1:]] for row in rows]) + _SHORTEST_NAME <= console.width:
+        for column in table.columns[1:]:
+            column.no_wrap = True  # the names are broken in lines instead
+    console.print(table)
+
+
+def _stacked(cell: str) -> str:
+    """A value, and its interval without brackets below it."""
+    value, *interval = value_and_interval(cell)
+    return "\n".join([value, *(each.strip("()") for each in interval)])
+
+
+def _width(header: list[str], rows: list[list[str]]) -> int:
+    """Columns of the screen that a table takes, with two between its own."""
+    columns = zip(header, *rows, strict=True)
+    return sum(
+        2 + max(len(line) for cell in cells for line in cell.split("\n")) for cells in columns
+    )
+
+
 def _table(header: list[str], rows: list[list[str]]) -> Table:
-    table = Table(box=None, header_style="bold")
+    table = Table(box=None, header_style="bold", pad_edge=False, padding=(0, 2, 0, 0))
     for name in header:
         table.add_column(name, justify="right", overflow="fold")
     for row in rows:

@@ -1,0 +1,337 @@
+"""What `press` says of loads, of intervals and of what is left out: on screen, JSON, report."""
+
+import json
+import re
+from datetime import date
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import roughline as rl
+from roughline.report import curves, pressing
+from roughline.report.loading import Loading
+from roughline.report.pressed_figures import draw_contact, draw_filled
+from roughline.report.pressed_tables import answer_table, quantity, star_is_shown
+from roughline.report.pressing import press_file
+from roughline.report.source import Source
+from roughline.report.terminal import print_pressed
+
+PAIR = ("--materials", "steel,copper")
+INTERVAL = re.compile(r"± \S+%|\S+ to \S+")
+
+
+@pytest.fixture
+def rough(tmp_path):
+    """A surface of 64 x 64 points of which all are known."""
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+    path = tmp_path / "rough.nc"
+    rl.write(rl.Surface(surface.heights, surface.sizes, "m"), path)
+    return path
+
+
+@pytest.fixture
+def holed(tmp_path):
+    """An array of 64 x 64 points, 3 x 5 of which are missing."""
+    heights = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3).heights.copy()
+    heights[10:13, 20:25] = np.nan
+    np.save(tmp_path / "holed.npy", heights)
+    return tmp_path / "holed.npy", "--unit", "m", "--size", "1 mm"
+
+
+def solution(file, *loads, out=None, **named):
+    """Press a file for steel on copper without the command line."""
+    pair = rl.material("steel"), rl.material("copper")
+    told = []
+    return press_file(
+        Source(file), Loading(loads), materials=pair, out=out, announce=told.append, **named
+    )
+
+
+def table_lines(out):
+    """Lines of the table on screen."""
+    lines = out.splitlines()
+    first = next(i for i, line in enumerate(lines) if line.strip().startswith("normal force")) - 1
+    last = next(i for i, line in enumerate(lines) if line.startswith(("*", "note:")))
+    return lines[first:last]
+
+
+def test_loads_keep_their_order_and_words_and_are_solved_once(rough, invoke, monkeypatch):
+    solved = []
+    original = curves.press
+
+    def press(*arguments, **named):
+        solved.append(named["forces"])
+        return original(*arguments, **named)
+
+    monkeypatch.setattr(curves, "press", press)
+    loads = ("--load", "10 N", "--load", "2 N", "--load", "2000 mN")
+    code, out, errors = invoke("press", rough, *PAIR, *loads, "--json")
+    assert code == 0, errors
+    found = json.loads(out)
+    assert found["loads"] == ["10 N", "2 N", "2000 mN"]
+    assert found["curve"]["force"] == [10.0, 2.0, 2.0]
+    assert found["answers"]["F"]["values"] == [10.0, 2.0, 2.0]
+    assert np.argsort(found["curve"]["depth"])[-1] == 0
+    assert solved == [[2.0, 10.0]]
+    code, out, _ = invoke("press", rough, *PAIR, *loads)
+    assert table_lines(out)[0].split() == ["10", "N", "2", "N", "2000", "mN"]
+
+
+def test_depths_keep_their_order_too(rough, invoke):
+    code, out, errors = invoke(
+        "press", rough, "--modulus", "1 GPa", "--depth", "1 um", "--depth", "300 nm", "--json"
+    )
+    assert code == 0, errors
+    found = json.loads(out)
+    assert (found["loads"], found["curve"]["depth"]) == (["1 um", "300 nm"], [1e-6, 3e-7])
+
+
+def test_filling_alone_makes_no_interval(holed, invoke):
+    arguments = ("press", *holed, *PAIR, "--load", "10 N")
+    code, out, errors = invoke(*arguments, "--no-grid-error")
+    assert code == 0, errors
+    assert not INTERVAL.search("\n".join(table_lines(out)))
+    assert "grid error not estimated, so values come without intervals" in " ".join(out.split())
+    assert "filled by nearest instead: stiffness moves by" in " ".join(out.split())
+    code, out, _ = invoke(*arguments, "--no-grid-error", "--json")
+    found = json.loads(out)
+    assert found["stiffness_interval"] is None
+    assert all(each["low"] is None and each["high"] is None for each in found["answers"].values())
+
+
+def test_the_other_filling_is_pressed_under_the_same_loads(holed, invoke, monkeypatch):
+    pressed = []
+    original = curves.press
+
+    def press(*arguments, **named):
+        pressed.append(original(*arguments, **named))
+        return pressed[-1]
+
+    monkeypatch.setattr(curves, "press", press)
+    code, _, errors = invoke("press", *holed, "--modulus", "100 GPa", "--loads", "3")
+    assert code == 0, errors
+    first, other = (curve.force.tolist() for curve in pressed)
+    assert first == other
+
+
+def test_an_interval_holds_the_grids_error_and_the_fillings(holed, invoke):
+    code, out, errors = invoke("press", *holed, *PAIR, "--load", "10 N", "--json")
+    assert code == 0, errors
+    found = json.loads(out)
+    low, high = (end[0] for end in found["stiffness_interval"])
+    value, error = found["curve"]["stiffness"][0], found["curve"]["stiffness_error"][0]
+    assert error > 1e-3 * value  # 64 points a side leave more open
+    assert low <= value / (1 + error / value) * (1 + 1e-12)
+    assert high >= value + error
+
+
+def test_no_interval_is_of_width_nothing(tmp_path, invoke):
+    np.save(tmp_path / "flat.npy", np.zeros((64, 64)))  # its area is the same on every grid
+    code, out, errors = invoke(
+        *("press", tmp_path / "flat.npy", "--unit", "m", "--size", "1 mm"),
+        *("--modulus", "100 GPa", "--load", "1 N"),
+    )
+    assert code == 0, errors
+    assert "100% ± 0.01%" in " ".join(out.split())
+    half_widths = [float(each) for each in re.findall(r"± (\S+)%", out)]
+    assert min(half_widths) >= 0.01
+
+
+@pytest.mark.parametrize("arguments", [("--load", "10 N"), ("--loads", "5")])
+def test_the_grids_error_is_estimated_unasked_where_it_is_cheap(
+    rough, invoke, monkeypatch, arguments
+):
+    code, out, errors = invoke("press", rough, *PAIR, *arguments)
+    assert code == 0, errors
+    assert INTERVAL.search(out)
+    assert "grid error not estimated" not in out
+    monkeypatch.setattr(pressing, "_CHEAP", 10)
+    code, out, _ = invoke("press", rough, *PAIR, *arguments)
+    assert "grid error not estimated" in out
+    assert "third longer; --grid-error does it" in " ".join(out.split())
+    code, out, _ = invoke("press", rough, *PAIR, *arguments, "--grid-error")
+    assert "grid error not estimated" not in out
+
+
+def test_few_points_have_no_interval_unasked(tmp_path, invoke):
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(33, 3)
+    rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "few.nc")
+    code, out, _ = invoke("press", tmp_path / "few.nc", *PAIR, "--load", "10 N")
+    assert code == 0
+    assert "fewer than 64 points a side; --grid-error does it still" in " ".join(out.split())
+    code, out, errors = invoke(
+        "press", tmp_path / "few.nc", *PAIR, "--load", "10 N", "--grid-error"
+    )
+    assert code == 0, errors
+    assert INTERVAL.search("\n".join(table_lines(out)))
+
+
+def test_a_star_stands_at_the_load_that_the_grid_decides(rough, invoke):
+    code, out, errors = invoke("press", rough, *PAIR, "--load", "10 N", "--load", "1 mN")
+    assert code == 0, errors
+    assert table_lines(out)[0].split() == ["10", "N", "1", "mN", "*"]
+    assert "* fewer than ten points in contact" in out
+
+
+def test_no_star_is_explained_that_is_not_shown(rough, capsys):
+    pressed = solution(rough, "10 N", whole_curve=True)
+    assert not pressed.curve.resolved.all()  # lighter loads of a report's figure
+    print_pressed(pressed)
+    assert "fewer than ten points in contact" not in capsys.readouterr().out
+    assert not star_is_shown(pressed)
+
+
+def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    loads = ("--load", "10 N", "--load", "2 MPa", "--load", "0.1 N")
+    code, out, errors = invoke("press", *holed, *PAIR, *loads)
+    assert code == 0, errors
+    lines = table_lines(out)
+    assert max(map(len, lines)) <= 80
+    assert len(lines) - 1 <= 2 * 17  # two lines a quantity at most
+    code, out, _ = invoke("press", *holed, *PAIR, *loads[:2])
+    assert len(table_lines(out)) == 1 + 17  # one load: one line a quantity
+
+
+def test_a_report_speaks_to_a_client(holed, invoke, tmp_path):
+    file, *options = holed
+    code, _, errors = invoke(
+        *("press", file, *options, *PAIR, "--load", "10 N", "--load", "1 N"),
+        *("--load", "1 mN", "--report", tmp_path / "report"),
+    )
+    assert code == 0, errors
+    page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    assert date.today().isoformat() in page
+    assert str(tmp_path) not in page
+    assert "roughline press holed.npy --unit m" in page
+    assert "periodic=True" not in page
+    headings = "".join(
+        f"<th class=.number.>{each}</th>" for each in ("10 N", "1 N .*?", r"1 mN \*")
+    )
+    assert re.search(headings, page)
+    lead = re.search('<p class="lead">(.*?)</p>', page)[1]
+    names = re.findall("<td>([^<]*)</td><td class=.number", page)
+    for name in ("contact stiffness", "contact area fraction", "thermal conductance per area"):
+        assert name in lead
+        assert sum(each.startswith(name) for each in names) == 1
+    items = re.findall("<li>(.*?)</li>", page)
+    told = (
+        "A star behind a load: fewer than ten points",
+        "hardness",
+        "plasticity",
+        "carried within",
+        "15 missing points",
+        "Load 10 N",
+    )
+    order = [next(i for i, item in enumerate(items) if words in item) for words in told]
+    assert order == sorted(order)  # gravest first
+    assert "all of the load on one plastic spot" in page  # why Holm's resistance differs
+
+
+def test_one_area_is_told_everywhere(rough, tmp_path):
+    pressed = solution(rough, "1 N", "10 N", out=tmp_path / "out", whole_curve=True)
+    axes = Figure().subplots()
+    draw_contact(axes, pressed.body, pressed.curve)
+    area = next(each for each in pressed.answers if each.symbol == "A/A_0")
+    told = quantity(area, 1).split("%")[0]
+    assert axes.get_title() == f"corrected area {told}% at 10 N"
+    assert area.values[1] == pressed.at_asked.area_fraction_corrected[1]
+
+
+def test_filled_points_are_marked_where_they_were(holed, tmp_path):
+    file, *_ = holed
+    source = Source(file, unit="m", sizes=(1e-3,))
+    missing = np.isnan(np.load(file))
+    assert (source.missing_points().heights == missing).all()
+    pressed = press_file(
+        source,
+        Loading(["1 N"]),
+        E_star=1e11,
+        preparation=rl.Preparation(crop=(1.5625e-4, 1e-3, 0, 1e-3)),
+        out=tmp_path / "out",
+        announce=print,
+    )
+    (marks,) = pressed.filled
+    assert (marks.heights == missing[10:]).all()
+    axes = Figure().subplots()
+    draw_filled(axes, pressed)
+    outline = np.concatenate([path.vertices for path in axes.collections[-1].get_paths()])
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    pixel = 1 / 64  # mm
+    assert low == pytest.approx([0, 20 * pixel], abs=pixel)
+    assert high == pytest.approx([3 * pixel, 25 * pixel], abs=pixel)
+
+
+def test_what_is_left_out_is_named_with_the_reason(rough, invoke):
+    code, out, errors = invoke(
+        *("press", rough, "--materials", "E=70 GPa nu=0.33, glass", "--load", "1 N"),
+        *("--frequency", "5 MHz", "--json"),
+    )
+    assert code == 0, errors
+    notes = json.loads(out)["notes"]
+    for answer, quantity_, lacking in (
+        ("no contact pressure over hardness", "hardness", "the first body (given)"),
+        ("no constriction resistance", "resistivity", "the first body (given) and of the second"),
+        ("no thermal conductance", "conductivity", "the first body (given)"),
+        ("no reflection", "density", "the first body (given)"),
+    ):
+        (note,) = [note for note in notes if note.startswith(answer)]
+        assert f"the {quantity_} of {lacking}" in note
+        assert f'"{quantity_}=..."' in note
+    code, out, _ = invoke(*("press", rough, *PAIR, "--load", "1 N", "--json"))
+    assert not [note for note in json.loads(out)["notes"] if note.startswith("no ")]
+    code, out, _ = invoke(
+        *("press", rough, "--materials", "steel,rigid", "--load", "1 N", "--frequency", "5 MHz"),
+        "--json",
+    )
+    notes = json.loads(out)["notes"]
+    assert not [note for note in notes if "hardness of" in note]  # a rigid body needs none
+    assert [note for note in notes if note.startswith("no reflection: a rigid")]
+
+
+def test_messages_are_of_the_loads_that_are_shown(rough):
+    """The lighter loads of a report's curve have other contact pressures."""
+    alone, whole = (solution(rough, "10 N", whole_curve=whole) for whole in (False, True))
+    warnings = [
+        [note for note in pressed.notes if "of the softer body's hardness" in note]
+        for pressed in (alone, whole)
+    ]
+    assert warnings[0] == warnings[1] != []
+
+
+def test_a_table_has_the_loads_that_are_wanted(rough):
+    pressed = solution(rough, "30 N", "10 N", "20 N")
+    header, rows = answer_table(pressed, slice(1, 3))
+    assert header == ["", "10 N", "20 N"]
+    assert rows[0] == ["normal force F", "10 N", "20 N"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--materials", "E=70 GPa nu=0,33, copper", "--load", "1 N"), 'a comma in "0,33"'),
+        ((*PAIR, "--load", "1,5 N"), 'a comma in "1,5"'),
+        ((*PAIR, "--load", "1 N", "--crop", "0,5 um, 5 um, 0 um, 5 um"), 'a comma in "0,5"'),
+    ],
+)
+def test_a_decimal_comma_is_blamed(rough, invoke, arguments, message):
+    code, _, errors = invoke("press", rough, *arguments)
+    assert code == 2
+    assert message in errors
+    assert "numbers take a decimal point" in errors
+
+
+def test_units_as_they_stand_in_tables(rough, invoke):
+    code, out, errors = invoke(
+        *("press", rough, "--materials", "steel conductivity=20 W/(m K), copper"),
+        *("--load", "2 N/mm2", "--json"),
+    )
+    assert code == 0, errors
+    found = json.loads(out)
+    assert found["curve"]["force"] == [pytest.approx(2.0)]  # on a square millimetre
+    kappa = 2 * 20 * 401 / (20 + 401)
+    stiffness = found["curve"]["stiffness"][0]
+    assert found["answers"]["G"]["values"][0] == pytest.approx(
+        kappa * stiffness / found["E_star"], rel=1e-12
+    )
