@@ -177,5 +177,5 @@ def stiffness_of_the_larger_surface(
         low,
         high,
         "dF/dd of the map in a periodic half-space under the same force",
-        f"of the larger surface that the map was cut out of, with an interval for it; {held}",
+        f"of the larger surface that the map was cut out of; {held}",
     )

@@ -262,6 +262,8 @@ def _answered(
     ends = pressed.ends_at_asked(pressed.stiffness_interval)
     if of_interface is not None:
         of_interface = of_interface.at(pressed.asked)
+        if ends is None:  # what one piece leaves open is narrower than what is unknown
+            of_interface = replace(of_interface, low=None, high=None)
     elif not periodic:
         of_interface = stiffness_of_the_piece(body, pressed.at_asked, ends)
     given = answers(
