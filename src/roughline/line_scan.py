@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,7 +14,6 @@ from roughline.curve import Curve
 from roughline.isotropic import IsotropicSpectrum
 from roughline.profile import profile_spectrum
 from roughline.scan_bins import ScanBins
-from roughline.spectral_fit import SelfAffineFit, fit_self_affine
 from roughline.topography import Line
 from roughline.trust import trust_map
 
@@ -73,8 +73,9 @@ def press_scan(
     """
     scans = [each for each in (scan, against) if each is not None]
     springs = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE * scan.heights.size)
+    bins = [ScanBins.of(profile_spectrum(each)) for each in scans]
     surfaces = [
-        surfaces_of(each, np.random.SeedSequence(rng, spawn_key=(LINES, which)))
+        _surfaces(bins[which], each.length, np.random.SeedSequence(rng, spawn_key=(LINES, which)))
         for which, each in enumerate(scans)
     ]
     curves = []
@@ -106,40 +107,37 @@ def press_scan(
             "the square of the scan's length, is assumed",
         ),
     )
-    less, more = _full_over_reduced(median, fit_self_affine(profile_spectrum(scan)))
+    less, more = _full_over_reduced(median, bins[0])
     return PressedScan(median, low * less, high * more)
 
 
-def surfaces_of(scan: Line, rng: np.random.SeedSequence) -> list[IsotropicSpectrum]:
+def _surfaces(
+    bins: ScanBins, length: float, rng: np.random.SeedSequence
+) -> Iterator[IsotropicSpectrum]:
     """Draw the spectra of surfaces that a scan may be cut from, one for each line."""
-    spectrum = profile_spectrum(scan)
-    q_low = 2 * math.pi / scan.length
-    found = []
-    for power in ScanBins.of(spectrum).surfaces(LINES, np.random.default_rng(rng)):
+    q_low = 2 * math.pi / length
+    for power in bins.surfaces(LINES, np.random.default_rng(rng)):
         m = np.arange(1.0, power.size + 1)
-        found.append(
-            IsotropicSpectrum(
-                q=q_low * m,
-                C_2d=power / q_low**2,
-                length=scan.length,
-                rms_height=math.sqrt(2 * math.pi * float(m @ power)),
-                modes=np.zeros(m.size),
-                windowed=False,
-            )
+        yield IsotropicSpectrum(
+            q=q_low * m,
+            C_2d=power / q_low**2,
+            length=length,
+            rms_height=math.sqrt(2 * math.pi * float(m @ power)),
+            modes=np.zeros(m.size),
+            windowed=False,
         )
-    return found
 
 
-def _full_over_reduced(curve: Curve, fit: SelfAffineFit) -> tuple[Real, Real]:
+def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real]:
     """Factors between which the full model's stiffness is over the reduced one's, by the map.
 
-    At the nearest place of the map, for spectra and loads that are beyond it.
+    For the law that explains the scan best; at the nearest place of the map, for laws and loads
+    that are beyond it.
     """
     table = trust_map()
-    dimension = float(np.clip(3 - fit.hurst, *table.fractal_dimensions[[0, -1]]))
-    roll_off = float(
-        np.clip((fit.q_roll or fit.q_low) / fit.q_low, *table.roll_off_ratios[[0, -1]])
-    )
+    hurst, roll, _ = bins.laws.values(*bins.laws.best)
+    dimension = float(np.clip(3 - hurst, *table.fractal_dimensions[[0, -1]]))
+    roll_off = float(np.clip(roll, *table.roll_off_ratios[[0, -1]]))
     loads = np.clip(curve.force_bar, *table.force_bars[[0, -1]])
     found = [table.at(dimension, load, roll_off) for load in loads]
     low, high = (np.array([1 + getattr(each, end) for each in found]) for end in ("low", "high"))

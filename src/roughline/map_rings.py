@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,8 +59,9 @@ class MapRings:
         """How many modes of the map each ring stands for."""
         return 2 * np.pi * self.means.q
 
+    @cached_property
     def laws(self) -> Laws:
-        """Hold every law against the rings."""
+        """Every law, held against the rings."""
         rolls, ends = self._rolls(), self._ends()
         # ends depend little on the rest: the likely ones are found with few laws
         some = [ends.held(self._law(HURSTS[::16], roll), self.means)[0] for roll in rolls[::4]]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,8 +57,9 @@ class ScanBins:
         """How many modes of the scan each bin stands for."""
         return 2 * np.diff(self.edges)
 
+    @cached_property
     def laws(self) -> Laws:
-        """Hold every law against the bins."""
+        """Every law, held against the bins."""
         means, cuts, bins = self.means, self.cuts, self.means.q.size
         rolls = cuts.q[cuts.q < self.edges[-1] / 2]
         # a law ends with a bin, or goes on beyond the last one
@@ -66,18 +68,20 @@ class ScanBins:
         ends = np.append(self.edges[last[:-1] + 1], math.inf)
         margins = np.append(np.diff(self.edges)[last[:-1]], 0.0)
         beyond = np.array([means.free_deviance(k + 1) for k in last])
-        weight = np.where(np.arange(bins) <= last[:, np.newaxis], means.weight, 0.0)
-        total, powers = weight.sum(axis=1), weight @ np.log(means.power)
+        inside = np.arange(bins)[:, np.newaxis] <= last
+        weight = np.where(inside, means.weight[:, np.newaxis], 0.0)  # over (bin, end)
+        powers = np.log(means.power) @ weight
+        total, scaled = weight.sum(axis=0), weight * means.power[:, np.newaxis]
         hursts = HURSTS[::2]  # a scan does not tell them closer
         deviance = np.full((hursts.size, rolls.size, last.size), math.inf)
         log_level = np.zeros(deviance.shape)
         for j, roll in enumerate(rolls):
             parts = np.exp(power_law(cuts.q, hursts, roll))[:, np.newaxis] * cuts.matrix
-            sums = np.cumsum(parts, axis=2)[:, :, levels - 1].transpose(0, 2, 1)
-            law = np.log(np.maximum(sums, _NOTHING))  # over (hurst, end, bin)
-            level = (weight * means.power / np.maximum(sums, _NOTHING)).sum(axis=2) / total
+            sums = np.maximum(np.cumsum(parts, axis=2)[:, :, levels - 1], _NOTHING)
+            level = np.einsum("be,hbe->he", scaled, 1 / sums) / total
             log_level[:, j] = np.log(level)
-            own = 2 * ((weight * law).sum(axis=2) + total * log_level[:, j] - powers) + beyond
+            laws = np.einsum("be,hbe->he", weight, np.log(sums))
+            own = 2 * (laws + total * log_level[:, j] - powers) + beyond
             some = ends > roll  # else no power law is left
             deviance[:, j, some] = own[:, some]
         return Laws(hursts, rolls, ends, margins, deviance, log_level)
@@ -110,7 +114,7 @@ class ScanBins:
         ndarray, shape (waves,)
             Powers q_low² C_2d at the scan's waves 1, 2, ...
         """
-        laws, means = self.laws(), self.means
+        laws, means = self.laws, self.means
         m = np.arange(1.0, round(float(self.edges[-1])))
         of_wave = np.searchsorted(self.edges[1:-1], m)
         for law in zip(*laws.drawn(count, generator), strict=True):

@@ -143,7 +143,7 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
         ScanBins.of(spectrum) if isinstance(spectrum, ProfileSpectrum) else MapRings.of(spectrum)
     )
     q_low, last = 2 * math.pi / spectrum.length, float(means.means.q[-1])
-    laws = means.laws()
+    laws = means.laws
     best = laws.best
     hurst, roll, end = laws.values(*best)
     likely = laws.within(stats.chi2.ppf(_LEVEL, 1))
