@@ -275,6 +275,8 @@ def given_sizes(
     """
     if given is None:
         raise sizes_needed(name, points)
+    if isinstance(given, str):
+        refuse_decimal_comma(given, "sizes")
     each = given.split(",") if isinstance(given, str) else np.atleast_1d(np.array(given, object))
     factor = metres_per(unit) if unit else 1.0
     try:

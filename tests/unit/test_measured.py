@@ -359,6 +359,7 @@ def test_sizes_without_a_unit_given_are_in_metres(tmp_path):
         ([[1, 2], [3, 4]], "give 2 positive lengths"),
         (("1 mm", None), "give 2 positive lengths"),
         ("1, 2", 'sizes is "1", without a unit'),
+        ("0,5 mm, 1 mm", 'with a comma in "0,5"'),
         ("1 mm, 2 parsnip", "is no quantity in m"),
     ],
 )
