@@ -73,7 +73,7 @@ def true_lines(hurst, roll, points):
     """Stiffness of reduced lines of the true spectrum, over (line, load), and the forces."""
     spectrum = of_piece(of_parent(hurst, roll, points / 2, SCAN_OF))
     springs = SPRINGS_A_POINT * points
-    forces = LOADS * math.sqrt(spectrum.lattice_moment(0, springs, "line"))
+    forces = LOADS * spectrum.lattice(springs, "line").rms_height
     seed = [round(10 * hurst), roll, points]
     lines = (spectrum.line(springs, np.random.default_rng([*seed, i])) for i in range(TRUE_LINES))
     stiffness = [rl.press(line, E_star=1.0, forces=forces).stiffness for line in lines]
@@ -160,14 +160,13 @@ def fit_cells(rows):
         width(rolled, "roll"),
         width(ended, "cut"),
         width(rows, "rms"),
-        f"{rows.seconds.median():.1f}",
     ]
 
 
 def fit_tables(rows):
     """By size, and by exponent."""
-    columns = ["pieces", *FITTED.values(), "error of H", "width of H"]
-    columns += ["of roll-off", "of cutoff", "of rms", "s"]
+    columns = ["pieces", *(f"{name} held" for name in FITTED.values()), "mean error of H"]
+    columns += ["width: H", "roll-off", "cutoff", "rms"]
     sizes = {"map": "{0} x {0}", "scan": "{0} points"}
     table(["piece", *columns])
     for (kind, points), some in rows.groupby(["kind", "points"]):
@@ -199,14 +198,15 @@ def scan_tables(rows):
         *rows.groupby(key),
     ]
     print(f"\n{loads}")
-    table(["points", "H", "roll-off", "scans", "k / mean of lines", "mean held", "lines held", "±"])
+    columns = ["k over true lines", "their mean held", "single lines held", "interval: factor"]
+    table(["points", "H", "roll-off", "scans", *columns])
     for names, some in groups:
         lines = " / ".join(f"{each:.0%}" for each in some.groupby("load").lines_held.mean())
         widths = np.sqrt(some.high / some.low).groupby(some.load).median()
         spans = " / ".join(f"{each:.2f}" for each in widths)
         scans = len(some) // LOADS.size
         cells(*named(names), scans, *scan_cells(some, "true"), lines, spans)
-    table(["points", "H", "roll-off", "scans", "k / full model", "held"])
+    table(["points", "H", "roll-off", "scans", "k over the full model", "it is held"])
     for names, some in groups:
         solved = some[some.full.notna()]
         if len(solved):

@@ -23,7 +23,7 @@ def of_parent(hurst, roll, cut, longer):
 def of_piece(parent, q_high=None):
     """Its waves up to the length of the piece."""
     q_roll = max(parent.q_roll, Q_LOW)
-    C_0 = float(parent.C_2d([q_roll])[0])
+    C_0 = float(parent.continuum.C_2d([q_roll])[0])
     q_high = q_high or parent.q_high
     return rl.SelfAffine(hurst=parent.hurst, length=1.0, C_0=C_0, q_roll=q_roll, q_high=q_high)
 
@@ -31,9 +31,11 @@ def of_piece(parent, q_high=None):
 def rms_of_piece(parent):
     """Their rms height: on the lattice of wavevectors, and in the continuum beyond 128 waves."""
     counted = 128
-    square = of_piece(parent).lattice_moment(0, 2 * counted, "surface")
+    whole = of_piece(parent)
+    square = whole.lattice(2 * counted).moment(0)
     if parent.q_high > counted * Q_LOW:
-        square += of_piece(parent).moment(0) - of_piece(parent, counted * Q_LOW).moment(0)
+        less = of_piece(parent, counted * Q_LOW)
+        square += whole.continuum.moment(0) - less.continuum.moment(0)
     return math.sqrt(square)
 
 
@@ -48,7 +50,7 @@ def cropped(parent, points, rng, amplitudes):
 def cut_out(parent, points, rng):
     """Return the heights of a piece of a straight Gaussian cut, without its surface."""
     n = points * round(parent.length)
-    power = parent.C_profile(parent.q_low * np.arange(1, n // 2)) * parent.q_low
+    power = parent.continuum.C_profile(parent.q_low * np.arange(1, n // 2)) * parent.q_low
     modes = np.sqrt(power / 2) * (rng.normal(size=power.size) + 1j * rng.normal(size=power.size))
     first = rng.integers(0, n - points + 1)
     return np.fft.irfft([0, *modes, 0], n)[first : first + points] * n
