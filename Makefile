@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory grid-error interface-stiffness bootstrap-coverage persson contact-area robustness soak fuzz study published clean
+.PHONY: paper paper-full test check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak fuzz study published clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -30,6 +30,9 @@ memory: $(VENV)/installed
 
 grid-error: $(VENV)/installed
 	$(BIN)/python benchmarks/grid_error.py
+
+coverage: $(VENV)/installed
+	$(BIN)/python benchmarks/interval_coverage.py
 
 contact-area: $(VENV)/installed
 	$(BIN)/python benchmarks/contact_area.py
