@@ -72,12 +72,17 @@ class ScanBins:
         weight = np.where(inside, means.weight[:, np.newaxis], 0.0)  # over (bin, end)
         powers = np.log(means.power) @ weight
         total, scaled = weight.sum(axis=0), weight * means.power[:, np.newaxis]
+        # what each level adds to each bin, for each end
+        ended = cuts.matrix.T[:, :, np.newaxis] * (
+            np.arange(cuts.q.size)[:, np.newaxis, np.newaxis] < levels
+        )
+        ended = ended.reshape(cuts.q.size, -1)
         hursts = HURSTS[::2]  # a scan does not tell them closer
         deviance = np.full((hursts.size, rolls.size, last.size), math.inf)
         log_level = np.zeros(deviance.shape)
         for j, roll in enumerate(rolls):
-            parts = np.exp(power_law(cuts.q, hursts, roll))[:, np.newaxis] * cuts.matrix
-            sums = np.maximum(np.cumsum(parts, axis=2)[:, :, levels - 1], _NOTHING)
+            sums = np.exp(power_law(cuts.q, hursts, roll)) @ ended
+            sums = np.maximum(sums, _NOTHING).reshape(hursts.size, *weight.shape)
             level = np.einsum("be,hbe->he", scaled, 1 / sums) / total
             log_level[:, j] = np.log(level)
             laws = np.einsum("be,hbe->he", weight, np.log(sums))
