@@ -11,8 +11,8 @@ import sys
 import numpy as np
 
 import roughline as rl
-from roughline import bootstrap
-from roughline.averages import relative_difference
+from roughline.statistics import bootstrap
+from roughline.statistics.averages import relative_difference
 
 COUNTS = (10, 20, 60)
 SCATTERS = (0.1, 0.3, 0.6)

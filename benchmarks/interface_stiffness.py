@@ -18,9 +18,9 @@ import numpy as np
 from scipy.special import erfinv
 
 import roughline as rl
-from roughline.answers import saturated_stiffness
-from roughline.interface import interface_stiffness
-from roughline.larger_interface import roll_offs_along_a_side, share_of_the_whole
+from roughline.assessment.larger_surface import roll_offs_along_a_side, share_of_the_whole
+from roughline.engineering.answers import saturated_stiffness
+from roughline.engineering.formulas import interface_stiffness
 
 # wanted contact area fractions of the parent, about
 WANTED = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.33, 0.5, 0.65, 0.8, 0.9, 0.95)

@@ -19,7 +19,7 @@ import ducc0.fft
 import numpy as np
 
 import roughline as rl
-from roughline import fft
+from roughline.computing import fft
 from roughline.halfspace import operator as operators
 
 TABLE = Path(__file__).parents[1] / "docs" / "speed-table.md"

@@ -9,15 +9,22 @@ from typing import TYPE_CHECKING, Any
 from roughline._version import __version__
 
 if TYPE_CHECKING:
-    from roughline.averages import average as average
-    from roughline.body_file import write as write
-    from roughline.characterisation import roughness as roughness
-    from roughline.comparison import Comparison as Comparison
-    from roughline.comparison import compare as compare
-    from roughline.contact import press as press
-    from roughline.curve import Curve as Curve
-    from roughline.curve import Fields as Fields
-    from roughline.curve import Status as Status
+    from roughline.assessment.line_scan import press_scan as press_scan
+    from roughline.comparison.models import Comparison as Comparison
+    from roughline.comparison.models import compare as compare
+    from roughline.comparison.trust import trust_map as trust_map
+    from roughline.computing.fft import set_threads as set_threads
+    from roughline.contact.curve import Curve as Curve
+    from roughline.contact.curve import Fields as Fields
+    from roughline.contact.curve import Status as Status
+    from roughline.contact.estimates import Estimate as Estimate
+    from roughline.contact.estimates import estimate as estimate
+    from roughline.contact.press import press as press
+    from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
+    from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
+    from roughline.engineering.materials import Material as Material
+    from roughline.engineering.materials import contact_modulus as contact_modulus
+    from roughline.engineering.materials import material as material
     from roughline.errors import ClusterError as ClusterError
     from roughline.errors import ContinuumWarning as ContinuumWarning
     from roughline.errors import ConvergenceError as ConvergenceError
@@ -26,50 +33,43 @@ if TYPE_CHECKING:
     from roughline.errors import RoughlineError as RoughlineError
     from roughline.errors import StoreError as StoreError
     from roughline.errors import UnitError as UnitError
-    from roughline.estimates import Estimate as Estimate
-    from roughline.estimates import estimate as estimate
-    from roughline.fft import set_threads as set_threads
-    from roughline.isotropic import isotropic_spectrum as isotropic_spectrum
-    from roughline.line_scan import press_scan as press_scan
-    from roughline.materials import Material as Material
-    from roughline.materials import contact_modulus as contact_modulus
-    from roughline.materials import material as material
-    from roughline.measured import read as read
-    from roughline.power_law import PowerLaw as PowerLaw
-    from roughline.power_law import find_window as find_window
-    from roughline.power_law import fit_power_law as fit_power_law
-    from roughline.preparation import Preparation as Preparation
-    from roughline.preparation import prepared as prepared
-    from roughline.profile import profile_spectrum as profile_spectrum
-    from roughline.scaling import EXACT_PUNCH as EXACT_PUNCH
-    from roughline.scaling import PAPER_PUNCH as PAPER_PUNCH
-    from roughline.spectra import SelfAffine as SelfAffine
-    from roughline.spectral_fit import fit_self_affine as fit_self_affine
-    from roughline.theories import theory as theory
-    from roughline.topography import Line as Line
-    from roughline.topography import Surface as Surface
-    from roughline.trust import trust_map as trust_map
-    from roughline.two_bodies import facing as facing
+    from roughline.files.netcdf import write as write
+    from roughline.files.read import read as read
+    from roughline.spectra.fit import fit_self_affine as fit_self_affine
+    from roughline.spectra.isotropic import isotropic_spectrum as isotropic_spectrum
+    from roughline.spectra.profile import profile_spectrum as profile_spectrum
+    from roughline.spectra.roughness import roughness as roughness
+    from roughline.spectra.self_affine import SelfAffine as SelfAffine
+    from roughline.statistics.averages import average as average
+    from roughline.statistics.power_law import PowerLaw as PowerLaw
+    from roughline.statistics.power_law import find_window as find_window
+    from roughline.statistics.power_law import fit_power_law as fit_power_law
+    from roughline.theories.theory import theory as theory
+    from roughline.topography.body import Line as Line
+    from roughline.topography.body import Surface as Surface
+    from roughline.topography.preparation import Preparation as Preparation
+    from roughline.topography.preparation import prepared as prepared
+    from roughline.topography.two_bodies import facing as facing
 
 _HOMES = {
-    "facing": "two_bodies",
-    "theory": "theories",
-    "press_scan": "line_scan",
-    "fit_self_affine": "spectral_fit",
-    "profile_spectrum": "profile",
-    "isotropic_spectrum": "isotropic",
-    "roughness": "characterisation",
-    "prepared": "preparation",
-    "Preparation": "preparation",
-    "material": "materials",
-    "contact_modulus": "materials",
-    "Material": "materials",
-    "Curve": "curve",
-    "Fields": "curve",
-    "Status": "curve",
-    "Comparison": "comparison",
-    "compare": "comparison",
-    "average": "averages",
+    "facing": "topography.two_bodies",
+    "theory": "theories.theory",
+    "press_scan": "assessment.line_scan",
+    "fit_self_affine": "spectra.fit",
+    "profile_spectrum": "spectra.profile",
+    "isotropic_spectrum": "spectra.isotropic",
+    "roughness": "spectra.roughness",
+    "prepared": "topography.preparation",
+    "Preparation": "topography.preparation",
+    "material": "engineering.materials",
+    "contact_modulus": "engineering.materials",
+    "Material": "engineering.materials",
+    "Curve": "contact.curve",
+    "Fields": "contact.curve",
+    "Status": "contact.curve",
+    "Comparison": "comparison.models",
+    "compare": "comparison.models",
+    "average": "statistics.averages",
     "ClusterError": "errors",
     "ContinuumWarning": "errors",
     "ConvergenceError": "errors",
@@ -78,21 +78,21 @@ _HOMES = {
     "RoughlineError": "errors",
     "StoreError": "errors",
     "UnitError": "errors",
-    "Estimate": "estimates",
-    "estimate": "estimates",
-    "set_threads": "fft",
-    "read": "measured",
-    "write": "body_file",
-    "PowerLaw": "power_law",
-    "fit_power_law": "power_law",
-    "find_window": "power_law",
-    "press": "contact",
-    "EXACT_PUNCH": "scaling",
-    "PAPER_PUNCH": "scaling",
-    "SelfAffine": "spectra",
-    "Line": "topography",
-    "Surface": "topography",
-    "trust_map": "trust",
+    "Estimate": "contact.estimates",
+    "estimate": "contact.estimates",
+    "set_threads": "computing.fft",
+    "read": "files.read",
+    "write": "files.netcdf",
+    "PowerLaw": "statistics.power_law",
+    "fit_power_law": "statistics.power_law",
+    "find_window": "statistics.power_law",
+    "press": "contact.press",
+    "EXACT_PUNCH": "contact.scaling",
+    "PAPER_PUNCH": "contact.scaling",
+    "SelfAffine": "spectra.self_affine",
+    "Line": "topography.body",
+    "Surface": "topography.body",
+    "trust_map": "comparison.trust",
 }
 
 __all__ = ["__version__", *_HOMES]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from roughline.curve import Curve
+    from roughline.contact.curve import Curve
 
 
 class RoughlineError(Exception):

@@ -14,13 +14,13 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import xarray
 
-from roughline.report.comparisons import trust_map as draw_trust_map
+from roughline.comparison.trust import from_rows, trust_map
+from roughline.paper.comparisons import trust_map as draw_trust_map
+from roughline.paper.page import compose
+from roughline.paper.results import ROW_1D, ROW_3D, ROW_MATCHED, PaperResults, row_of
+from roughline.paper.trust_page import trust_page
 from roughline.report.page import render_markdown
-from roughline.report.paper import compose
-from roughline.report.results import ROW_1D, ROW_3D, ROW_MATCHED, PaperResults, row_of
 from roughline.report.style import save, styled
-from roughline.report.trusted import trust_page
-from roughline.trust import from_rows, trust_map
 
 HERE = Path(__file__).parent
 DOCS = HERE.parents[1] / "docs"

@@ -13,16 +13,16 @@ import numpy as np
 import pandas as pd
 import xarray
 
-from roughline import averages
 from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
-from roughline.report.sensitivity import WINDOWS_REDUCED
-from roughline.report.summary import exponents_of
-from roughline.trust import COLUMNS
+from roughline.comparison.trust import COLUMNS
+from roughline.paper.exponents import exponents_of
+from roughline.paper.sensitivity import WINDOWS_REDUCED
+from roughline.statistics import averages
 
 HERE = Path(__file__).parent
 DATA = HERE / "data"
-MAP = HERE.parents[1] / "src" / "roughline" / "trust_map.csv"
+MAP = HERE.parents[1] / "src" / "roughline" / "comparison" / "trust_map.csv"
 
 
 def main(path: Path) -> None:

@@ -11,10 +11,10 @@ from typer.testing import CliRunner
 
 import roughline as rl
 from roughline import cli
-from roughline.materials import materials
-from roughline.report.pressed import Pressed
-from roughline.report.pressed_figures import write_pressed
-from roughline.report.source import Source
+from roughline.assessment.pressed import Pressed
+from roughline.assessment.source import Source
+from roughline.engineering.materials import materials
+from roughline.report.contact_figures import write_pressed
 
 
 def roughline(*arguments, timeout=120):
@@ -219,7 +219,7 @@ def test_a_wrong_call_is_exit_2(arguments):
 
 
 def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch):
-    import roughline.report.curves as curves
+    import roughline.assessment.curves as curves
 
     original = curves.press
     monkeypatch.setattr(curves, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
@@ -232,7 +232,7 @@ def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch)
 def test_ctrl_c_keeps_the_loads_that_were_solved(
     surface_file, invoke, monkeypatch, tmp_path, where
 ):
-    import roughline.report.curves as curves
+    import roughline.assessment.curves as curves
 
     original = curves.press
 
@@ -261,7 +261,7 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
 
 
 def test_a_report_with_loads_that_failed_says_so(surface_file, invoke, monkeypatch, tmp_path):
-    import roughline.report.curves as curves
+    import roughline.assessment.curves as curves
 
     original = curves.press
     monkeypatch.setattr(curves, "press", lambda *a, **k: original(*a, **k, max_iterations=1))

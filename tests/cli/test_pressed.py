@@ -9,12 +9,12 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughline as rl
-from roughline.report import curves, pressing
-from roughline.report.loading import Loading
-from roughline.report.pressed_figures import draw_contact, draw_filled
-from roughline.report.pressed_tables import answer_table, quantity, star_is_shown
-from roughline.report.pressing import press_file
-from roughline.report.source import Source
+from roughline.assessment import curves, pressing
+from roughline.assessment.loading import Loading
+from roughline.assessment.pressing import press_file
+from roughline.assessment.source import Source
+from roughline.report.contact_figures import draw_contact, draw_filled
+from roughline.report.contact_tables import answer_table, quantity, star_is_shown
 from roughline.report.terminal import print_pressed
 
 PAIR = ("--materials", "steel,copper")

@@ -232,7 +232,7 @@ def test_without_the_periodic_half_space_the_interface_is_not_known(
     tmp_path, invoke, monkeypatch, half
 ):
     """Ctrl-C in either half keeps what was solved, and no free stiffness stands for the other."""
-    import roughline.report.curves as curves
+    import roughline.assessment.curves as curves
 
     original = curves.press
 
@@ -371,7 +371,7 @@ def test_nothing_is_refused_after_the_work(tmp_path, invoke, monkeypatch, argume
 
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(32, 1)
     rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "map.nc")
-    monkeypatch.setattr("roughline.report.curves.press", not_yet)
+    monkeypatch.setattr("roughline.assessment.curves.press", not_yet)
     code, _, _ = invoke(
         "press", tmp_path / "map.nc", "--materials", "steel,rigid", "--load", "1 N", *arguments
     )

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline import fft
 from roughline._version import __version__
 from roughline.campaign.layout import PER_BODY, VARIABLES, variables_of
 from roughline.campaign.plan import Ensemble, Gallery
-from roughline.contact import press
+from roughline.computing import fft
+from roughline.contact.press import press
 from roughline.errors import RoughlineError
-from roughline.spectra import SelfAffine
+from roughline.spectra.self_affine import SelfAffine
 
 Results = dict[str, NDArray[Any]]
 

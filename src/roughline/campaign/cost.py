@@ -8,12 +8,13 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from roughline import estimates, fft
 from roughline.campaign.batch import evaluate_case
 from roughline.campaign.layout import PER_BODY, VARIABLES, variables_of
 from roughline.campaign.plan import Ensemble, Plan
+from roughline.computing import fft
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.contact import estimates
 from roughline.errors import InputError, StoreError
-from roughline.memory import refuse_beyond_memory
 
 _BATCH_SECONDS = 1.0  # sending, receiving and writing a batch takes some ten milliseconds
 _MOST_PER_CHUNK = 2**20  # values of one variable, so that one chunk is some megabytes

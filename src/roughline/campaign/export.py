@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.averages import average
 from roughline.campaign.layout import DONE
 from roughline.campaign.store import Store
 from roughline.errors import InputError, StoreError
+from roughline.statistics.averages import average
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from roughline.errors import InputError
-from roughline.spectra import SelfAffine
+from roughline.spectra.self_affine import SelfAffine
 
 Model = Literal["full", "reduced"]
 Boundary = Literal["free", "periodic", "none"]

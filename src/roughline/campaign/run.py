@@ -14,7 +14,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from roughline import fft
 from roughline._version import __version__
 from roughline.campaign import cluster as clusters
 from roughline.campaign.batch import (
@@ -27,7 +26,8 @@ from roughline.campaign.batch import (
 from roughline.campaign.cost import cost_of, refuse_beyond_disk, refuse_countless, workers_that_fit
 from roughline.campaign.plan import Plan
 from roughline.campaign.writer import Writer, writing
-from roughline.curve import Status
+from roughline.computing import fft
+from roughline.contact.curve import Status
 from roughline.errors import ClusterError, InputError
 
 Progress = Callable[[str, int, int, int], None]

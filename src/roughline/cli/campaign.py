@@ -50,7 +50,7 @@ def paper(
 
     Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
     """
-    from roughline.report.paper import recompute
+    from roughline.paper.page import recompute
     from roughline.report.terminal import announce, campaign_progress
 
     with interruptible(_kept(out)), campaign_progress() as progress:
@@ -89,7 +89,7 @@ def run_campaign(
     are recorded with their reasons, stop no others, and are tried again by the next run.
     """
     from roughline.campaign import read_plan, run
-    from roughline.report.machine import of_summary
+    from roughline.report.json_output import of_summary
     from roughline.report.terminal import announce, campaign_progress, print_summary
 
     where = store or plan.with_suffix(".zarr")
@@ -115,7 +115,7 @@ def run_campaign(
 def status_of_campaign(store: StoreArgument, json: Json = False) -> None:
     """Say what is done of a campaign, and why cases failed."""
     from roughline.campaign import Store
-    from roughline.report.machine import of_status
+    from roughline.report.json_output import of_status
     from roughline.report.terminal import print_status
 
     found = Store(_store_of(store))

@@ -154,9 +154,9 @@ def press(
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.fft import set_threads
-    from roughline.report.machine import of_pressed
-    from roughline.report.questions import ask
+    from roughline.assessment.questions import ask
+    from roughline.computing.fft import set_threads
+    from roughline.report.json_output import of_pressed
     from roughline.report.terminal import announce, load_progress, print_pressed
 
     if threads is not None:
@@ -231,8 +231,8 @@ def compare(
     For a spectrum, random surfaces and random lines are pressed, and the map that comes with the
     package is read; for a surface in a file, that surface and lines of its spectrum.
     """
-    from roughline.report.compared import compare_models
-    from roughline.report.machine import of_compared
+    from roughline.assessment.compared import compare_models
+    from roughline.report.json_output import of_compared
     from roughline.report.terminal import load_progress, print_compared
 
     body = (

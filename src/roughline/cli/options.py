@@ -15,9 +15,9 @@ from typer.core import TyperCommand, TyperOption
 from roughline.errors import InputError
 
 if TYPE_CHECKING:
-    from roughline.preparation import Preparation
-    from roughline.report.source import Source
-    from roughline.spectra import SelfAffine
+    from roughline.assessment.source import Source
+    from roughline.spectra.self_affine import SelfAffine
+    from roughline.topography.preparation import Preparation
 
 FILE = "A file"
 PREPARATION = "Preparation"
@@ -141,7 +141,7 @@ def source_of(
     trend: Trend | None = None,
 ) -> Source:
     """The file that the options describe; a trend that is given is left to the preparation."""
-    from roughline.report.source import Source
+    from roughline.assessment.source import Source
 
     when_read: Literal["none", "tilt"] = "none" if trend else "tilt"
     return Source(file, unit, channel, size, fill.value, max_missing, when_read)
@@ -155,8 +155,8 @@ def preparation_of(
     remove_outliers: bool,
 ) -> Preparation | None:
     """The preparation that the options describe; None where none is given."""
-    from roughline.preparation import Preparation
-    from roughline.quantities import in_si
+    from roughline.topography.preparation import Preparation
+    from roughline.units import in_si
 
     if not (trend or crop or low_pass or resample is not None or remove_outliers):
         return None
@@ -171,7 +171,7 @@ def preparation_of(
 
 def lengths(text: str, name: str) -> list[float]:
     """Read lengths with units between commas. [m]"""
-    from roughline.quantities import in_si, refuse_decimal_comma
+    from roughline.units import in_si, refuse_decimal_comma
 
     refuse_decimal_comma(text, name)
     return [in_si(part, "m", name) for part in text.split(",")]
@@ -186,8 +186,8 @@ def spectrum_of(
     cutoff: str | None,
 ) -> SelfAffine:
     """The spectrum that the options describe; without a length, one without cutoffs."""
-    from roughline.quantities import in_si
-    from roughline.spectra import SelfAffine
+    from roughline.spectra.self_affine import SelfAffine
+    from roughline.units import in_si
 
     if length is None and (roll_off or cutoff):
         raise InputError("a roll-off or a cutoff is given without the length of the surface")
@@ -203,7 +203,7 @@ def spectrum_of(
 
 def wavenumber(text: str | None, name: str) -> float | None:
     """Read a wavelength, and return its wavenumber. [1 / m]"""
-    from roughline.quantities import in_si
+    from roughline.units import in_si
 
     if text is None:
         return None
@@ -215,7 +215,7 @@ def wavenumber(text: str | None, name: str) -> float | None:
 
 def print_json(content: dict[str, Any]) -> None:
     """Print a result for other programs."""
-    from roughline.report.machine import to_json
+    from roughline.report.json_output import to_json
 
     typer.echo(to_json(content))
 

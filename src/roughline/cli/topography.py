@@ -34,8 +34,8 @@ def info(
     Intervals are of 95 %. The Hurst exponent, the roll-off and the cutoff are those of a plateau
     and a power law fitted to the spectrum; the last line says whether that describes it.
     """
-    from roughline.report.described import describe_file
-    from roughline.report.machine import of_described
+    from roughline.assessment.described import describe_file
+    from roughline.report.json_output import of_described
     from roughline.report.terminal import print_described
 
     source = options.source_of(file, unit, channel, size, fill, max_missing, trend)
@@ -67,8 +67,8 @@ def generate(
     json: options.Json = False,
 ) -> None:
     """Generate a random self-affine surface, or its reduced line, and write it to a file."""
-    from roughline.body_file import write
-    from roughline.report.machine import of_generated
+    from roughline.files.netcdf import write
+    from roughline.report.json_output import of_generated
     from roughline.report.terminal import print_generated
 
     spectrum = options.spectrum_of(hurst, fractal_dimension, length, rms_height, roll_off, cutoff)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.compiled import compiled
+from roughline.computing.compiled import compiled
 
 Real = NDArray[np.floating]
 Indices = NDArray[np.integer]

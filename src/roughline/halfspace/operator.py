@@ -10,7 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline import fft
+from roughline.computing import fft
 from roughline.halfspace import loops
 from roughline.halfspace.kernel import love
 

@@ -9,10 +9,10 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter, Formatter, ScalarFormatter
 from numpy.typing import NDArray
 
-from roughline.measurement import Measurement
-from roughline.missing import MissingPattern
-from roughline.quantities import metres_per
+from roughline.files.measurement import Measurement
 from roughline.report.style import PAGE, new_figure
+from roughline.topography.missing import MissingPattern
+from roughline.units import metres_per
 
 _MISSING = "tab:red"
 _MOST_PIXELS = 600  # along a side; a picture shows no more

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import jinja2
 
-from roughline.verdict import Verdict
+from roughline.statistics.verdict import Verdict
 
 _INTERVAL = re.compile(r" (?=[(±])")
 

@@ -24,22 +24,22 @@ from rich.progress import (
 from rich.table import Table
 from rich.text import Text
 
+from roughline.assessment.compared import Compared, compared_table, verdict
+from roughline.assessment.described import Described, described_table, missing_map
+from roughline.assessment.pressed import Pressed
 from roughline.campaign.run import Summary
 from roughline.campaign.store import Store
-from roughline.curve import Status
-from roughline.quantities import engineering
-from roughline.report.compared import Compared, compared_table, verdict
-from roughline.report.described import Described, described_table, missing_map
-from roughline.report.page import value_and_interval
-from roughline.report.pressed import Pressed
-from roughline.report.pressed_tables import (
+from roughline.contact.curve import Status
+from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
     curve_table,
     star_is_shown,
 )
-from roughline.theories import TheoryCurve
-from roughline.topography import Body, Surface
+from roughline.report.page import value_and_interval
+from roughline.theories.theory import TheoryCurve
+from roughline.topography.body import Body, Surface
+from roughline.units import engineering
 
 _MOST_SHOWN = 200  # loads that anybody reads as a table
 _MOST_ANSWERED = 3  # loads whose answers fit on a screen

@@ -1,0 +1,1 @@
+"""Transforms, compiled loops, memory: what every computation rests on."""

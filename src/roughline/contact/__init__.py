@@ -1,0 +1,1 @@
+"""Pressing a body: loads, both models, the curve, what the grid leaves open."""

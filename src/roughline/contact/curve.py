@@ -1,0 +1,280 @@
+"""What a pressed body answers: depth, force, stiffness and real contact area over the loads."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.contact import scaling
+from roughline.errors import InputError, StoreError
+
+if TYPE_CHECKING:
+    import xarray
+
+Real = NDArray[np.float64]
+
+RESOLVED_FROM = 10
+"""Springs or cells in contact from which on a stiffness is physics rather than grid."""
+
+
+class Status(enum.IntEnum):
+    """How the solution under one load ended."""
+
+    CONVERGED = 0
+    STALLED = 1
+    MAX_ITERATIONS = 2
+    NO_TANGENT = 3
+    INTERRUPTED = 4
+
+    @property
+    def reason(self) -> str:
+        """What it means, for messages."""
+        return {
+            Status.CONVERGED: "converged: all residuals are within the tolerance",
+            Status.STALLED: "stalled: the residuals stopped falling above the tolerance",
+            Status.MAX_ITERATIONS: "max_iterations reached above the tolerance",
+            Status.NO_TANGENT: "the stiffness equations did not converge",
+            Status.INTERRUPTED: "not solved: interrupted before",
+        }[self]
+
+
+@dataclass(frozen=True, eq=False)
+class Fields:
+    """Fields of one load on the grid.
+
+    Attributes
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Contact pressure, compression positive. [pressure]
+    displacement : ndarray, shape (nx, ny)
+        Normal displacement of the half-space's surface. [length]
+    gap : ndarray, shape (nx, ny)
+        Distance of the two bodies. [length]
+    contact : ndarray of bool, shape (nx, ny)
+        Where they touch.
+    """
+
+    pressure: Real
+    displacement: Real
+    gap: Real
+    contact: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Contact quantities over the loads of one body.
+
+    Attributes
+    ----------
+    depth : ndarray, shape (loads,)
+        Approach since first touch of the highest point. [length]
+    force : ndarray, shape (loads,)
+        Total force, compression positive. [force]
+    stiffness : ndarray, shape (loads,)
+        Exact k = dF/dd. [force / length]
+    area_fraction : ndarray, shape (loads,), or None
+        Real over nominal contact area; None for a line, whose area predicts nothing.
+    area_fraction_corrected : ndarray, shape (loads,), or None
+        The same without what whole cells overstate along the outline of the contact
+        (Yastrebov, Anciaux and Molinari 2017). Under a summit that is some per cent; on a plateau,
+        where pressure and gap rise at the outline, cells count as they are.
+    status : ndarray of int8, shape (loads,)
+        A :class:`Status` for each load; where it is not converged the other values are NaN.
+    resolved : ndarray of bool, shape (loads,)
+        Whether at least ten springs or cells are in contact; below, a stiffness carries the grid.
+    residual : ndarray, shape (loads,)
+        Largest residual of the returned solution, each relative to its scale. [1]
+    E_star : float
+        Contact modulus. [pressure]
+    rms_height : float
+        Root-mean-square height of the body. [length]
+    length : float
+        sqrt(A_0) of a surface, length of a line. [length]
+    unit : str or None
+        Unit of lengths ("m": forces are in newtons, stiffness in N/m).
+    settings : mapping
+        How it was computed: version, tolerance, boundary, and the settings of the body.
+    convolutions : ndarray of int, shape (loads,), or None
+        Convolutions that each load took, its stiffness included; None for a line.
+    area_fraction_most : ndarray, shape (loads,), or None
+        What the area fraction does not exceed on finer grids: `area_fraction` where all of the
+        outline is of summits, as much over it as the correction leaves out where it is of plateaus.
+    stiffness_error, area_fraction_error : ndarray, shape (loads,), or None
+        Estimated discretisation errors of `stiffness` and `area_fraction_corrected`, if asked
+        for; a value v with error e lies between v / (1 + e / v) and v + e.
+    warnings : sequence of str
+        What to know before the numbers are used; empty where there is nothing to say.
+    fields : sequence of Fields
+        One for each load if asked for, else empty; None for a load that did not converge.
+    """
+
+    depth: Real
+    force: Real
+    stiffness: Real
+    area_fraction: Real | None
+    area_fraction_corrected: Real | None
+    status: NDArray[np.int8]
+    resolved: NDArray[np.bool_]
+    residual: Real
+    E_star: float
+    rms_height: float
+    length: float
+    unit: str | None
+    settings: Mapping[str, str | int | float]
+    convolutions: NDArray[np.int64] | None = None
+    area_fraction_most: Real | None = None
+    stiffness_error: Real | None = None
+    area_fraction_error: Real | None = None
+    warnings: Sequence[str] = ()
+    fields: Sequence[Fields | None] = field(default=(), repr=False)
+
+    @property
+    def force_bar(self) -> Real:
+        """Dimensionless force F / (E* h L), the paper's eq. 2. [1]
+
+        Raises
+        ------
+        InputError
+            If the heights are constant, so that h = 0.
+        """
+        if self.rms_height == 0:
+            raise InputError(
+                "the heights are constant, so their rms h is 0 and F / (E* h L) has no meaning: "
+                "use force instead of force_bar"
+            )
+        return scaling.force_bar(self.force, self.E_star, self.rms_height, self.length)
+
+    @property
+    def stiffness_bar(self) -> Real:
+        """Dimensionless stiffness of eq. 1, k / (1.1419 E* L); of a line k / (E* L). [1]"""
+        punch = 1.0 if self.area_fraction is None else scaling.PAPER_PUNCH
+        return scaling.stiffness_bar(self.stiffness, self.E_star, self.length, punch)
+
+    @property
+    def converged(self) -> NDArray[np.bool_]:
+        """Whether each load was solved to the tolerance."""
+        return self.status == Status.CONVERGED
+
+    def to_dataset(self) -> xarray.Dataset:
+        """Return the curve as an xarray Dataset over the loads, units in attrs.
+
+        What was prescribed, force or depth, is the coordinate, so that
+        ``curve.to_dataset().stiffness.plot()`` shows stiffness over it. With fields, these are
+        included over it, "x" and "y".
+        """
+        import xarray  # here because it loads slowly
+
+        lengths = self.unit or "length"
+        forces = "N" if self.unit == "m" else "force"
+        pressures = "Pa" if self.unit == "m" else "pressure"
+        variables: dict[str, tuple[object, ...]] = {
+            "depth": ("load", self.depth, {"units": lengths, "long_name": "depth since touch"}),
+            "force": ("load", self.force, {"units": forces, "long_name": "normal force"}),
+            "stiffness": (
+                "load",
+                self.stiffness,
+                {"units": f"{forces}/{lengths}", "long_name": "normal contact stiffness dF/dd"},
+            ),
+            "status": (
+                "load",
+                self.status,
+                {
+                    "flag_values": [int(status) for status in Status],
+                    "flag_meanings": " ".join(status.name.lower() for status in Status),
+                },
+            ),
+            "resolved": (
+                "load",
+                self.resolved.astype(np.int8),
+                {"long_name": f"at least {RESOLVED_FROM} springs or cells in contact"},
+            ),
+            "residual": ("load", self.residual, {"units": "1", "long_name": "largest residual"}),
+        }
+        if self.area_fraction is not None:
+            variables["area_fraction"] = (
+                "load",
+                self.area_fraction,
+                {"units": "1", "long_name": "real contact area over nominal area"},
+            )
+        if self.convolutions is not None:
+            variables["convolutions"] = (
+                "load",
+                self.convolutions,
+                {"units": "1", "long_name": "convolutions spent"},
+            )
+        if self.area_fraction_corrected is not None:
+            variables["area_fraction_corrected"] = (
+                "load",
+                self.area_fraction_corrected,
+                {"units": "1", "long_name": "the same, corrected for the outline's steps"},
+            )
+        if self.stiffness_error is not None:
+            variables["stiffness_error"] = (
+                "load",
+                self.stiffness_error,
+                {"units": f"{forces}/{lengths}", "long_name": "discretisation error of stiffness"},
+            )
+        if self.area_fraction_error is not None:
+            variables["area_fraction_error"] = (
+                "load",
+                self.area_fraction_error,
+                {"units": "1", "long_name": "discretisation error of area_fraction_corrected"},
+            )
+        units = {"pressure": pressures, "displacement": lengths, "gap": lengths, "contact": "1"}
+        found = [fields for fields in self.fields if fields is not None]
+        for name, unit in units.items() if found else ():
+            missing = np.full(found[0].gap.shape, np.nan)
+            stack = [getattr(fields, name) if fields else missing for fields in self.fields]
+            variables[name] = (("load", "x", "y"), np.array(stack, float), {"units": unit})
+        attrs = {
+            "E_star": self.E_star,
+            "E_star_units": pressures,
+            "rms_height": self.rms_height,
+            "length": self.length,
+            "length_units": lengths,
+            **self.settings,
+        }
+        if self.warnings:
+            attrs["warnings"] = "; ".join(self.warnings)
+        prescribed = "depth" if self.settings.get("control") == "depths" else "force"
+        return xarray.Dataset(variables, attrs=attrs).swap_dims(load=prescribed)
+
+    def write(self, path: str | Path) -> None:
+        """Write the curve to a file.
+
+        Parameters
+        ----------
+        path : str or Path
+            Where to; an existing file is replaced. ".nc": NetCDF, with settings and fields.
+            ".csv": a table with a row for each load and units in its header, and no more.
+
+        Raises
+        ------
+        InputError
+            If the name ends otherwise.
+        StoreError
+            If the file cannot be written.
+        """
+        path = Path(path)
+        if path.suffix not in (".nc", ".csv"):
+            raise InputError(
+                f'{path} ends in neither ".nc" (NetCDF) nor ".csv" (a table): rename it'
+            )
+        data = self.to_dataset()
+        try:
+            if path.suffix == ".nc":
+                data.to_netcdf(path, engine="h5netcdf")
+                return
+            over_loads = data.drop_dims([name for name in ("x", "y") if name in data.dims])
+            table = over_loads.to_dataframe().reset_index()
+            units = {name: over_loads[name].attrs.get("units") for name in table}
+            table.columns = [f"{name} [{units[name]}]" if units[name] else name for name in table]
+            table.to_csv(path, index=False)
+        except OSError as error:
+            raise StoreError(f"cannot write {path} ({error}): choose another place") from error

@@ -1,0 +1,177 @@
+"""Loads, given or spaced, checked before anything is solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from roughline.contact.curve import RESOLVED_FROM
+from roughline.errors import InputError
+from roughline.reduction.springs import Springs
+from roughline.topography.body import Body, Line, Surface
+
+_SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
+_GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
+_GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
+_SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
+_SMALLEST_SPAN = 1e-3  # of spaced forces, where few points leave less between touch and saturation
+
+
+@dataclass(frozen=True, eq=False)
+class Loads:
+    """Checked loads.
+
+    Attributes
+    ----------
+    control : {"depths", "forces"}
+        What is prescribed.
+    values : ndarray, shape (loads,)
+        Rising and positive. [length] or [force]
+    """
+
+    control: Literal["depths", "forces"]
+    values: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What the caller gave, of which exactly one is to be not None."""
+
+    depths: ArrayLike | None
+    forces: ArrayLike | None
+    n_loads: int | None
+
+
+def line_loads(line: Line, springs: Springs, wish: Wish) -> Loads:
+    """Return the loads of a line; spaced ones run from ten springs in contact to all of them."""
+    if wish.n_loads is None:
+        return _given_loads(wish)
+    _refuse_constant(line, wish)
+    few = min(RESOLVED_FROM, line.heights.size - 1)
+    highest_points = int(np.count_nonzero(line.heights == line.heights.max()))
+    lowest = springs.touch_force(max(few, highest_points))
+    return _spaced_loads(wish, lowest, springs.touch_force(line.heights.size - 1))
+
+
+def surface_loads(
+    surface: Surface, E_star: float, wish: Wish, periodic: bool, rtol: float, *, single: bool
+) -> Loads:
+    """Return the loads of a surface; spaced ones run from about ten cells to saturation.
+
+    Loads are refused for which a gap cannot be told to `rtol`, in `single` precision or in double.
+    """
+    if single and rtol < _GAP_ROUNDING_SINGLE:
+        raise InputError(
+            f"rtol is {rtol:g}; single precision tells gaps to {_GAP_ROUNDING_SINGLE:g} at best: "
+            'give a larger rtol, or precision="mixed"'
+        )
+    if wish.n_loads is None:
+        loads = _given_loads(wish)
+        if periodic and loads.control == "depths":
+            _refuse_beyond_full_contact(surface, loads.values[-1])
+        _refuse_beyond_precision(surface, E_star, loads, rtol, single)
+        return loads
+    _refuse_constant(surface, wish)
+    if periodic:
+        # Persson: 95 % contact at a mean pressure of E* times the rms slope
+        highest = E_star * surface.rms_slope * surface.area
+    else:
+        highest = _SATURATED_FORCE_BAR * E_star * surface.rms_height * surface.length
+    separation = np.sort(surface.heights.max() - surface.heights, axis=None)
+    few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
+    lowest = highest
+    if few < separation.size:
+        # so many cells as one disc, pressed down to the last of them: F = 2 E* a d
+        radius = np.sqrt(few * surface.spacing[0] * surface.spacing[1] / np.pi)
+        lowest = 2 * E_star * radius * separation[few]
+    loads = _spaced_loads(wish, float(lowest), highest)
+    _refuse_beyond_precision(surface, E_star, loads, rtol, single)
+    return loads
+
+
+def _given_loads(wish: Wish) -> Loads:
+    depths, forces = wish.depths, wish.forces
+    if (depths is None) == (forces is None):
+        given = "no loads" if depths is None else "both depths and forces"
+        raise InputError(f"{given} given; give one of depths, forces and n_loads")
+    control: Literal["depths", "forces"] = "forces" if depths is None else "depths"
+    try:
+        values = np.atleast_1d(np.asarray(forces if depths is None else depths, np.float64))
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{control} are not numbers ({error})") from error
+    if values.ndim != 1 or values.size == 0:
+        raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")
+    for wrong, what in (
+        (~np.isfinite(values), "not finite"),
+        (values < 0, "negative: compression counts positive"),
+        (values == 0, "zero: it touches nothing"),
+    ):
+        if wrong.any():
+            raise InputError(
+                f"{control}[{wrong.argmax()}] is {values[wrong][0]}, {what}; give positive, "
+                "rising numbers"
+            )
+    falling = np.diff(values) <= 0
+    if falling.any():
+        i = int(falling.argmax())
+        raise InputError(
+            f"{control}[{i + 1}] = {values[i + 1]:g} does not exceed {control}[{i}] = "
+            f"{values[i]:g}; sort them and give each once"
+        )
+    return Loads(control, values)
+
+
+def _spaced_loads(wish: Wish, lowest: float, highest: float) -> Loads:
+    if wish.depths is not None or wish.forces is not None:
+        raise InputError("n_loads given beside depths or forces; give one of the three")
+    n_loads = wish.n_loads
+    if not isinstance(n_loads, int | np.integer) or n_loads < 2:
+        raise InputError(f"n_loads is {n_loads!r}; a whole number of at least 2 is needed")
+    lowest = min(lowest, _SMALLEST_SPAN * highest)
+    return Loads("forces", np.geomspace(lowest, highest, int(n_loads)))
+
+
+def _refuse_constant(body: Body, wish: Wish) -> None:
+    if body.rms_height == 0:
+        raise InputError(
+            f"all heights are {body.heights.flat[0]:g}: a flat punch has no range of loads from "
+            f"which to choose n_loads = {wish.n_loads}; give depths or forces"
+        )
+
+
+def _refuse_beyond_full_contact(surface: Surface, depth: float) -> None:
+    full_contact = float(np.mean(surface.heights.max() - surface.heights))
+    if not depth < full_contact:
+        raise InputError(
+            f"depth {depth:g} is beyond reach: the periodic half-space is in full contact at "
+            f"{full_contact:g}, whatever the force; give smaller depths, or forces"
+        )
+
+
+def _refuse_beyond_precision(
+    surface: Surface, E_star: float, loads: Loads, rtol: float, single: bool
+) -> None:
+    """Refuse loads so large or small that gaps cannot be told to the tolerance."""
+    if surface.rms_height == 0:
+        return
+    unit = surface.rms_height
+    name = "rms heights"
+    if loads.control == "forces":
+        unit *= E_star * surface.length
+        name = "E* h L"
+    reach = loads.values / unit
+    rounding = _GAP_ROUNDING_SINGLE if single else _GAP_ROUNDING
+    if reach[-1] * rounding > rtol:
+        raise InputError(
+            f"{loads.control}[{reach.size - 1}] is {reach[-1]:.1g} {name}: so deep, "
+            f"{'single' if single else 'double'} precision cannot tell gaps to rtol = {rtol:g}; "
+            f"give at most {rtol / rounding:.0g} {name}, or a larger rtol"
+        )
+    if reach[0] < _SMALLEST_REACH:
+        raise InputError(
+            f"{loads.control}[0] is {reach[0]:.1g} {name}, too small to be told from none; give "
+            f"at least {_SMALLEST_REACH:g} {name}"
+        )

@@ -1,0 +1,185 @@
+"""The one front door to both models: a body and loads in, a curve out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.contact.curve import Curve, Status
+from roughline.contact.estimates import memory_for
+from roughline.contact.grid_error import refuse_few_points, with_grid_error
+from roughline.contact.loads import Wish, surface_loads
+from roughline.contact.reduced import press_line
+from roughline.errors import ConvergenceError, InputError, Interrupted
+from roughline.topography.body import Body, Line, Surface
+
+
+def press(
+    body: Body,
+    *,
+    E_star: float,
+    depths: ArrayLike | None = None,
+    forces: ArrayLike | None = None,
+    n_loads: int | None = None,
+    periodic: bool = False,
+    fields: bool | Sequence[int] = False,
+    grid_error: bool = False,
+    rtol: float = 1e-6,
+    max_iterations: int = 5000,
+    precision: Literal["mixed", "float64", "float32"] = "mixed",
+    throw: bool = True,
+    progress: Callable[[int, int], None] | None = None,
+) -> Curve:
+    """Press a rough body into an elastic half-space.
+
+    A :class:`~roughline.Surface` is solved with the full model (every interaction, the
+    half-space free around the surface unless `periodic`), a :class:`~roughline.Line` with the
+    reduced model (independent springs, exact). Units are any coherent set.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        The rough body. [length]
+    E_star : float
+        Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [pressure]
+    depths, forces : array_like, shape (loads,), optional
+        Rising, positive depths since first touch [length] or total forces [force].
+    n_loads : int, optional
+        Or so many forces, log-spaced from about ten springs or cells in contact to saturation.
+    periodic : bool, optional
+        Repeat the surface periodically. Depths then count the approach of the mean planes, k is
+        the stiffness of the interface alone and is infinite in full contact.
+    fields : bool or sequence of int, optional
+        Keep pressure, displacement, gap and contact of every load, or of loads with these numbers
+        (from 0).
+    grid_error : bool, optional
+        Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
+    rtol : float, optional
+        Bound on every residual of what is returned: gap on contact and overlap off it over the
+        rms height (or over the depth, where that is smaller), tension over the mean contact
+        pressure, error of the force over the force.
+    max_iterations : int, optional
+        Bound on the convolutions of one load.
+    precision : {"mixed", "float64", "float32"}, optional
+        Of the convolutions: "mixed" steps in single precision and certifies in double, and
+        returns what "float64" returns, to the tolerance; "float32" does without double
+        precision where memory is short, and refuses tolerances that it cannot reach.
+    throw : bool, optional
+        Whether a load that is not solved raises; if not, it is marked in ``status``.
+    progress : callable, optional
+        Called with (loads done, loads in all) after each load.
+
+    Returns
+    -------
+    Curve
+        Depth, force, exact stiffness and real contact area for each load.
+
+    Raises
+    ------
+    InputError
+        If the body, the modulus or the loads cannot be used.
+    ConvergenceError
+        With `throw`, if a load was not solved; it carries the curve.
+    Interrupted
+        On Ctrl-C between or in the loads of a surface; a KeyboardInterrupt that carries the curve
+        of the loads before.
+    """
+    _check_number("E_star", E_star, 0, np.inf, "a positive, finite contact modulus")
+    _check_number("rtol", rtol, 1e-12, 1e-1, "a tolerance from 1e-12 to 0.1")
+    _check_number("max_iterations", max_iterations, 0, np.inf, "a positive number")
+    if precision not in ("mixed", "float64", "float32"):
+        raise InputError(
+            f'precision is {precision!r}; allowed are "mixed", "float64" and "float32"'
+        )
+    if isinstance(body, Line):
+        if periodic or fields or grid_error:
+            raise InputError(
+                "periodic, fields and grid_error belong to the full model; the reduced model of a "
+                "Line has none of these: leave them out, or press a Surface"
+            )
+        return press_line(body, E_star, Wish(depths, forces, n_loads))
+    if not isinstance(body, Surface):
+        raise InputError(
+            f"body is a {type(body).__name__}; a Surface or a Line is needed: wrap heights as "
+            "Surface(heights, sizes=(Lx, Ly)) or Line(heights, length=L), and a topography of "
+            "SurfaceTopography as Surface(topography)"
+        )
+    loads = surface_loads(
+        body, E_star, Wish(depths, forces, n_loads), periodic, rtol, single=precision == "float32"
+    )
+    kept = _kept_loads(fields, loads.values.size)
+    refuse_beyond_memory(
+        memory_for(body.shape, periodic, len(kept)),
+        f"pressing {body.shape[0]} x {body.shape[1]} points"
+        + (f" and keeping the fields of {len(kept)} loads" if kept else ""),
+        "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
+    )
+    if grid_error:
+        refuse_few_points(body)
+    # compiled loops load slowly, so only here
+    from roughline.contact.full import press_surface
+    from roughline.halfspace.state import Method
+
+    method = Method(rtol, int(max_iterations), precision)
+    curve = press_surface(
+        body, E_star, loads, method, periodic=periodic, kept=kept, progress=progress
+    )
+    if grid_error:
+        try:
+            curve = with_grid_error(
+                curve,
+                body,
+                lambda coarse: press_surface(
+                    coarse,
+                    E_star,
+                    loads,
+                    method,
+                    periodic=periodic,
+                    kept=frozenset(),
+                    progress=None,
+                ),
+            )
+        except KeyboardInterrupt:
+            raise Interrupted(curve) from None
+    if throw and not curve.converged.all():
+        raise ConvergenceError(_failure_message(curve), curve)
+    return curve
+
+
+def _kept_loads(fields: bool | Sequence[int], count: int) -> frozenset[int]:
+    """Numbers of the loads whose fields are kept."""
+    if isinstance(fields, bool):
+        return frozenset(range(count)) if fields else frozenset()
+    if not all(isinstance(i, int | np.integer) and 0 <= i < count for i in fields):
+        raise InputError(
+            f"fields is {fields!r}; give True, False, or numbers of loads, 0 to {count - 1}"
+        )
+    return frozenset(int(i) for i in fields)
+
+
+def _check_number(name: str, value: float, low: float, high: float, allowed: str) -> None:
+    try:
+        usable = low <= value <= high and 0 < value < np.inf
+    except TypeError:
+        usable = False
+    if not usable:
+        raise InputError(f"{name} is {value!r}; {allowed} is needed")
+
+
+def _failure_message(curve: Curve) -> str:
+    """One line for all loads that failed, equal reasons together."""
+    parts = []
+    for status in Status:
+        failed = np.flatnonzero(curve.status == status)
+        if status is not Status.CONVERGED and failed.size:
+            worst = curve.residual[failed].max()
+            which = ", ".join(map(str, failed[:5])) + (", ..." if failed.size > 5 else "")
+            parts.append(
+                f"{failed.size} of {curve.status.size} loads (number {which}) {status.reason}; "
+                f"worst residual {worst:.1e}"
+            )
+    return "; ".join(parts) + ": raise max_iterations or rtol, or take throw=False to keep the rest"

@@ -1,0 +1,65 @@
+"""The reduced model's curve: a reduced line on springs under given loads."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline._version import __version__
+from roughline.contact.curve import RESOLVED_FROM, Curve
+from roughline.contact.loads import Wish, line_loads
+from roughline.errors import InputError
+from roughline.reduction.springs import Springs
+from roughline.topography.body import Line
+
+
+def press_line(line: Line, E_star: float, wish: Wish) -> Curve:
+    """Press a reduced line.
+
+    Parameters
+    ----------
+    line : Line
+        The line. [length]
+    E_star : float
+        Contact modulus. [pressure]
+    wish : Wish
+        The loads as the caller gave them.
+
+    Raises
+    ------
+    InputError
+        For a measured profile, and for loads that cannot be used.
+    """
+    if line.kind == "profile":
+        raise InputError(
+            "this line is a measured profile, a straight cut, and not the reduced line of its "
+            "surface (their spectra differ, the paper's eq. 7): press the surface, or build the "
+            "reduced line from its spectrum with SelfAffine(...).line(n)"
+        )
+    springs = Springs.under(line.heights, line.spacing, E_star)
+    loads = line_loads(line, springs, wish)
+    if loads.control == "forces":
+        force, touching = loads.values, springs.under_forces(loads.values)
+        depth = touching.depth_under(force)
+    else:
+        depth, touching = loads.values, springs.at_depths(loads.values)
+        force = touching.force_at(depth)
+    return Curve(
+        depth=depth,
+        force=force,
+        stiffness=touching.stiffness,
+        area_fraction=None,
+        area_fraction_corrected=None,
+        status=np.zeros(depth.size, dtype=np.int8),
+        resolved=touching.count >= RESOLVED_FROM,
+        residual=np.zeros(depth.size),
+        E_star=E_star,
+        rms_height=line.rms_height,
+        length=line.length,
+        unit=line.unit,
+        settings={
+            "roughline_version": __version__,
+            "model": "reduced",
+            "control": loads.control,
+            **line.settings_as_body(),
+        },
+    )

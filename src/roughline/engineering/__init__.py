@@ -1,0 +1,1 @@
+"""Materials, formulas and the answers that follow from a curve."""

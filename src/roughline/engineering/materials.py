@@ -1,0 +1,262 @@
+"""Bulk materials: what contact stiffness, conductance and ultrasound need of them."""
+
+from __future__ import annotations
+
+import csv
+import difflib
+import functools
+import math
+import re
+from dataclasses import dataclass, fields, replace
+from importlib import resources
+
+from roughline.errors import InputError, UnitError
+from roughline.units import in_si, refuse_decimal_comma
+
+_UNITS = {
+    "E": "Pa",
+    "hardness": "Pa",
+    "resistivity": "ohm*m",
+    "conductivity": "W/m/K",
+    "density": "kg/m**3",
+}
+_SETTING = re.compile(r"(\w+)\s*=\s*([^=;]+?)\s*(?=;|\s\w+\s*=|$)")
+
+
+@dataclass(frozen=True)
+class Material:
+    """An isotropic bulk material at room temperature.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    E : float
+        Young's modulus; infinite for a rigid body. [Pa]
+    nu : float
+        Poisson's ratio, -1 to 0.5. [1]
+    hardness : float, optional
+        Indentation hardness of the surface. [Pa]
+    resistivity : float, optional
+        Electrical resistivity. [ohm m]
+    conductivity : float, optional
+        Thermal conductivity. [W / (m K)]
+    density : float, optional
+        Mass density. [kg / m³]
+    source : str, optional
+        Where the values come from.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range.
+    """
+
+    name: str
+    E: float
+    nu: float
+    hardness: float | None = None
+    resistivity: float | None = None
+    conductivity: float | None = None
+    density: float | None = None
+    source: str = "given by the user"
+
+    def __post_init__(self) -> None:
+        if not self.E > 0:
+            raise InputError(f"E of {self.name} is {self.E}; a positive modulus is needed")
+        if not -1 < self.nu <= 0.5:
+            raise InputError(f"nu of {self.name} is {self.nu}; allowed is -1 to 0.5")
+        for name in ("hardness", "resistivity", "conductivity", "density"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < math.inf:
+                raise InputError(
+                    f"{name} of {self.name} is {value}; a positive, finite number is needed"
+                )
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / (2 (1 + nu)). [Pa]"""
+        return self.E / (2 * (1 + self.nu))
+
+    @property
+    def carries_sound(self) -> bool:
+        """Whether longitudinal waves have a finite speed: not if it is rigid or incompressible."""
+        return not math.isinf(self.E) and self.nu != 0.5
+
+    @property
+    def impedance(self) -> float | None:
+        """Acoustic impedance of longitudinal waves, density times their speed. [kg / (m² s)]
+
+        None without a density, and for a rigid or an incompressible material.
+        """
+        if self.density is None or not self.carries_sound:
+            return None
+        nu = self.nu
+        return math.sqrt(self.density * self.E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)))
+
+
+def materials() -> dict[str, Material]:
+    """Return the table of common materials by name."""
+    return dict(_table())
+
+
+def material(description: str) -> Material:
+    """Return a material from its name, its values, or a name with other values.
+
+    Parameters
+    ----------
+    description : str
+        Such as "copper", "steel hardness=2 GPa" or "E=70 GPa nu=0.33 density=2700 kg/m^3".
+
+    Raises
+    ------
+    InputError
+        If the name or a property is unknown, a value is missing, or outside its range.
+    UnitError
+        If a value has no unit, or a wrong one.
+    """
+    known = _table()
+    start = re.search(r"\w+\s*=", description)
+    name = (description[: start.start()] if start else description).strip(" ;").lower()
+    name = re.sub(r"[\s_]+", "-", name)
+    text = description[start.start() :] if start else ""
+    given = _settings(text, description)
+    if not name:
+        if not {"E", "nu"} <= given.keys():
+            raise InputError(
+                f'the material "{description}" needs both E and nu, such as "E=70 GPa nu=0.33"'
+            )
+        return Material("given", **given)  # type: ignore[arg-type]
+    if name not in known:
+        near = difflib.get_close_matches(name, known, 1)
+        hint = f'; did you mean "{near[0]}"?' if near else ""
+        raise InputError(
+            f'no material is called "{name}"{hint} Known are {", ".join(known)}; others are given '
+            'as "E=70 GPa nu=0.33"'
+        )
+    changed = ", ".join(given)
+    source = f"{known[name].source}; {changed} given" if given else known[name].source
+    return replace(known[name], **given, source=source)  # type: ignore[arg-type]
+
+
+def contact_modulus(first: Material, second: Material) -> float:
+    """Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [Pa]
+
+    Raises
+    ------
+    InputError
+        If both materials are rigid.
+    """
+    compliance = sum((1 - each.nu**2) / each.E for each in (first, second))
+    if compliance == 0:
+        raise InputError("both materials are rigid: one of them must give way")
+    return 1 / compliance
+
+
+def tangential_modulus(first: Material, second: Material) -> float:
+    """Tangential contact modulus G*, 1 / G* = (2 - nu1) / (4 G1) + (2 - nu2) / (4 G2). [Pa]
+
+    The tangential stiffness of any contact without slip is G* / E* times the normal one where the
+    two problems are uncoupled; for equal materials that is (2 - 2 nu) / (2 - nu).
+
+    Raises
+    ------
+    InputError
+        If both materials are rigid.
+
+    References
+    ----------
+    V. L. Popov, "Contact Mechanics and Friction", 2nd ed. (2017), eq. 8.8.
+    """
+    compliance = sum((2 - each.nu) / (4 * each.shear_modulus) for each in (first, second))
+    if compliance == 0:
+        raise InputError("both materials are rigid: one of them must give way")
+    return 1 / compliance
+
+
+def _settings(text: str, description: str) -> dict[str, float]:
+    """Read "name=value" pairs."""
+    given: dict[str, float] = {}
+    rest = _SETTING.sub("", text).replace(";", "").strip()
+    if rest:
+        raise InputError(f'"{rest}" in the material "{description}" is no "name=value"')
+    for name, value in _SETTING.findall(text):
+        if name in given:
+            raise InputError(f'the material "{description}" gives {name} twice')
+        if name == "nu":
+            refuse_decimal_comma(value, name)
+            try:
+                given[name] = float(value)
+            except ValueError:
+                raise UnitError(f'nu is "{value}"; a number such as 0.3 is needed') from None
+        elif name in _UNITS:
+            given[name] = in_si(value, _UNITS[name], name)
+        else:
+            raise InputError(f'a material has no "{name}"; it has nu, {", ".join(_UNITS)}')
+    return given
+
+
+@functools.cache
+def _table() -> dict[str, Material]:
+    text = (
+        resources.files("roughline.engineering")
+        .joinpath("materials.csv")
+        .read_text(encoding="utf-8")
+    )
+    numbers = [item.name for item in fields(Material) if item.name not in ("name", "source")]
+    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
+    return {
+        row["name"]: Material(
+            name=row["name"],
+            source=row["source"],
+            **{key: float(row[key]) if row[key] else None for key in numbers},  # type: ignore[arg-type]
+        )
+        for row in rows
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class Interface:
+    """Two bodies of given materials in contact.
+
+    Parameters
+    ----------
+    first, second : Material
+        The rough body and the one that it is pressed into; which is which does not matter.
+    """
+
+    first: Material
+    second: Material
+
+    @property
+    def E_star(self) -> float:
+        """Contact modulus. [Pa]"""
+        return contact_modulus(self.first, self.second)
+
+    @property
+    def G_star(self) -> float:
+        """Tangential contact modulus. [Pa]"""
+        return tangential_modulus(self.first, self.second)
+
+    @property
+    def hardness(self) -> float | None:
+        """Hardness of the softer body, None if it is not known of both. [Pa]
+
+        A rigid body never yields.
+        """
+        known = [each.hardness for each in (self.first, self.second) if not math.isinf(each.E)]
+        return min(value for value in known if value) if known and all(known) else None
+
+    def lacking(self, quantity: str) -> list[str]:
+        """Name the bodies of which a property is not known; a rigid one needs no hardness."""
+        return [
+            f"the {which} body ({each.name})"
+            for which, each in (("first", self.first), ("second", self.second))
+            if getattr(each, quantity) is None
+            and not (quantity == "hardness" and math.isinf(each.E))
+        ]
+
+    def both(self, quantity: str) -> tuple[float, float] | None:
+        """Return a property of both, None unless both are known."""
+        first, second = getattr(self.first, quantity), getattr(self.second, quantity)
+        return None if first is None or second is None else (first, second)

@@ -1,0 +1,1 @@
+"""Topographies in files: instruments, our own NetCDF, archives."""

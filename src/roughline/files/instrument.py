@@ -1,0 +1,128 @@
+"""Files of instruments, through SurfaceTopography's readers."""
+
+from __future__ import annotations
+
+import logging
+import math
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.errors import InputError, RoughlineError
+from roughline.files.measurement import Measurement
+from roughline.topography.body import MEASURED
+
+_BYTES_PER_POINT = 24  # raw, scaled and masked
+
+
+def read_instrument(path: Path, channel: int | str | None) -> Measurement:
+    """Read what an instrument's file holds.
+
+    Parameters
+    ----------
+    path, channel
+        As for :func:`roughline.read`.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged, of a type that is not known, or has no such channel.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ImportWarning)  # it says that MPI is absent; so be it
+        from SurfaceTopography.Exceptions import ReadFileError  # here because it loads slowly
+        from SurfaceTopography.IO import open_topography
+
+    try:
+        with _silence(), open_topography(str(path)) as reader:
+            chosen = _channel_of(reader, channel, path)
+            refuse_beyond_memory(
+                _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
+                f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {path.name}",
+                "crop it with the instrument's software",
+            )
+            return _measurement_of(reader, chosen, path)
+    except (RoughlineError, MemoryError):
+        raise
+    except ReadFileError as error:
+        raise InputError(
+            f"{path.name} is damaged or of a type that is not known ({type(error).__name__}): "
+            "export it again, or to another format such as X3P, SDF, SUR or GWY"
+        ) from error
+    except Exception as error:  # the readers raise whatever a damaged file leads them to
+        first_line = (str(error).strip() or "no reason given").splitlines()[0][:120]
+        raise InputError(
+            f"{path.name} cannot be read ({type(error).__name__}: {first_line}): export it again"
+        ) from error
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Keep off the terminal what readers say of damaged files; some print them whole."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.disable(before)
+
+
+def _channel_of(reader: Any, wanted: int | str | None, path: Path) -> Any:
+    """Find a channel of heights by number or name."""
+    channels = reader.channels
+    listed = ", ".join(f"{i} {each.name!r}" for i, each in enumerate(channels))
+    if wanted is None:
+        return reader.default_channel
+    text = str(wanted)
+    if text.isdigit() and int(text) < len(channels):
+        chosen = channels[int(text)]
+    else:
+        named = [each for each in channels if each.name.lower() == text.lower()]
+        if not named:
+            raise InputError(f"{path.name} has no channel {text!r}; it has {listed}")
+        if len(named) > 1:
+            raise InputError(
+                f"{path.name} has {len(named)} channels {text!r}: choose by number, of {listed}"
+            )
+        chosen = named[0]
+    if not _holds_heights(chosen):
+        raise InputError(f"channel {text!r} of {path.name} holds no heights; it has {listed}")
+    return chosen
+
+
+def _holds_heights(channel: Any) -> bool:
+    of_lengths = not isinstance(channel.unit, tuple) or bool(channel.unit[1])
+    return bool(channel.is_height_channel) and of_lengths
+
+
+def _measurement_of(reader: Any, channel: Any, path: Path) -> Measurement:
+    unit = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
+    stated = channel.physical_sizes is not None
+    topography = reader.topography(
+        channel_index=channel.index,  # it wants a unit and sizes; those that it lacks do not matter
+        **({} if unit else {"unit": "m"}),
+        **({} if stated else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}),
+    )
+    uneven = topography.dim == 1 and not topography.is_uniform
+    return Measurement(
+        file=path.name,
+        heights=topography.heights(),
+        unit=unit or None,
+        sizes=tuple(map(float, topography.physical_sizes)) if stated else None,
+        kind="surface" if topography.dim == 2 else "profile",
+        channel=channel.name,
+        channels=tuple(
+            f"{i} {each.name}" + ("" if _holds_heights(each) else " (no heights)")
+            for i, each in enumerate(reader.channels)
+        ),
+        positions=np.asarray(topography.positions(), dtype=np.float64) if uneven else None,
+        settings={"origin": MEASURED, "file": path.name, "channel": channel.name},
+    )

@@ -1,0 +1,100 @@
+"""Surfaces and lines in NetCDF files of our own."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.errors import InputError, StoreError
+from roughline.files.measurement import Measurement
+from roughline.topography.body import Body, Surface
+
+_FORMAT = "roughline body 1"
+
+
+def write(body: Body, path: str | Path) -> None:
+    """Write a surface or a line, settings included, to NetCDF; :func:`roughline.read` takes it.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        The body.
+    path : str or Path
+        Where to, ending in ".nc"; an existing file is replaced.
+
+    Raises
+    ------
+    InputError
+        If the name does not end in ".nc".
+    StoreError
+        If the file cannot be written.
+    """
+    import xarray  # here because it loads slowly
+
+    path = Path(path)
+    if path.suffix != ".nc":
+        raise InputError(f'{path} does not end in ".nc"; bodies are written as NetCDF: rename it')
+    sizes = body.sizes if isinstance(body, Surface) else (body.length,)
+    attrs: dict[str, Any] = {
+        "format": _FORMAT,
+        "kind": "surface" if isinstance(body, Surface) else body.kind,
+        "sizes": np.array(sizes),
+        "unit": body.unit or "",
+    }
+    for name, value in body.settings.items():
+        attrs[f"body_{name}"] = value
+    dimensions = ("x", "y")[: body.heights.ndim]
+    heights = (dimensions, body.heights, {"units": body.unit or "length", "long_name": "height"})
+    try:
+        xarray.Dataset({"heights": heights}, attrs=attrs).to_netcdf(path, engine="h5netcdf")
+    except OSError as error:
+        raise StoreError(f"cannot write {path} ({error}): choose another place") from error
+
+
+def read_body_file(path: Path) -> Measurement | None:
+    """Read what a file of our own format holds; None if the file has another.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If memory cannot hold it.
+    """
+    import xarray
+
+    try:
+        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
+            if dataset.attrs.get("format") != _FORMAT:
+                return None
+            points = dataset["heights"].shape
+            refuse_beyond_memory(
+                2 * 8 * math.prod(points),
+                f"reading the {' x '.join(map(str, points))} points of {path.name}",
+                "take a smaller piece",
+            )
+            heights = dataset["heights"].values
+            attrs = dataset.attrs
+    except (OSError, ValueError, KeyError):
+        return None
+    settings = {
+        name.removeprefix("body_"): getattr(value, "item", lambda value=value: value)()
+        for name, value in attrs.items()
+        if name.startswith("body_")
+    }
+    return Measurement(
+        file=path.name,
+        heights=heights,
+        unit=attrs["unit"] or None,
+        sizes=tuple(np.atleast_1d(attrs["sizes"]).tolist()),
+        kind=attrs["kind"],
+        is_own=True,
+        settings={**settings, "file": path.name},
+    )

@@ -1,0 +1,156 @@
+"""Files to bodies in metres: instruments' files, arrays and our own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from roughline.errors import InputError
+from roughline.files.archives import refuse_bombs
+from roughline.files.instrument import read_instrument
+from roughline.files.measurement import Measurement
+from roughline.files.netcdf import read_body_file
+from roughline.topography.body import MEASURED, Body, Surface
+from roughline.topography.missing import Filling, Missing
+from roughline.topography.trend import Trend, refuse_unknown_trend
+from roughline.units import Sizes, engineering
+
+_RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
+
+
+def read(
+    path: str | Path,
+    unit: str | None = None,
+    *,
+    channel: int | str | None = None,
+    sizes: Sizes | None = None,
+    missing: Filling = "harmonic",
+    most_missing: float = 0.1,
+    trend: Trend = "tilt",
+) -> Body:
+    """Read a surface or a line from a file, in metres.
+
+    Our own NetCDF files and the formats of SurfaceTopography are understood, plain arrays (NPY,
+    text) included. A measured line scan is returned as a Line of kind "profile"; one with uneven
+    spacing is interpolated linearly to as many even points. Points that the instrument could not
+    measure are filled, and the tilt of its stage is removed; both stand in the settings of the
+    result. Our own files are kept as they were written.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    unit : str, optional
+        Unit of all lengths in a file that states none, such as "nm" or "um".
+    channel : int or str, optional
+        Number, from 0, or name of the channel; default: the file's first one of heights.
+    sizes : float, str, or sequence of them, optional
+        Length of a line, or both sides (Lx, Ly), for a file that states no sizes; one of them
+        makes a square of a square array. Numbers are in `unit` if that is given, like everything
+        else in the file, and in metres if not; texts have units of their own, "1 mm, 0.5 mm".
+    missing : {"harmonic", "nearest"}, optional
+        How missing points are filled: by the smoothest surface through their neighbours, or by
+        the nearest known height.
+    most_missing : float, optional
+        Share of missing points above which the file is refused.
+    trend : {"tilt", "none", "mean", "curvature"}, optional
+        Least-squares polynomial that is removed from what an instrument measured.
+
+    Returns
+    -------
+    Surface or Line
+        In metres.
+
+    Raises
+    ------
+    UnitError
+        If the file states no unit and `unit` is not given, or both are.
+    InputError
+        If the file does not exist, has no format known, is damaged or lacks points or sizes.
+    """
+    filling = Missing(missing, most_missing)
+    refuse_unknown_trend(trend)
+    return measurement(path, channel).body(unit, sizes, filling, trend)
+
+
+def measurement(path: str | Path, channel: int | str | None = None) -> Measurement:
+    """Read what a file holds, whether or not there is enough in it for a body.
+
+    Parameters
+    ----------
+    path, channel
+        As for :func:`read`.
+
+    Raises
+    ------
+    InputError
+        If the file does not exist, has no format known, is damaged, or has no such channel.
+    """
+    path = Path(path)
+    if not path.is_file():
+        what = "is a folder" if path.is_dir() else "does not exist"
+        raise InputError(f"{path} {what}; give a file with a topography")
+    if path.stat().st_size == 0:
+        raise InputError(f"{path.name} is empty: export it again")
+    found = read_body_file(path) if path.suffix == ".nc" else None
+    if found is None and path.suffix == ".npy":
+        found = _read_array(path)
+    if found is None:
+        refuse_bombs(path)
+        return read_instrument(path, channel)
+    if channel is not None:
+        raise InputError(f"{path.name} has one channel; leave it out")
+    return found
+
+
+def _read_array(path: Path) -> Measurement:
+    """Read an array in NumPy's format, x along the first axis."""
+    try:
+        stored = np.load(path, mmap_mode="r", allow_pickle=False)
+        if stored.ndim not in (1, 2) or not np.can_cast(stored.dtype, np.float64, "same_kind"):
+            raise ValueError(f"{stored.ndim} dimensions of type {stored.dtype}")
+    except (ValueError, OSError, EOFError) as error:
+        reason = str(error).splitlines()[0][:120] if str(error) else type(error).__name__
+        raise InputError(
+            f"{path.name} holds no array of real heights ({reason}): save one or two dimensions"
+        ) from error
+    return Measurement(
+        file=path.name,
+        heights=np.array(stored, dtype=np.float64),
+        unit=None,
+        sizes=None,
+        kind="surface" if stored.ndim == 2 else "profile",
+        settings={"origin": MEASURED, "file": path.name},
+    )
+
+
+def suspicions(body: Body) -> list[str]:
+    """List what about the scales of a measured body suggests a wrong unit or a wrong file.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        In metres.
+    """
+    found = []
+    rms, slope = body.rms_height, body.rms_slope
+    if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
+        found.append(
+            f"the rms height is {engineering(rms, 'm')}; roughness is mostly between 1 pm and "
+            "1 mm: check the unit, the tilt, and whether heights share the unit of the sides"
+        )
+    if rms == 0:
+        found.append("all heights are equal: this is a flat punch, or an empty channel")
+    if slope > 1:
+        found.append(
+            f"the rms slope is {slope:.3g}; theories and instruments end before 1: check the unit, "
+            "and outliers"
+        )
+    if isinstance(body, Surface):
+        dx, dy = body.spacing
+        if max(dx, dy) > 2 * min(dx, dy):
+            found.append(
+                f"pixels are {engineering(dx, 'm')} x {engineering(dy, 'm')}: check the sizes"
+            )
+    return found

@@ -1,0 +1,1 @@
+"""The study: its plan, exponents, claims and page."""

@@ -1,0 +1,85 @@
+"""The real contact area of an ensemble: its law over the force, and where stiffness saturates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.contact import scaling
+from roughline.statistics import bootstrap
+from roughline.statistics.bootstrap import NOTHING, Estimate
+from roughline.statistics.power_law import exponent_weights, inside_window
+
+if TYPE_CHECKING:
+    import xarray
+
+Real = NDArray[np.float64]
+
+WINDOW_AREA = (10**-1.5, 10**-0.5)
+"""Range of F̄ for the area law."""
+SATURATED = 0.9
+"""Share of the exact punch's stiffness at which the real area is read."""
+
+
+@dataclass(frozen=True)
+class AreaLaw:
+    """The real area over the force, eq. 4, for one way to measure the area.
+
+    Attributes
+    ----------
+    kappa : Estimate
+        A E* slope / F, geometric mean over the window: every load counts alike. [1]
+    kappa_ends : tuple of float
+        The same at the first and at the last load of the window. [1]
+    exponent : Estimate
+        Exponent of the area over the force, by least squares of the logarithms.
+    """
+
+    kappa: Estimate
+    kappa_ends: tuple[float, float]
+    exponent: Estimate
+
+
+def area_law(full: xarray.Dataset, name: str) -> AreaLaw:
+    """Eq. 4 for one fractal dimension, with the area of that name."""
+    inside = inside_window(full.force_bar.values, WINDOW_AREA)
+    force = full.force_bar.values[inside]
+    area = full[name].values[:, inside]
+    finite = np.isfinite(area).all(axis=1)
+    area, slope = area[finite], full.rms_slope.values[finite]
+    scaled = area * slope[:, np.newaxis] / force
+    alike = np.full(force.size, 1 / force.size)
+    ends = scaled.mean(axis=0)[[0, -1]]
+    exponent = bootstrap.of_log_means(area, exponent_weights(force, WINDOW_AREA))
+    return AreaLaw(
+        kappa=bootstrap.of_log_means(scaled, alike).estimate().exp(),
+        kappa_ends=(float(ends[0]), float(ends[1])),
+        exponent=exponent.estimate(),
+    )
+
+
+def saturation(full: xarray.Dataset) -> Estimate:
+    """Real area fraction, in cells, at which the mean stiffness is 90 % of the exact punch's.
+
+    Linear between loads; NaN if the largest load does not reach it.
+    """
+    converged = np.isfinite(full.stiffness.values).all(axis=1)
+    stiffness = full.stiffness.values[converged] / scaling.EXACT_PUNCH
+    area = full.area_fraction.values[converged]
+    mean = stiffness.mean(axis=0)
+    above = int(np.searchsorted(mean, SATURATED))
+    if above in (0, mean.size):
+        return NOTHING
+
+    def reached(means: Real) -> tuple[Real, Real]:
+        (k_0, k_1), (a_0, a_1) = means[..., :2].T, means[..., 2:].T
+        part, slope = (SATURATED - k_0) / (k_1 - k_0), (a_1 - a_0) / (k_1 - k_0)
+        gradient = [-(1 - part) * slope, -part * slope, 1 - part, part]
+        return a_0 + part * (a_1 - a_0), np.stack(gradient, axis=-1)
+
+    ends = slice(above - 1, above + 1)
+    both = np.hstack([stiffness[:, ends], area[:, ends]])
+    return bootstrap.of_means(both, reached).estimate()

@@ -1,0 +1,233 @@
+"""The paper's figures, drawn from the results of a study."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from roughline.contact import scaling
+from roughline.paper.exponents import (
+    WINDOW_FULL,
+    WINDOW_REDUCED,
+    DimensionSummary,
+    Window,
+)
+from roughline.report.style import (
+    COLUMN,
+    FORCE_LABEL,
+    MARKERS,
+    PAGE,
+    SHADE,
+    colours,
+    legend_dimensions,
+    new_figure,
+)
+from roughline.statistics.power_law import linear_exponent, scaling_exponent
+
+if TYPE_CHECKING:
+    import xarray
+
+Real = NDArray[np.float64]
+
+
+def figure_1(gallery: xarray.Dataset) -> Figure:
+    """Rough line, surface, real contact area and deflection for four fractal dimensions."""
+    figure = new_figure(PAGE, 7.0)
+    rows = gallery.sizes["fractal_dimension"]
+    grid = figure.add_gridspec(rows, 4, width_ratios=[1.15, 1.25, 1, 1.2])
+    image: Any = {"extent": (0, 1, 0, 1), "origin": "lower", "interpolation": "nearest"}
+    deepest = float(gallery.displacement.max())
+    for row in range(rows):
+        body = gallery.isel(fractal_dimension=row)
+        line = figure.add_subplot(grid[row, 0])
+        position = np.arange(body.sizes["s"]) / body.sizes["s"]
+        line.plot(position, body.line_heights, color="k", linewidth=0.4)
+        line.set(xlim=(0, 1), ylim=(-3.6, 3.6), ylabel="height $z/h$")
+        letter = "abcdefgh"[row]
+        name = _as_fraction(float(body.fractal_dimension))
+        line.set_title(f"{letter})  $D_f$ = {name}", loc="left")
+        _draw_topography(figure.add_subplot(grid[row, 1], projection="3d"), body.heights.values)
+        contact = figure.add_subplot(grid[row, 2])
+        contact.imshow(body.contact.values.T, cmap="binary", **image)
+        fraction = float(body.contact.mean())
+        contact.set_title(f"contact {fraction:.1%}", fontsize=8)
+        deflection = figure.add_subplot(grid[row, 3])
+        shown = deflection.imshow(
+            body.displacement.values.T, cmap="cividis", vmin=0, vmax=deepest, **image
+        )
+        figure.colorbar(shown, ax=deflection, label="deflection $u/h$", shrink=0.85)
+        for axes in (contact, deflection):
+            axes.set(xticks=[0, 1], yticks=[0, 1])
+        contact.set_ylabel("$y/L$", labelpad=-6)
+        if row == rows - 1:
+            line.set_xlabel("$x/L$")
+            contact.set_xlabel("$x/L$")
+            deflection.set_xlabel("$x/L$")
+    return figure
+
+
+def figure_2(gallery: xarray.Dataset, fractal_dimension_index: int = 1) -> Figure:
+    """The indented line: springs in contact, and the force as the area above the level."""
+    figure = new_figure(COLUMN, 2.4)
+    axes = figure.add_subplot()
+    body = gallery.isel(fractal_dimension=fractal_dimension_index)
+    heights = body.line_heights.values
+    position = np.arange(heights.size) / heights.size
+    level = heights.max() - float(body.line_depth)
+    axes.plot(position, heights, color="0.35", linewidth=0.5, label="rough line")
+    axes.axhline(level, color="k", linewidth=0.8, linestyle="--", label="level $z = z_{max} - d$")
+    axes.fill_between(
+        position,
+        level,
+        heights,
+        where=heights > level,
+        color=colours(2)[1],
+        linewidth=0,
+        label=r"$F/E^*$ = shaded area",
+    )
+    ends = _runs(heights > level)
+    bottom = heights.min() - 1.2
+    for start, end in ends:
+        axes.plot(position[[start, end]], [bottom, bottom], color="k", linewidth=3)
+    axes.annotate(
+        "springs in contact: $k = E^*\\,\\sum L_i$",
+        (0.03, bottom + 0.3),
+        fontsize=7.5,
+        xycoords="data",
+    )
+    axes.set(xlabel="$x/L$", ylabel="height $z/h$", xlim=(0, 1))
+    axes.set_ylim(bottom - 0.25, heights.max() + 1.6)
+    axes.legend(loc="upper left", ncols=2)
+    return figure
+
+
+def figure_3(reduced: xarray.Dataset, dimensions: Real) -> Figure:
+    """Stiffness over force of the reduced model, k / (E* L)."""
+    chosen = reduced.sel(fractal_dimension=dimensions)
+    figure = _stiffness_figure(
+        chosen, 1.0, r"stiffness $\bar k_{1D} = k\,/\,(E^* L)$", WINDOW_REDUCED
+    )
+    figure.axes[0].axhline(1, color="0.4", linewidth=0.8, linestyle=":")
+    return figure
+
+
+def figure_4(full: xarray.Dataset) -> Figure:
+    """Stiffness over force of the full model, k / (1.1419 E* L)."""
+    label = r"stiffness $\bar k_{3D} = k\,/\,(1.1419\,E^* \sqrt{A_0})$"
+    figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, WINDOW_FULL)
+    exact = scaling.EXACT_PUNCH / scaling.PAPER_PUNCH
+    figure.axes[0].set_ylim(top=1.6)
+    figure.axes[0].axhline(exact, color="0.4", linewidth=0.8, linestyle=":")
+    figure.axes[0].annotate(
+        "exact square punch, $1.1523\\,E^* L$",
+        (full.force_bar.values[0], exact),
+        fontsize=7,
+        va="bottom",
+        ha="left",
+    )
+    return figure
+
+
+def figure_5(exponents: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
+    """Exponent over fractal dimension: both models and the two predictions."""
+    figure = new_figure(COLUMN, 3.2)
+    axes = figure.add_subplot()
+    fine = np.linspace(2, 3, 101)
+    dark, light = colours(2)
+    axes.plot(fine, scaling_exponent(fine), "k--", linewidth=1, label=r"$1/(4 - D_f)$")
+    axes.plot(fine, linear_exponent(fine), "k:", linewidth=1.2, label=r"$0.2567\,D_f$")
+    for i, style in zip(range(exponents.sizes["window"]), ("-", "--", ":"), strict=True):
+        one = exponents.isel(window=i)
+        span = (float(one.window_low), float(one.window_high))
+        axes.fill_between(
+            one.fractal_dimension, one.low, one.high, color=light, alpha=0.45, linewidth=0
+        )
+        axes.plot(
+            one.fractal_dimension,
+            one.exponent,
+            color=light,
+            linestyle=style,
+            label=f"1D, {_window(span)}",
+        )
+    alpha = np.array([s.full.exponent for s in summaries])
+    low, high = np.array([s.full.exponent_interval for s in summaries]).T
+    axes.errorbar(
+        [s.fractal_dimension for s in summaries],
+        alpha,
+        yerr=[alpha - low, high - alpha],
+        fmt="o",
+        color=dark,
+        capsize=2,
+        linewidth=1,
+        label=f"3D, {_window(WINDOW_FULL)}",
+    )
+    axes.set(xlabel="fractal dimension $D_f$", ylabel=r"exponent $\alpha$")
+    axes.set(xlim=(1.97, 3.03), ylim=(0.4, 1.02))
+    axes.legend(loc="upper left")
+    return figure
+
+
+def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Window) -> Figure:
+    """Mean stiffness with its standard error; open where the grid shows."""
+    figure = new_figure(COLUMN, 3.2)
+    axes = figure.add_subplot()
+    axes.axvspan(*window, **SHADE)
+    dimensions = data.fractal_dimension.values
+    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+        one = data.sel(fractal_dimension=dimension)
+        stiffness = one.stiffness.values / punch
+        mean = np.nanmean(stiffness, axis=0)
+        error = np.nanstd(stiffness, axis=0, ddof=1) / np.sqrt(stiffness.shape[0])
+        force = one.force_bar.values
+        certain = (one.resolved.values == 1).all(axis=0)
+        every = max(1, force.size // 24)
+        axes.fill_between(force, mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
+        axes.loglog(
+            force[certain],
+            mean[certain],
+            color=colour,
+            marker=marker,
+            markevery=every,
+            label=f"{dimension:.1f}",
+        )
+        axes.loglog(force[~certain], mean[~certain], color=colour, linewidth=0.8, linestyle="--")
+    axes.set(xlabel=FORCE_LABEL, ylabel=label)
+    legend_dimensions(axes, dimensions)
+    return figure
+
+
+def _draw_topography(axes: Any, heights: Real) -> None:
+    step = max(1, heights.shape[0] // 128)
+    shown = heights[::step, ::step]
+    x, y = np.meshgrid(*(np.arange(n) / n for n in shown.shape), indexing="ij")
+    axes.plot_surface(
+        x, y, shown, cmap="cividis", rcount=128, ccount=128, linewidth=0, rasterized=True
+    )
+    axes.set_box_aspect((1, 1, 0.45), zoom=1.35)
+    axes.view_init(elev=38, azim=-60)
+    axes.set_zlim(-3.6, 3.6)
+    axes.set_axis_off()
+
+
+def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """First and last index of each run of true values."""
+    edges = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))
+    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
+    return list(zip(starts.tolist(), ends.tolist(), strict=True))
+
+
+def _as_fraction(value: float) -> str:
+    return {2 + 1 / 3: "7/3", 2 + 2 / 3: "8/3"}.get(value, f"{value:g}")
+
+
+def _window(window: Window) -> str:
+    low, high = (_power_of_ten(edge) for edge in window)
+    return rf"$\bar F = {low}$ to ${high}$"
+
+
+def _power_of_ten(value: float) -> str:
+    exponent = np.log10(value)
+    return f"10^{{{exponent:.0f}}}" if abs(exponent - round(exponent)) < 1e-6 else f"{value:g}"

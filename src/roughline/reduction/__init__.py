@@ -1,0 +1,1 @@
+"""The reduced model: a rough line on independent springs."""

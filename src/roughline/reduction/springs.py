@@ -1,0 +1,205 @@
+"""The reduced model: a rough line on independent springs, solved exactly for every load at once.
+
+References
+----------
+.. [1] V. L. Popov and S. G. Psakhie, "Numerical simulation methods in tribology", Tribol. Int. 40,
+   916-923 (2007): a line on springs of stiffness E* per length, the paper's eq. 6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.computing.compiled import compiled
+
+Real = NDArray[np.float64]
+
+
+_MOST_BINS = 2**16  # numbers of a bin have 16 bits; more would not fit into a core's cache
+
+
+@dataclass(frozen=True, eq=False)
+class Springs:
+    """A rough line on springs.
+
+    Springs are counted and summed in bins of separation; only the bins in which a load ends are
+    sorted. The result is that of sorting all of them.
+
+    Attributes
+    ----------
+    heights : ndarray, shape (n,)
+        Heights; the highest spring touches first. [length]
+    spring_stiffness : float
+        E* times the spacing. [force / length]
+    """
+
+    heights: Real
+    spring_stiffness: float
+
+    @classmethod
+    def under(cls, heights: Real, spacing: float, E_star: float) -> Springs:
+        """Put springs under the points of a line.
+
+        Parameters
+        ----------
+        heights : ndarray, shape (n,)
+            Heights. [length]
+        spacing : float
+            Length that one spring stands for. [length]
+        E_star : float
+            Stiffness per length, the contact modulus. [pressure]
+        """
+        return cls(heights, E_star * spacing)
+
+    @cached_property
+    def _highest(self) -> float:
+        return float(self.heights.max())
+
+    @property
+    def separations(self) -> Real:
+        """Distance of each spring at first touch; the least is zero. [length]"""
+        return self._highest - self.heights
+
+    @property
+    def _bin_count(self) -> int:
+        return min(self.heights.size, _MOST_BINS)
+
+    @cached_property
+    def _bins_per_length(self) -> float:
+        deepest = self._highest - float(self.heights.min())
+        return (self._bin_count - 1) / deepest if deepest > 0 else 0.0
+
+    @cached_property
+    def _binned(self) -> tuple[NDArray[np.uint16], NDArray[np.intp], Real]:
+        """The bin of each spring; number of springs and sum of separations in each bin."""
+        bins = np.empty(self.heights.size, dtype=np.uint16)
+        counts = np.zeros(self._bin_count, dtype=np.intp)
+        sums = np.zeros(self._bin_count)
+        _fill_bins(self.heights, self._highest, self._bins_per_length, bins, counts, sums)
+        return bins, counts, sums
+
+    @cached_property
+    def _below(self) -> tuple[NDArray[np.intp], Real]:
+        """Number of springs and sum of their separations below each bin, and in all."""
+        _, counts, sums = self._binned
+        return np.append(0, np.cumsum(counts)), np.append(0.0, np.cumsum(sums))
+
+    def at_depths(self, depths: Real) -> Touching:
+        """Springs in contact at each depth."""
+        last = self._below[0].size - 2
+        bins = np.minimum(depths * self._bins_per_length, last).astype(np.intp)
+        few = self._sorted(bins)
+        return self._touching(bins, few, np.searchsorted(few.separations, depths, side="left"))
+
+    def under_forces(self, forces: Real) -> Touching:
+        """Springs in contact under each force."""
+        counts, sums = self._below
+        edges = np.arange(counts.size - 1) / (self._bins_per_length or 1.0)
+        edge_forces = self.spring_stiffness * (counts[:-1] * edges - sums[:-1])
+        bins = np.searchsorted(np.maximum.accumulate(edge_forces), forces, side="right") - 1
+        few = self._sorted(bins)
+        touch_forces = few.counts * few.separations - few.sums
+        # equal in exact arithmetic where separations repeat: rounding must not unsort them
+        touch_forces = self.spring_stiffness * np.maximum.accumulate(touch_forces)
+        return self._touching(bins, few, np.searchsorted(touch_forces, forces, side="left"))
+
+    def touch_force(self, count: int) -> float:
+        """Force at which one more spring than `count` comes into contact. [force]"""
+        nearest = np.partition(self.separations, count)[: count + 1]
+        return self.spring_stiffness * float((nearest[count] - nearest).sum())
+
+    def _sorted(self, bins: NDArray[np.intp]) -> _Sorted:
+        """Sort the springs of some bins."""
+        counts, sums = self._below
+        wanted = np.zeros(counts.size - 1, dtype=bool)
+        wanted[bins] = True
+        wanted[0] = True  # never empty: the highest point is there
+        bins_of_all = self._binned[0]
+        members = np.flatnonzero(wanted[bins_of_all])
+        separations, bin_of = self._highest - self.heights[members], bins_of_all[members]
+        order = np.argsort(separations)
+        separations, bin_of = separations[order], bin_of[order]
+        # within a bin, ranks and sums go on from those of the bins below
+        first = np.searchsorted(bin_of, bin_of)
+        sums_before = np.append(0.0, np.cumsum(separations))[:-1]
+        return _Sorted(
+            bin_of,
+            separations,
+            counts[bin_of] + np.arange(bin_of.size) - first,
+            sums[bin_of] + sums_before - sums_before[first],
+        )
+
+    def _touching(self, bins: NDArray[np.intp], few: _Sorted, found: NDArray[np.intp]) -> Touching:
+        """Springs below the found ones, or below the next bin where these are of another."""
+        counts, sums = self._below
+        at = np.minimum(found, few.bin.size - 1)
+        inside = (found < few.bin.size) & (few.bin[at] == bins)
+        return Touching(
+            np.where(inside, few.counts[at], counts[bins + 1]),
+            np.where(inside, few.sums[at], sums[bins + 1]),
+            self.spring_stiffness,
+        )
+
+
+class _Sorted(NamedTuple):
+    """Springs of some bins, ascending, with number and sum of all springs below each."""
+
+    bin: NDArray[np.uint16]
+    separations: Real
+    counts: NDArray[np.intp]
+    sums: Real
+
+
+@dataclass(frozen=True, eq=False)
+class Touching:
+    """Springs in contact at given depths or under given forces.
+
+    Attributes
+    ----------
+    count : ndarray of int, shape (loads,)
+        Their number.
+    sum : ndarray, shape (loads,)
+        Sum of their separations. [length]
+    spring_stiffness : float
+        Of each. [force / length]
+    """
+
+    count: NDArray[np.intp]
+    sum: Real
+    spring_stiffness: float
+
+    @property
+    def stiffness(self) -> Real:
+        """K = dF/dd. [force / length]"""
+        return self.spring_stiffness * self.count.astype(np.float64)
+
+    def force_at(self, depths: Real) -> Real:
+        """Force at the depths. [force]"""
+        return self.spring_stiffness * (self.count * depths - self.sum)
+
+    def depth_under(self, forces: Real) -> Real:
+        """Depth under the positive forces. [length]"""
+        return (forces / self.spring_stiffness + self.sum) / self.count
+
+
+@compiled
+def _fill_bins(
+    heights: Real,
+    highest: float,
+    bins_per_length: float,
+    bins: NDArray[np.uint16],
+    counts: NDArray[np.intp],
+    sums: Real,
+) -> None:
+    """Find the bin of each spring; add it to the number and the sum there."""
+    for i in range(heights.size):
+        separation = highest - heights[i]
+        bin_ = int(separation * bins_per_length)
+        bins[i] = bin_
+        counts[bin_] += 1
+        sums[bin_] += separation

@@ -1,0 +1,255 @@
+"""Figures of one topography: its heights, its spectrum, its curve, and its contact."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from roughline.assessment.pressed import Pressed
+from roughline.contact.curve import Curve
+from roughline.engineering.formulas import partial_slip
+from roughline.report.folder import make_folder
+from roughline.report.style import PAGE, new_figure, save, styled
+from roughline.spectra.isotropic import IsotropicSpectrum
+from roughline.spectra.roughness import Roughness
+from roughline.topography.body import Body, Surface
+from roughline.units import decimal, engineering, prefix
+
+Real = NDArray[np.float64]
+
+_MOST_PIXELS = 600  # along a side; a picture shows no more
+_DASHES = ("--", ":", "-.")
+
+
+def write_pressed(pressed: Pressed, out: Path) -> list[Path]:
+    """Write a pressed body: ``curve.nc``, and figures of the curve and of the contact.
+
+    Parameters
+    ----------
+    pressed : Pressed
+        Of a surface, with the fields of the load to be shown.
+    out : Path
+        Folder; made if it does not exist.
+
+    Returns
+    -------
+    list of Path
+        The files.
+
+    Raises
+    ------
+    StoreError
+        If the folder cannot be written.
+    """
+    make_folder(out)
+    replace(pressed.curve, fields=()).write(out / "curve.nc")
+    written = [out / "curve.nc"]
+    with styled():
+        written += save(curve_figure(pressed), out, "curve")
+        if isinstance(pressed.body, Surface):
+            written += save(contact_figure(pressed.body, pressed), out, "contact")
+    return written
+
+
+def curve_figure(pressed: Pressed) -> Figure:
+    """Force over depth, and stiffness over force; open marks where the grid decides."""
+    figure = new_figure(PAGE, 3.0)
+    left, right = figure.subplots(1, 2)
+    curve = pressed.curve
+    depth_unit, depth = _prefixed(curve.depth, "m")
+    force_unit, force = _prefixed(curve.force, "N")
+    _draw_loads(left, curve.depth * depth, curve.force * force, curve.resolved)
+    left.set(xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=f"force $F$ [{force_unit}]")
+    draw_stiffness(right, pressed)
+    return figure
+
+
+def contact_figure(surface: Surface, pressed: Pressed) -> Figure:
+    """Topography, and the real contact area at the last load whose fields are there."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    draw_heights(left, surface)
+    draw_filled(left, pressed)
+    draw_contact(right, surface, pressed.curve)
+    return figure
+
+
+def roughness_figure(body: Body, found: Roughness) -> Figure:
+    """Heights, and the spectrum with the law that is nearest to it."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    draw_heights(left, body)
+    draw_spectrum(right, found)
+    return figure
+
+
+def draw_stiffness(axes: Axes, pressed: Pressed) -> None:
+    """Stiffness over force with its interval, and theories beside it."""
+    curve, area = pressed.curve, pressed.area
+    force_unit, force = _prefixed(curve.force, "N")
+    unit, stiffness = _prefixed(curve.stiffness, "N/m")
+    _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve.resolved)
+    if pressed.stiffness_interval is not None:
+        low, high = (end * stiffness for end in pressed.stiffness_interval)
+        axes.fill_between(curve.force * force, low, high, color="0.85", zorder=-5)
+    for theory, dashes in zip(pressed.theories, _DASHES, strict=False):
+        if theory.stiffness is not None:
+            axes.plot(
+                theory.pressure * area * force,
+                theory.stiffness * area * stiffness,
+                dashes,
+                label=theory.name,
+            )
+            axes.legend()
+    axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel=f"stiffness $k$ [{unit}]")
+
+
+def draw_area(axes: Axes, pressed: Pressed) -> None:
+    """Contact area over force with its interval, and theories beside it."""
+    curve, area = pressed.curve, pressed.area
+    assert curve.area_fraction_corrected is not None
+    force_unit, force = _prefixed(curve.force, "N")
+    _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve.resolved)
+    if pressed.area_interval is not None:
+        axes.fill_between(curve.force * force, *pressed.area_interval, color="0.85", zorder=-5)
+    for theory, dashes in zip(pressed.theories, _DASHES, strict=False):
+        axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
+        axes.legend()
+    axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel="contact area $A/A_0$")
+
+
+def draw_partial_slip(axes: Axes, pressed: Pressed, friction: float) -> None:
+    """Tangential force over displacement at the largest load, until the whole contact slides."""
+    assert pressed.pair is not None
+    curve, solved = pressed.curve, pressed.curve.converged
+    if not solved[-1]:
+        axes.text(0.5, 0.5, "largest load not solved", ha="center", transform=axes.transAxes)
+        return
+    moduli = pressed.pair.E_star, pressed.pair.G_star
+    displacement, force = partial_slip(curve.depth[solved], curve.force[solved], *moduli, friction)
+    x_unit, x = _prefixed(displacement, "m")
+    y_unit, y = _prefixed(force, "N")
+    axes.plot(displacement * x, force * y, color="k")
+    axes.set(
+        xlabel=f"slip displacement $u_x$ [{x_unit}]", ylabel=f"tangential force $Q$ [{y_unit}]"
+    )
+
+
+def draw_heights(axes: Axes, body: Body) -> None:
+    """Heights about their mean."""
+    height_unit, factor = _prefixed(body.heights - body.heights.mean(), "m")
+    heights = (body.heights - body.heights.mean()) * factor
+    if not isinstance(body, Surface):
+        unit, size = _prefixed(np.array([body.length]), "m")
+        x = (np.arange(heights.size) + 0.5) * body.spacing * size
+        axes.plot(x, heights, color="k", linewidth=0.6)
+        axes.set(xlabel=f"x [{unit}]", ylabel=f"height [{height_unit}]")
+        return
+    shown = axes.imshow(_thinned(heights).T, origin="lower", extent=_extent(body), cmap="cividis")
+    assert axes.figure is not None
+    axes.figure.colorbar(shown, ax=axes, label=f"height [{height_unit}]", shrink=0.85)
+    _label_sides(axes, body)
+
+
+def draw_filled(axes: Axes, pressed: Pressed) -> None:
+    """Mark on a map of heights where points were missing and have been filled."""
+    if not isinstance(pressed.body, Surface):
+        return
+    _, size = _prefixed(np.array(pressed.body.sizes), "m")
+    bounds = axes.axis()
+    for i, marks in enumerate(pressed.filled):
+        if isinstance(marks, Surface) and 0 < marks.heights.mean() < 1:
+            # the second of two bodies is turned over
+            shown = _highest(marks.heights if i == 0 else marks.heights[::-1])
+            x, y = (
+                (np.arange(n) + 0.5) / n * side * size
+                for n, side in zip(shown.shape, marks.sizes, strict=True)
+            )
+            axes.contourf(x, y, shown.T, levels=[0.5, 1], colors="tab:red", alpha=0.3)
+            axes.contour(x, y, shown.T, levels=[0.5], colors="tab:red", linewidths=0.7)
+    axes.axis(bounds)
+
+
+def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
+    """Real contact area at the last load whose fields are there."""
+    _label_sides(axes, surface)
+    for i in range(len(curve.fields) - 1, -1, -1):
+        found = curve.fields[i]
+        if found is None:
+            continue
+        axes.imshow(
+            found.contact.T,
+            origin="lower",
+            extent=_extent(surface),
+            cmap="binary",
+            interpolation="nearest",
+        )
+        assert curve.area_fraction_corrected is not None
+        share = decimal(100 * curve.area_fraction_corrected[i], 4)
+        force = engineering(curve.force[i], "N")
+        axes.set_title(f"corrected area {share}% at {force}", fontsize=8)
+        return
+
+
+def draw_spectrum(axes: Axes, found: Roughness) -> None:
+    """Spectrum C_2d of a surface or C_profile of a line, and the self-affine law."""
+    spectrum, fit = found.spectrum, found.fit
+    if spectrum is None:
+        axes.text(0.5, 0.5, "no spectrum", ha="center", transform=axes.transAxes)
+        return
+    of_surface = isinstance(spectrum, IsotropicSpectrum)
+    power = spectrum.C_2d if isinstance(spectrum, IsotropicSpectrum) else spectrum.C_profile
+    known = power > 0
+    axes.loglog(spectrum.q[known], power[known], ".", color="0.4", markersize=2)
+    if fit is not None and of_surface:
+        axes.loglog(spectrum.q, fit.values(spectrum.q), color="tab:red")
+    elif fit is not None and 0 <= fit.hurst <= 1:
+        inside = (spectrum.q >= fit.q_low) & (spectrum.q <= (fit.q_high or fit.q_last))
+        law = replace(fit.spectrum().continuum, C_0=fit.C_0).C_profile(spectrum.q[inside])
+        axes.loglog(spectrum.q[inside], law, color="tab:red")
+    symbol = "$C_{2d}$ [m⁴]" if of_surface else "$C_{profile}$ [m³]"
+    axes.set(xlabel="wavenumber $q = 2\\pi/\\lambda$ [1/m]", ylabel=f"spectrum {symbol}")
+    if fit is not None:
+        low, high = fit.hurst_interval
+        axes.set_title(f"H = {fit.hurst:.2f} ({low:.2f} to {high:.2f})", fontsize=9)
+
+
+def _draw_loads(axes: Axes, x: Real, y: Real, resolved: NDArray[np.bool_]) -> None:
+    axes.loglog(x, y, color="0.5", linewidth=0.8)
+    axes.loglog(x[resolved], y[resolved], "o", color="k")
+    axes.loglog(x[~resolved], y[~resolved], "o", color="k", fillstyle="none")
+
+
+def _extent(surface: Surface) -> tuple[float, float, float, float]:
+    _, size = _prefixed(np.array(surface.sizes), "m")
+    return (0, surface.sizes[0] * size, 0, surface.sizes[1] * size)
+
+
+def _label_sides(axes: Axes, surface: Surface) -> None:
+    unit, _ = _prefixed(np.array(surface.sizes), "m")
+    axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
+
+
+def _thinned(heights: Real) -> Real:
+    """Every few points, as many as a picture can show."""
+    steps = [max(1, n // _MOST_PIXELS) for n in heights.shape]
+    return heights[:: steps[0], :: steps[1]]
+
+
+def _highest(marks: Real) -> Real:
+    """Marks on as many points as a picture can show; none is lost."""
+    steps = [max(1, n // _MOST_PIXELS) for n in marks.shape]
+    for axis, step in enumerate(steps):
+        marks = np.maximum.reduceat(marks, np.arange(0, marks.shape[axis], step), axis=axis)
+    return marks
+
+
+def _prefixed(values: Real, unit: str) -> tuple[str, float]:
+    """Choose a prefix for values in an SI unit; return the unit, and the factor to it."""
+    factor, prefixed = prefix(float(np.nanmax(np.abs(values), initial=0.0)), unit)
+    return prefixed, factor

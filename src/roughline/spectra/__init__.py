@@ -1,0 +1,1 @@
+"""Spectra: self-affine laws, synthesis, measured spectra, fits, roughness parameters."""

@@ -1,0 +1,207 @@
+"""Shares of a roughness by wavenumber, and the spectral moments that follow from them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.computing import fft
+from roughline.errors import InputError
+from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
+from roughline.spectra.lattice import ContinuumSpectrum, LatticeSpectrum, lattice_waves
+from roughline.spectra.self_affine import SelfAffine
+from roughline.topography.body import Surface
+
+Real = NDArray[np.float64]
+SurfaceOrSpectrum = Surface | SelfAffine | ContinuumSpectrum | LatticeSpectrum | IsotropicSpectrum
+
+_PER_DECADE = 200  # bands of wavenumbers
+_ROUNDING = 1e-20  # of the largest C_2d, below which a transform's rounding lies
+_RING = 0.25  # half width of the rings of an IsotropicSpectrum, in waves along its length
+
+
+@dataclass(frozen=True, eq=False)
+class Bands:
+    """A roughness as shares of <h²> over wavenumbers.
+
+    Attributes
+    ----------
+    q : ndarray
+        Wavenumbers, ascending. [1 / length]
+    power : ndarray
+        <h²> of the waves at each; their sum is that of the roughness. [length²]
+    """
+
+    q: Real
+    power: Real
+
+
+def bands(roughness: SurfaceOrSpectrum) -> Bands:
+    """Say how much of <h²> lies at which wavenumbers.
+
+    Of a surface these are its own waves, one by one. Of a piece of a larger surface they are those
+    of its windowed spectrum. Of a LatticeSpectrum they are the sums that a generated surface has,
+    of a continuum, or of a SelfAffine itself, the integrals. An IsotropicSpectrum without a window
+    is summed over the square lattice of its length, one with a window integrated.
+
+    Raises
+    ------
+    InputError
+        For a continuum without ``q_high``, and for the lattice of a line.
+    """
+    if isinstance(roughness, Surface):
+        if roughness.is_cut_out:
+            return bands(isotropic_spectrum(roughness))
+        return _gathered([_waves_of(roughness)])
+    if isinstance(roughness, LatticeSpectrum):
+        if roughness.body == "line":
+            raise InputError(
+                'this is the lattice of a line; theories are of surfaces: lattice(n, "surface")'
+            )
+        return _gathered(roughness.waves())
+    if isinstance(roughness, IsotropicSpectrum):
+        return _averaged(roughness)
+    continuum = roughness.continuum if isinstance(roughness, SelfAffine) else roughness
+    return _integrated(continuum)
+
+
+def _waves_of(surface: Surface) -> tuple[Real, Real]:
+    """Wavenumbers and shares of <h²> of all waves of a periodic surface."""
+    if min(surface.shape) < 8:
+        raise InputError(f"the surface has {surface.shape} points; a spectrum needs 8 x 8 or more")
+    heights = surface.heights - surface.heights.mean()
+    if not heights.any():
+        raise InputError("the heights are constant: they have no spectrum")
+    power = np.abs(fft.analyse(heights)) ** 2 / heights.size**2
+    along, across = (
+        2 * np.pi * np.fft.fftfreq(n, spacing)
+        for n, spacing in zip(surface.shape, surface.spacing, strict=True)
+    )
+    q = np.hypot(along[:, np.newaxis], across)
+    return q.ravel()[1:], power.ravel()[1:]
+
+
+def _averaged(spectrum: IsotropicSpectrum) -> Bands:
+    """Shares of a spectrum that was averaged over directions."""
+    q_0 = 2 * math.pi / spectrum.length
+    if spectrum.windowed:
+        return Bands(spectrum.q, 2 * math.pi * spectrum.q * spectrum.C_2d * q_0)
+    rings = spectrum.q.size
+    within = np.concatenate([q for q, _ in lattice_waves(1.0, 2 * rings + 1)])
+    ring = np.rint(within).astype(np.intp)
+    near = np.abs(within - ring) <= _RING
+    # the waves of a ring are not its middle: of the second, they are 2 and sqrt(5)
+    middle = np.bincount(ring[near], within[near]) / np.maximum(np.bincount(ring[near]), 1)
+    middle = middle[1 : rings + 1]
+    known = spectrum.C_2d > _ROUNDING * spectrum.C_2d.max()
+    # a power law from ring to ring, up to the edge of the last that has waves
+    law = np.interp(np.log(within), np.log(middle[known]), np.log(spectrum.C_2d[known]))
+    found = np.where(known[ring - 1], np.exp(law), 0.0)
+    return _gathered([(q_0 * within, 4 * q_0**2 * found)])
+
+
+def _integrated(continuum: ContinuumSpectrum) -> Bands:
+    """Shares of narrow bands."""
+    band = continuum.band
+    if math.isinf(band.q_high):
+        raise InputError(
+            "the spectrum has no upper end, and its slopes are infinite: give q_high, or take "
+            "lattice(n) for a surface of n points, or the surface itself"
+        )
+    low, high = math.log(band.q_low), math.log(band.q_high)
+    count = max(400, math.ceil(_PER_DECADE * (high - low) / math.log(10)))
+    edges = np.exp(np.linspace(low, high, count + 1))
+    q = np.sqrt(edges[1:] * edges[:-1])
+    return Bands(q, 2 * math.pi * q * continuum.C_2d(q) * np.diff(edges))
+
+
+def _gathered(waves: Iterable[tuple[Real, Real]]) -> Bands:
+    """Join waves that differ by less than a band; <h²> and <|grad h|²> stay what they are."""
+    sums = np.zeros((2, 0))
+    first = None
+    for q, power in waves:
+        number = np.rint(np.log(q) * (_PER_DECADE / math.log(10))).astype(np.intp)
+        if first is None:
+            first = int(number.min())
+        number -= first
+        count = max(sums.shape[1], int(number.max()) + 1)
+        sums = np.pad(sums, ((0, 0), (0, count - sums.shape[1])))
+        for row, weight in zip(sums, (power, power * q**2), strict=True):
+            row += np.bincount(number, weights=weight, minlength=count)
+    heights, slopes = sums[:, sums[0] > 0]
+    return Bands(np.sqrt(slopes / heights), heights)
+
+
+@dataclass(frozen=True, eq=False)
+class Moments:
+    """Spectral moments of a surface, and the summits that follow from them (Nayak 1971).
+
+    Attributes
+    ----------
+    m0, m2, m4 : float
+        <h²>, <h'²> and <h''²> of a straight cut. [length²], [1], [1 / length²]
+    """
+
+    m0: float
+    m2: float
+    m4: float
+
+    @property
+    def nayak(self) -> float:
+        """Nayak's parameter m0 m4 / m2²; at least 1.5 for an isotropic surface. [1]"""
+        return self.m0 * self.m4 / self.m2**2
+
+    @property
+    def rms_slope(self) -> float:
+        """Rms gradient of the surface, sqrt(2 m2). [1]"""
+        return math.sqrt(2 * self.m2)
+
+    @property
+    def summit_density(self) -> float:
+        """Summits per area, m4 / (6 pi sqrt(3) m2). [1 / length²]"""
+        return self.m4 / (6 * math.pi * math.sqrt(3) * self.m2)
+
+    @property
+    def summit_radius(self) -> float:
+        """Mean radius of summits, 3 / 8 sqrt(pi / m4) (McCool 1986). [length]"""
+        return 3 / 8 * math.sqrt(math.pi / self.m4)
+
+    @property
+    def summit_deviation(self) -> float:
+        """Standard deviation of summit heights, sqrt((1 - .8968 / nayak) m0). [length]"""
+        return math.sqrt((1 - 0.8968 / self.nayak) * self.m0)
+
+    @property
+    def summit_mean(self) -> float:
+        """Mean height of summits above the mean plane, 4 sqrt(m0 / (pi nayak)). [length]"""
+        return 4 * math.sqrt(self.m0 / (math.pi * self.nayak))
+
+
+def moments(roughness: SurfaceOrSpectrum) -> Moments:
+    """Moments of a surface or of a spectrum.
+
+    Parameters
+    ----------
+    roughness : Surface, SelfAffine, ContinuumSpectrum, LatticeSpectrum or IsotropicSpectrum
+        As for :func:`roughline.theory`. [length]
+
+    References
+    ----------
+    P. R. Nayak, "Random process model of rough surfaces", J. Lubr. Technol. 93, 398-407 (1971).
+    J. I. McCool, "Comparison of models for the contact of rough surfaces", Wear 107, 37-60 (1986).
+
+    Raises
+    ------
+    InputError
+        As for :func:`bands`.
+    """
+    found = bands(roughness)
+    return Moments(
+        m0=float(found.power.sum()),
+        m2=float((found.power * found.q**2).sum()) / 2,
+        m4=float((found.power * found.q**4).sum()) * 3 / 8,
+    )

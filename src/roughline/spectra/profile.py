@@ -1,0 +1,178 @@
+"""Line scans: the spectrum of a straight cut, and the surface's spectrum behind it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from roughline.errors import InputError
+from roughline.spectra.leakage import LONG_WAVES, LONGER, scan_leakage
+from roughline.topography.body import Line
+
+Real = NDArray[np.float64]
+
+_BINS_PER_DECADE = 20
+_LEAST_POINTS = 64
+_WITHIN = 8  # wavenumbers in a bin at which it is compared
+_FLAT = 1e-12  # rms over the whole height, tilt included, that is rounding
+_BEYOND = np.array([1.25, 1.6, 2, 4, 8, 32])  # times the shortest wavenumber of a cut
+_DECAY = 3  # of C_2d within a bin, between those of H = 0 and H = 1: 2 and 4
+
+
+@dataclass(frozen=True, eq=False)
+class ProfileSpectrum:
+    """Spectrum C_profile of straight cuts, averaged over bins of wavenumbers.
+
+    Attributes
+    ----------
+    q : ndarray
+        Halves of q_low = 2 pi / length for the longest waves, then geometric middles of bins that
+        widen with q. [1 / length]
+    C_profile : ndarray
+        Square of the cosine series' coefficient, then means over the waves of the bins. [length³]
+    modes : ndarray
+        1 for a coefficient, twice the number of waves for a bin, as a wave has two phases; times
+        the number of cuts. [1]
+    edges : ndarray
+        Ends of the ranges that they stand for, one more than these. [1 / length]
+    length : float
+        Of a cut. [length]
+    rms_height : float
+        Of the cuts. [length]
+    """
+
+    q: Real
+    C_profile: Real
+    modes: Real
+    edges: Real
+    length: float
+    rms_height: float
+
+
+@dataclass(frozen=True, eq=False)
+class Cuts:
+    """Expected spectrum of straight cuts, from levels of the surface's spectrum.
+
+    Wavenumbers are in units of the cut's q_low.
+
+    Attributes
+    ----------
+    edges : ndarray, shape (levels + 1,)
+        Ends of the ranges in which C_2d falls like q^-3 from a level. They begin with waves that
+        are longer than the cut, go on with its own, and end beyond the shortest.
+    q : ndarray, shape (levels,)
+        Geometric middles, at which C_2d has its levels.
+    matrix : ndarray, shape (means, levels)
+        C_profile as :func:`profile_spectrum` finds it, for a level of one.
+    mean_square : ndarray, shape (levels,)
+        Expected mean square of the heights, without mean and tilt, for a level of one.
+    """
+
+    edges: Real
+    q: Real
+    matrix: Real
+    mean_square: Real
+
+    @property
+    def longer(self) -> int:
+        """How many levels are of waves longer than the cut; those of its spectrum follow."""
+        return LONGER.size
+
+
+def cuts_of_surface(edges: Real) -> Cuts:
+    """Work out the spectrum that cuts of a surface are expected to show.
+
+    C_profile follows by Abel's integral, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). The longest
+    waves are smeared by the ends of the cut and by the tilt that is removed.
+
+    Parameters
+    ----------
+    edges : ndarray, shape (bins + 1,)
+        Ends of the ranges of a :class:`ProfileSpectrum`. [q_low]
+    """
+    ends = np.concatenate([LONGER, edges, edges[-1] * _BEYOND])
+    low, high = ends[:-1], ends[1:]
+    q = np.sqrt(low * high)
+
+    def cut(at: Real) -> Real:
+        at = at[:, np.newaxis]
+        return 2 * q**_DECAY * (_integral(at, high) - _integral(at, np.maximum(low, at)))
+
+    leakage = scan_leakage()
+    matrix = [leakage.response @ cut(leakage.waves)]
+    shares = (np.arange(_WITHIN) + 0.5) / _WITHIN
+    for first, last in pairwise(edges[leakage.response.shape[0] :]):
+        matrix.append(cut(first + shares * (last - first)).mean(axis=0, keepdims=True))
+    long = 2 * np.diff(leakage.edges)[:, np.newaxis] * cut(leakage.waves)
+    # what the waves of a level show beyond the longest modes, nothing is removed of
+    whole = 2 * math.pi * q**_DECAY * (1 / low - 1 / high)
+    short = np.where(high > leakage.edges[-1], whole - long.sum(axis=0), 0.0)
+    return Cuts(ends, q, np.concatenate(matrix), leakage.kept @ long + short)
+
+
+def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
+    """Estimate the spectrum of straight cuts.
+
+    The tilt is removed. The longest waves, of which a cut has few, are those of a cosine series,
+    which needs no window and wastes none of the cut; a Hann window is laid over it for the others.
+
+    Parameters
+    ----------
+    lines : Line or sequence of Line
+        Cuts of kind "profile", of equal length and number of points. [length]
+
+    Raises
+    ------
+    InputError
+        If a line is no profile, is flat, or has fewer than 64 points, or if they differ in size.
+    """
+    cuts = [lines] if isinstance(lines, Line) else list(lines)
+    first = cuts[0]
+    for cut in cuts:
+        if cut.kind != "profile":
+            raise InputError(
+                "this is a reduced line, whose spectrum is not that of a cut; a measured profile "
+                "is needed"
+            )
+        if (cut.heights.size, cut.length) != (first.heights.size, first.length):
+            raise InputError("the lines differ in length or points; they must be alike")
+    n = first.heights.size
+    if n < _LEAST_POINTS:
+        raise InputError(f"the line has {n} points; a spectrum needs {_LEAST_POINTS} or more")
+    heights = np.array([cut.detrended().heights for cut in cuts])
+    rms = math.sqrt(float((heights**2).mean()))
+    if rms <= _FLAT * max(float(np.ptp(cut.heights)) for cut in cuts):
+        raise InputError("the heights are constant: they have no spectrum")
+    q_low = 2 * math.pi / first.length
+    k = np.arange(2, 2 * LONG_WAVES + 1)
+    series = fft.dct(heights, axis=1, norm="ortho")[:, k] ** 2 / n
+    window = np.hanning(n + 1)[:-1]
+    heights *= window / math.sqrt(float((window**2).mean()))
+    waves = (n - 1) // 2
+    m = np.arange(LONG_WAVES + 1, waves + 1)
+    power = np.abs(fft.rfft(heights, axis=1)[:, m]) ** 2 / n**2
+    bins = np.floor(_BINS_PER_DECADE * np.log10(m)).astype(np.intp)
+    counts = np.bincount(bins)
+    there = counts > 0
+    starts = m[np.searchsorted(bins, np.flatnonzero(there))[1:]] - 0.5
+    means = np.bincount(bins, power.mean(axis=0))[there] / counts[there]
+    return ProfileSpectrum(
+        q=q_low * np.append(k / 2, np.exp(np.bincount(bins, np.log(m))[there] / counts[there])),
+        C_profile=np.append(series.mean(axis=0), means) / q_low,
+        modes=len(cuts) * np.append(np.ones(k.size), 2.0 * counts[there]),
+        edges=q_low * np.concatenate([[0.75], k / 2 + 0.25, starts, [waves + 0.5]]),
+        length=first.length,
+        rms_height=rms,
+    )
+
+
+def _integral(q: Real, end: Real) -> Real:
+    """Integral of q'^-2 / sqrt(q'² - q²) from q to an end; zero for ends below q."""
+    end = np.maximum(end, q)
+    return np.sqrt(end**2 - q**2) / (q**2 * end)

@@ -1,0 +1,148 @@
+"""What a topography is like: amplitudes, slopes, summits, spectrum, and the law it follows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.errors import InputError
+from roughline.spectra.fit import SelfAffineFit, fit_self_affine
+from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
+from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
+from roughline.topography.body import Body, Line, Surface
+
+Real = NDArray[np.float64]
+
+ALIKE = 0.7  # minor over major slope, from which on a surface counts as isotropic
+
+
+@dataclass(frozen=True, eq=False)
+class Roughness:
+    """Parameters of a topography; those of areas for a surface, of profiles for a line.
+
+    Attributes
+    ----------
+    rms_height : float
+        Sq or Rq. [length]
+    rms_slope : float
+        Sdq or Rdq, from forward differences. [1]
+    skewness, kurtosis : float
+        Ssk, Sku or Rsk, Rku; 0 and 3 for Gaussian heights, NaN for flat ones. [1]
+    summits : int
+        Points above all their neighbours, 8 of a surface and 2 of a line.
+    summit_skewness : float
+        Skewness of their heights; NaN for fewer than 3. [1]
+    isotropy : float or None
+        Smallest over largest rms slope of all directions; None for a line. [1]
+    spectrum : IsotropicSpectrum, ProfileSpectrum or None
+        Averaged over directions; None if it has none.
+    fit : SelfAffineFit or None
+        The self-affine law nearest to it; None if it has none.
+    remarks : list of str
+        What stands in the way of a spectrum or a fit, or speaks against using it.
+    """
+
+    rms_height: float
+    rms_slope: float
+    skewness: float
+    kurtosis: float
+    summits: int
+    summit_skewness: float
+    isotropy: float | None
+    spectrum: IsotropicSpectrum | ProfileSpectrum | None
+    fit: SelfAffineFit | None
+    remarks: list[str]
+
+
+def roughness(body: Body) -> Roughness:
+    """Describe a topography.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        Prepared; a Line of kind "profile". [length]
+
+    References
+    ----------
+    ISO 25178-2:2021, 4.2; M. S. Longuet-Higgins, "The statistical analysis of a random, moving
+    surface", Phil. Trans. R. Soc. A 249, 321-387 (1957), for the slopes of all directions.
+
+    Raises
+    ------
+    InputError
+        For a reduced line, which is no topography.
+    """
+    if isinstance(body, Line) and body.kind == "reduced":
+        raise InputError(
+            "this is a reduced line, made for springs and no topography; describe its surface"
+        )
+    skewness, kurtosis = _shape(body.heights)
+    summits = _summits(body.heights)
+    remarks, spectrum, fit = [], None, None
+    try:
+        found = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
+        spectrum, fit = found, fit_self_affine(found)
+        remarks += fit.objections
+    except InputError as error:
+        remarks.append(str(error))
+    alike = isotropy(body) if isinstance(body, Surface) else None
+    if alike is not None and alike < ALIKE:
+        remarks.append(
+            f"slopes differ by direction, smallest over largest {alike:.2f}: a spectrum averaged "
+            "over directions, and a line scan, stand for no such surface"
+        )
+    return Roughness(
+        rms_height=body.rms_height,
+        rms_slope=body.rms_slope,
+        skewness=skewness,
+        kurtosis=kurtosis,
+        summits=summits.size,
+        summit_skewness=_shape(summits)[0] if summits.size > 2 else math.nan,
+        isotropy=alike,
+        spectrum=spectrum,
+        fit=fit,
+        remarks=remarks,
+    )
+
+
+def _shape(heights: Real) -> tuple[float, float]:
+    """Skewness and kurtosis, free of the scale."""
+    deviation = heights - heights.mean()
+    largest = float(np.abs(deviation).max())
+    if largest == 0 or float(np.ptp(heights)) == 0:
+        return math.nan, math.nan
+    deviation /= largest
+    variance = float((deviation**2).mean())
+    return (
+        float((deviation**3).mean()) / variance**1.5,
+        float((deviation**4).mean()) / variance**2,
+    )
+
+
+def _summits(heights: Real) -> Real:
+    """Heights of inner points above all their neighbours."""
+    inner = heights[(slice(1, -1),) * heights.ndim]
+    higher = np.ones(inner.shape, dtype=bool)
+    for shift in np.ndindex((3,) * heights.ndim):
+        if shift != (1,) * heights.ndim:
+            window = tuple(slice(i, i + n) for i, n in zip(shift, inner.shape, strict=True))
+            higher &= inner > heights[window]
+    return inner[higher]
+
+
+def isotropy(surface: Surface) -> float:
+    """Smallest over largest rms slope of all directions; NaN for a flat or a thin surface."""
+    if min(surface.shape) < 2:
+        return math.nan
+    (dx, dy), h = surface.spacing, surface.heights
+    along_x = (np.diff(h, axis=0) / dx)[:, :-1] + (np.diff(h, axis=0) / dx)[:, 1:]
+    along_y = (np.diff(h, axis=1) / dy)[:-1] + (np.diff(h, axis=1) / dy)[1:]
+    squares = [
+        float((a * b).mean())
+        for a, b in ((along_x, along_x), (along_x, along_y), (along_y, along_y))
+    ]
+    minor, major = np.linalg.eigvalsh([squares[:2], squares[1:]])
+    return math.sqrt(max(0.0, minor) / major) if major > 0 else math.nan

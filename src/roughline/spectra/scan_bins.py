@@ -1,0 +1,154 @@
+"""Self-affine laws held against the bins of line scans, through the cuts of their surfaces."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.spectra.leakage import LONG_WAVES, map_leakage
+from roughline.spectra.map_rings import modes_of_surface
+from roughline.spectra.profile import Cuts, ProfileSpectrum, cuts_of_surface
+from roughline.spectra.self_affine_laws import HURSTS, LEAST_MEANS, Laws, Means, power_law
+
+Real = NDArray[np.float64]
+
+_NOTHING = 1e-300  # stands for no power, where logarithms are taken
+_SAME = 1 + 1e-9  # but for rounding
+_CORRELATED = 35 / 18  # modes that a Hann window makes of one: 1 + 2 (4/9 + 1/36)
+
+
+@dataclass(frozen=True, eq=False)
+class ScanBins:
+    """Mean powers of a scan's bins, and how laws of its surface appear in them.
+
+    Wavenumbers are in units of q_low, powers are q_low C_profile; levels are q_low² C_2d.
+
+    Attributes
+    ----------
+    means : Means
+        Of the bins.
+    edges : ndarray, shape (means + 1,)
+        Their ends.
+    cuts : Cuts
+        What cuts show in them.
+    """
+
+    means: Means
+    edges: Real
+    cuts: Cuts
+
+    @classmethod
+    def of(cls, spectrum: ProfileSpectrum) -> ScanBins:
+        """Take the bins of a spectrum."""
+        q_low = 2 * math.pi / spectrum.length
+        edges = spectrum.edges / q_low
+        power = spectrum.C_profile * q_low
+        correlated = np.where(edges[:-1] < LONG_WAVES, 1.0, _CORRELATED)
+        means = Means.of(spectrum.q / q_low, power, spectrum.modes / correlated, windowed=True)
+        return cls(means, edges, cuts_of_surface(edges))
+
+    @property
+    def modes(self) -> Real:
+        """How many modes of the scan each bin stands for."""
+        return 2 * np.diff(self.edges)
+
+    @cached_property
+    def laws(self) -> Laws:
+        """Every law, held against the bins."""
+        means, cuts, bins = self.means, self.cuts, self.means.q.size
+        rolls = cuts.q[cuts.q < self.edges[-1] / 2]
+        # a law ends with a bin, or goes on beyond the last one
+        last = np.append(np.arange(LEAST_MEANS // 2, bins), bins - 1)
+        levels = np.append(cuts.longer + 1 + last[:-1], cuts.q.size)
+        ends = np.append(self.edges[last[:-1] + 1], math.inf)
+        margins = np.append(np.diff(self.edges)[last[:-1]], 0.0)
+        beyond = np.array([means.free_deviance(k + 1) for k in last])
+        inside = np.arange(bins)[:, np.newaxis] <= last
+        weight = np.where(inside, means.weight[:, np.newaxis], 0.0)  # over (bin, end)
+        powers = np.log(means.power) @ weight
+        total, scaled = weight.sum(axis=0), weight * means.power[:, np.newaxis]
+        # what each level adds to each bin, for each end
+        ended = cuts.matrix.T[:, :, np.newaxis] * (
+            np.arange(cuts.q.size)[:, np.newaxis, np.newaxis] < levels
+        )
+        ended = ended.reshape(cuts.q.size, -1)
+        hursts = HURSTS[::2]  # a scan does not tell them closer
+        deviance = np.full((hursts.size, rolls.size, last.size), math.inf)
+        log_level = np.zeros(deviance.shape)
+        for j, roll in enumerate(rolls):
+            sums = np.exp(power_law(cuts.q, hursts, roll)) @ ended
+            sums = np.maximum(sums, _NOTHING).reshape(hursts.size, *weight.shape)
+            level = np.einsum("be,hbe->he", scaled, 1 / sums) / total
+            log_level[:, j] = np.log(level)
+            laws = np.einsum("be,hbe->he", weight, np.log(sums))
+            own = 2 * (laws + total * log_level[:, j] - powers) + beyond
+            some = ends > roll  # else no power law is left
+            deviance[:, j, some] = own[:, some]
+        return Laws(hursts, rolls, ends, margins, deviance, log_level)
+
+    def log_powers(self, hurst: float, roll: float, end: float) -> Real:
+        """Logarithm of the expected power in each bin for a plateau of one; -inf beyond."""
+        law = np.log(np.maximum(self.cuts.matrix @ self._levels(hurst, roll, end), _NOTHING))
+        return np.where(self.edges[1:] <= end * _SAME, law, -math.inf)
+
+    def mean_square(self, hurst: float, roll: float, end: float) -> tuple[float, float]:
+        """Mean squares of a surface as large as the scan, and of the scan, for a plateau of one.
+
+        The second is without mean and tilt, and with what longer waves add.
+        """
+        last = min(end, float(self.edges[-1]))
+        levels = self._levels(hurst, roll, last)
+        whole = modes_of_surface(self.cuts.edges) @ levels
+        return float(whole), float(self.cuts.mean_square @ levels)
+
+    def surfaces(self, count: int, generator: np.random.Generator) -> Iterator[Real]:
+        """Draw spectra of surfaces that the scan may have been cut from.
+
+        A law is drawn by its likelihood, with a level and deviations that chance leaves open.
+        Beyond the law's end the spectrum is as far from the law as the scan is. What a piece as
+        large as the scan shows of longer waves is put into its longest one; and the piece has
+        few long waves, pi m of wavenumber m, whose mean power is a matter of chance.
+
+        Yields
+        ------
+        ndarray, shape (waves,)
+            Powers q_low² C_2d at the scan's waves 1, 2, ...
+        """
+        laws, means = self.laws, self.means
+        m = np.arange(1.0, round(float(self.edges[-1])))
+        of_wave = np.searchsorted(self.edges[1:-1], m)
+        for law in zip(*laws.drawn(count, generator), strict=True):
+            hurst, roll, end = laws.values(*law)
+            level = laws.log_level[law]
+            ended = self.log_powers(hurst, roll, end) + level
+            endless = self.log_powers(hurst, roll, math.inf) + level
+            inside = np.isfinite(ended)
+            own = means.deviations(ended).drawn(generator)
+            beyond = np.log(means.power) - endless
+            weight = means.weight[inside].sum()
+            level -= math.log(generator.gamma(weight) / weight)
+            change = np.where(inside, own, beyond)
+            power = np.exp(level + power_law(m, np.array([hurst]), roll)[0] + change[of_wave])
+            power[0] += self._left_of_longer(hurst, roll) * math.exp(level)
+            yield power * generator.gamma(np.pi * m) / (np.pi * m)
+
+    def _left_of_longer(self, hurst: float, roll: float) -> float:
+        """Power in the longest wave that stands for longer ones in a square piece.
+
+        The piece has a larger mean square than the surface's waves up to its length make.
+        """
+        leakage = map_leakage()
+        seen = leakage.edges[1:] < self.edges[-1]
+        level = np.exp(power_law(leakage.waves[seen], np.array([hurst]), roll)[0])
+        area = np.pi * np.diff(leakage.edges**2)[seen]
+        waves = modes_of_surface(leakage.edges)[seen]
+        return max(0.0, float((area * leakage.kept[seen] - waves) @ level)) / (2 * math.pi)
+
+    def _levels(self, hurst: float, roll: float, end: float) -> Real:
+        levels = np.exp(power_law(self.cuts.q, np.array([hurst]), roll)[0])
+        return np.where(self.cuts.edges[1:] <= end * _SAME, levels, 0.0)

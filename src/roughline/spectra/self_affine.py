@@ -1,0 +1,353 @@
+"""Self-affine roughness spectra: of the surface, of its reduced line and of a straight cut.
+
+Conventions: q = 2 pi / wavelength, and
+
+    <h²> = 2 pi int_0^inf q C_2d(q) dq
+         = int_{-inf}^{inf} C_reduced(q) dq = int_{-inf}^{inf} C_profile(q) dq.
+"""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.errors import ContinuumWarning, InputError
+from roughline.spectra import synthesis
+from roughline.spectra.band import Band
+from roughline.spectra.lattice import (
+    BodyName,
+    ContinuumSpectrum,
+    LatticeSpectrum,
+    sum_over_integral,
+)
+from roughline.topography.body import Line, Settings, Surface
+
+Real = NDArray[np.float64]
+Amplitudes = Literal["fixed", "gaussian"]
+Normalisation = Literal["rms_height", "C_0"]
+
+_BYTES_PER_POINT = 40  # of a surface, while it is generated
+_LARGEST: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
+_ALIKE = 0.05  # difference between a continuum and its bodies from which on it is said
+
+
+@dataclass(frozen=True, init=False)
+class SelfAffine:
+    """Isotropic self-affine spectrum, the paper's eq. 3, with optional roll-off and cutoff.
+
+    ``C_2d(q) = C_0`` from ``q_low = 2 pi / length`` to ``q_roll`` (default: ``q_low``, no
+    plateau), then ``C_0 (q / q_roll)**(-2 (H + 1))`` up to ``q_high``, and zero outside.
+
+    What is given fixes how surfaces and lines are scaled: with ``rms_height`` each of them is
+    scaled to that rms (the paper's choice); with ``C_0`` both are generated from the same
+    spectrum, and their rms heights differ by what the lattice of wavevectors makes of it.
+
+    ``continuum`` and ``lattice(n, body)`` are the two spectra that this can mean: integrals, or the
+    sums that a body of n points has. Without a roll-off, or with one below about 3 ``q_low``, they
+    differ by 5 % to a factor of two. ``C_0``, ``C_2d``, ``C_reduced``, ``C_profile``, ``moment``
+    and ``rms_height`` of the spectrum itself are the continuum's, and warn where bodies are more
+    than 5 % off.
+
+    Parameters
+    ----------
+    hurst : float, optional
+        Hurst exponent H, 0 to 1. Give this or `fractal_dimension`.
+    fractal_dimension : float, optional
+        D_f = 3 - H, 2 to 3.
+    length : float
+        Side of the square surface and length of the line. [length]
+    rms_height : float, optional
+        Root-mean-square height h. Give this or `C_0`. [length]
+    C_0 : float, optional
+        Value of C_2d at ``q_roll`` and on the plateau. [length⁴]
+    q_roll : float, optional
+        Roll-off wavenumber; the spectrum is flat below. [1 / length]
+    q_high : float, optional
+        Largest wavenumber; default: whatever the grid carries. [1 / length]
+
+    Raises
+    ------
+    InputError
+        If both or neither of a pair are given, or a value is outside its range.
+    """
+
+    hurst: float
+    length: float
+    normalisation: Normalisation
+    magnitude: float
+    q_roll: float
+    q_high: float
+
+    def __init__(
+        self,
+        *,
+        hurst: float | None = None,
+        fractal_dimension: float | None = None,
+        length: float = 1.0,
+        rms_height: float | None = None,
+        C_0: float | None = None,
+        q_roll: float | None = None,
+        q_high: float | None = None,
+    ) -> None:
+        if (hurst is None) == (fractal_dimension is None):
+            given = "neither" if hurst is None else "both"
+            raise InputError(f"{given} of hurst and fractal_dimension given; give exactly one")
+        if (rms_height is None) == (C_0 is None):
+            given = "neither" if C_0 is None else "both"
+            raise InputError(f"{given} of rms_height and C_0 given; give exactly one")
+        if hurst is None:
+            assert fractal_dimension is not None
+            if not 2 <= fractal_dimension <= 3:
+                raise InputError(f"fractal_dimension is {fractal_dimension}; allowed is 2 to 3")
+            hurst = round(3 - fractal_dimension, 12)  # 3 - 2.2 means 0.8 to the last bit
+        if not 0 <= hurst <= 1:
+            raise InputError(f"hurst is {hurst}; allowed is 0 to 1")
+        _check_positive("length", length)
+        q_low = 2 * math.pi / length
+        q_roll = q_low if q_roll is None else q_roll
+        q_high = math.inf if q_high is None else q_high
+        if not q_low * (1 - 1e-12) <= q_roll < math.inf:
+            raise InputError(f"q_roll is {q_roll}; at least q_low = 2 pi / length = {q_low:g}")
+        if not q_roll < q_high:
+            raise InputError(f"q_high is {q_high}; more than q_roll = {q_roll:g} is needed")
+        if rms_height is not None:
+            _check_positive("rms_height", rms_height)
+            object.__setattr__(self, "normalisation", "rms_height")
+            object.__setattr__(self, "magnitude", float(rms_height))
+        else:
+            assert C_0 is not None
+            _check_positive("C_0", C_0)
+            object.__setattr__(self, "normalisation", "C_0")
+            object.__setattr__(self, "magnitude", float(C_0))
+        object.__setattr__(self, "hurst", float(hurst))
+        object.__setattr__(self, "length", float(length))
+        object.__setattr__(self, "q_roll", float(q_roll))
+        object.__setattr__(self, "q_high", float(q_high))
+
+    @property
+    def _band(self) -> Band:
+        return Band(self.q_low, self.q_roll, self.q_high, 2 * (self.hurst + 1))
+
+    @property
+    def fractal_dimension(self) -> float:
+        """D_f = 3 - H. [1]"""
+        return round(3 - self.hurst, 12)
+
+    @property
+    def q_low(self) -> float:
+        """Smallest wavenumber, 2 pi / length. [1 / length]"""
+        return 2 * math.pi / self.length
+
+    @property
+    def continuum(self) -> ContinuumSpectrum:
+        """The spectrum whose moments are integrals, with the C_0 or the rms height given.
+
+        Raises
+        ------
+        InputError
+            For H = 0 without ``q_high`` when the rms height was given: the integral diverges.
+        """
+        if self.normalisation == "C_0":
+            return ContinuumSpectrum(self._band, self.magnitude)
+        return ContinuumSpectrum(self._band, self.magnitude**2 / self._band.moment(0))
+
+    def lattice(self, n: int, body: BodyName = "surface") -> LatticeSpectrum:
+        """Return the spectrum that a generated body has.
+
+        Parameters
+        ----------
+        n : int
+            Points along a side, as for :meth:`surface` and :meth:`line`.
+        body : {"surface", "line"}
+            Which of the two. Scaled to one rms height, their spectra differ.
+        """
+        if body not in _LARGEST:
+            raise InputError(f'body is {body!r}; allowed are "surface" and "line"')
+        _check_points(n, body)
+        C_0 = self.magnitude
+        if self.normalisation == "rms_height":
+            C_0 = self.magnitude**2 / LatticeSpectrum.of(self._band, 1.0, n, body).moment(0)
+        return LatticeSpectrum.of(self._band, C_0, n, body)
+
+    @property
+    def C_0(self) -> float:
+        """Value of C_2d at q_roll, given or that of the continuum. [length⁴]
+
+        Raises
+        ------
+        InputError
+            As for :attr:`continuum`.
+        """
+        return self._told("C_0", self._factor_over("surface")).C_0
+
+    @property
+    def rms_height(self) -> float:
+        """Root-mean-square height, given or as the continuum integral of C_2d. [length]"""
+        if self.normalisation == "rms_height":
+            return self.magnitude
+        factor = 1 / math.sqrt(sum_over_integral(self._band, 0, "surface"))
+        return self._told("rms_height", factor).rms_height
+
+    def C_2d(self, q: ArrayLike) -> Real:
+        """Spectrum of the surface, the paper's eq. 3, as of :attr:`continuum`. [length⁴]"""
+        return self._told("C_2d", self._factor_over("surface")).C_2d(q)
+
+    def C_reduced(self, q: ArrayLike) -> Real:
+        """Spectrum of the reduced line, the paper's eq. 7, as of :attr:`continuum`. [length³]"""
+        return self._told("C_reduced", self._factor_over("line"), "line").C_reduced(q)
+
+    def C_profile(self, q: ArrayLike) -> Real:
+        """Spectrum of a straight cut, as of :attr:`continuum`. [length³]"""
+        return self._told("C_profile", self._factor_over("surface")).C_profile(q)
+
+    def moment(self, order: int) -> float:
+        """<h²>, <|grad h|²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
+        factor = self._factor_over("surface") / sum_over_integral(self._band, order, "surface")
+        return self._told("moment", factor).moment(order)
+
+    def off_its_surfaces(self) -> str:
+        """Say how the continuum differs from the surfaces generated; empty within 5 %."""
+        factor = sum_over_integral(self._band, 0, "surface")
+        if abs(factor - 1) <= _ALIKE:
+            return ""
+        if self.normalisation == "rms_height":
+            return f"{factor:.2f} times the C_2d"
+        return f"{1 / math.sqrt(factor):.2f} times the rms height"
+
+    def _factor_over(self, body: BodyName) -> float:
+        """C_2d of the continuum over that of the surfaces or lines that are generated. [1]"""
+        return 1.0 if self.normalisation == "C_0" else sum_over_integral(self._band, 0, body)
+
+    def _told(self, name: str, factor: float, body: BodyName = "surface") -> ContinuumSpectrum:
+        """Return the continuum, and warn where a body differs from it by more than 5 %."""
+        if abs(factor - 1) > _ALIKE:
+            which = 'n, "line"' if body == "line" else "n"
+            warnings.warn(
+                f"{name} is that of the continuum, {factor:.2f} times that of the {body}s which "
+                f"this spectrum generates: their few long waves are no integral. Take "
+                f"lattice({which}).{name} for a body of n points, or continuum.{name} for the "
+                "integral",
+                ContinuumWarning,
+                stacklevel=3,
+            )
+        return self.continuum
+
+    def surface(
+        self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed"
+    ) -> Surface:
+        """Generate a random square surface.
+
+        The same seed with a larger `n` gives the same surface with more detail: one phase belongs
+        to one wavevector. Phases do not depend on the spectrum. Modes with |q| below
+        ``min(q_high, pi n / length)`` are used, a circle; the Nyquist modes are zero.
+
+        Parameters
+        ----------
+        n : int
+            Points along each side, at least 3.
+        rng : int, SeedSequence, Generator, optional
+            Seed. Realisation i of an ensemble has ``SeedSequence(root, spawn_key=(i,))``, so it
+            does not depend on how many are made.
+        amplitudes : {"fixed", "gaussian"}, optional
+            Random phases with moduli from the spectrum (the paper's choice), or complex Gaussian
+            modes. The phases are the same in both.
+
+        Returns
+        -------
+        Surface
+            Heights (n, n). [length]
+        """
+        heights, settings = self._generate("surface", n, rng, amplitudes)
+        return Surface(heights, (self.length, self.length), settings=settings)
+
+    def line(self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed") -> Line:
+        """Generate the random line of the reduction method (spectrum ``C_reduced``).
+
+        Parameters
+        ----------
+        n : int
+            Points, at least 3.
+        rng, amplitudes
+            As for :meth:`surface`.
+
+        Returns
+        -------
+        Line
+            Heights (n,). [length]
+        """
+        heights, settings = self._generate("line", n, rng, amplitudes)
+        return Line(heights, self.length, settings=settings)
+
+    def _generate(
+        self, body: BodyName, n: int, rng: synthesis.Seed, amplitudes: Amplitudes
+    ) -> tuple[Real, Settings]:
+        """Heights of a body, and the settings that make them again."""
+        _check_points(n, body)
+        if body == "surface":
+            refuse_beyond_memory(
+                _BYTES_PER_POINT * n**2, f"a surface of {n} x {n} points", "take a smaller n"
+            )
+        if amplitudes not in ("fixed", "gaussian"):
+            raise InputError(f'amplitudes is {amplitudes!r}; allowed are "fixed" and "gaussian"')
+        draw, heights_of = {
+            "surface": (synthesis.surface_draws, synthesis.surface_heights),
+            "line": (synthesis.line_draws, synthesis.line_heights),
+        }[body]
+        for_phases, for_amplitudes = synthesis.generators(rng)
+        settings: Settings = {
+            "origin": f"self-affine {body}",
+            "hurst": self.hurst,
+            "length": self.length,
+            "normalisation": self.normalisation,
+            self.normalisation: self.magnitude,
+            "q_roll": self.q_roll,
+            "q_high": self.q_high,
+            "n": int(n),
+            "amplitudes": amplitudes,
+            "seed": synthesis.described(rng, for_phases),
+        }
+        moduli = self._line_moduli(n) if body == "line" else self._moduli(n, body)
+        if amplitudes == "gaussian":
+            moduli = moduli * synthesis.rayleigh(draw(n, for_amplitudes))
+        given = self.normalisation == "rms_height"
+        scale = self.magnitude / synthesis.rms_of(moduli) if given else 1.0
+        return heights_of(moduli, for_phases, scale, n), settings
+
+    def _moduli(self, n: int, body: BodyName) -> Real:
+        """Moduli of the modes that the real inverse FFT wants, up to the normalisation.
+
+        A line's begin at m = 1.
+        """
+        if body == "line":
+            m = np.arange(1, (n - 1) // 2 + 1, dtype=np.float64)
+            weight = np.pi * self.q_low**2 * m
+        else:
+            m = np.hypot(np.fft.fftfreq(n, 1 / n)[:, np.newaxis], np.arange(n // 2 + 1))
+            weight = np.where((m > 0) & (m < n / 2), self.q_low**2, 0.0)
+        power = weight * self._band.shape(self.q_low * m)
+        if self.normalisation == "C_0":
+            power *= self.magnitude
+        return np.sqrt(power)
+
+    @lru_cache(maxsize=8)  # noqa: B019  (an ensemble of lines wants them for every one)
+    def _line_moduli(self, n: int) -> Real:
+        return self._moduli(n, "line")
+
+
+def _check_points(n: int, body: BodyName) -> None:
+    if not isinstance(n, int | np.integer) or not 3 <= n <= _LARGEST[body]:
+        raise InputError(
+            f"n is {n!r}; a whole number of points from 3 to {_LARGEST[body]} is needed"
+        )
+
+
+def _check_positive(name: str, value: float) -> None:
+    if not 0 < value < math.inf:
+        raise InputError(f"{name} is {value}; a positive, finite number is needed")

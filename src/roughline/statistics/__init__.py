@@ -1,0 +1,1 @@
+"""Averages, bootstrap intervals, power laws, verdicts."""

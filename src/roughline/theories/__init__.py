@@ -1,0 +1,1 @@
+"""Analytical theories of rough contact, to lie beside the full model."""

@@ -1,0 +1,1 @@
+"""Surfaces and lines, their trend, missing points and preparation; two bodies together."""

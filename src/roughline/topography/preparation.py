@@ -1,0 +1,242 @@
+"""What is done to a measured topography before it is used, step by step, and recorded with it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.errors import InputError
+from roughline.topography.body import Body, BodyType, Line, Surface, with_heights
+from roughline.topography.missing import Missing
+from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
+
+Real = NDArray[np.float64]
+_TILT_MATTERS = 0.05  # of the rms height, from which on a tilt is warned of
+_SPIKE = 5.0  # over what neighbours scatter by
+_NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
+_ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
+
+
+@dataclass(frozen=True)
+class Preparation:
+    """Steps, in the order in which they are done; each is recorded in the settings of the body.
+
+    Parameters
+    ----------
+    crop : tuple of float, optional
+        (x0, x1, y0, y1) of a surface, (x0, x1) of a line; whole points are kept. [length]
+    remove_outliers : bool, optional
+        Whether spikes are taken out and filled like missing points. They are counted always.
+    trend : {"tilt", "curvature", "mean", "none"}, optional
+        Least-squares polynomial that is removed. Default: what was removed from the body before,
+        by :func:`roughline.read` say, is removed from what a crop or taken-out spikes leave of it;
+        nothing is removed from other bodies.
+    low_pass : float, optional
+        Cutoff wavelength of a Gaussian filter after ISO 16610-61 (half of the amplitude of a wave
+        of that length passes). [length]
+    points : int or tuple of int, optional
+        Points to resample to: (nx, ny), one number for the longer side of a surface, or a line's.
+
+    Raises
+    ------
+    InputError
+        If a value makes no sense.
+    """
+
+    crop: tuple[float, ...] | None = None
+    remove_outliers: bool = False
+    trend: Trend | None = None
+    low_pass: float | None = None
+    points: int | tuple[int, int] | None = None
+
+    def __post_init__(self) -> None:
+        if self.trend is not None:
+            refuse_unknown_trend(self.trend)
+        if self.low_pass is not None and not 0 < self.low_pass < math.inf:
+            raise InputError(f"low_pass is {self.low_pass}; a positive wavelength is needed")
+        for n in np.atleast_1d(self.points if self.points is not None else 2):
+            if n < 2:
+                raise InputError(f"points is {self.points}; at least 2 are needed")
+
+    def applied(self, body: BodyType) -> BodyType:
+        """Return the body, prepared.
+
+        Raises
+        ------
+        InputError
+            If a step does not suit the body.
+        """
+        if self.crop is not None:
+            body = _cropped(body, self.crop)
+        spikes = outliers(body)
+        count = int(np.count_nonzero(spikes))
+        if count and self.remove_outliers:
+            known = np.ma.MaskedArray(body.heights, spikes)
+            filled = Missing().filled(known, "the topography, without its outliers,")
+            body = with_heights(body, filled, outliers_removed=count)
+        elif count:
+            body = with_heights(body, body.heights, outliers_kept=count)
+        changed = self.crop is not None or (count > 0 and self.remove_outliers)
+        trend = self.trend or (_trend_removed(body) if changed else "none")
+        if trend != "none":
+            body = body.detrended(trend)
+        if self.low_pass is not None:
+            body = _low_passed(body, self.low_pass)
+        if self.points is not None:
+            body = resampled(body, self.points)
+        return body
+
+
+def prepared(body: Body, preparation: Preparation | None = None) -> Body:
+    """Return a body prepared.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        Any body.
+    preparation : Preparation, optional
+        Default: spikes are counted, and nothing is changed.
+    """
+    preparation = preparation or Preparation()
+    if isinstance(body, Surface):
+        return preparation.applied(body)
+    return preparation.applied(body)  # apart, as either comes back as what it was
+
+
+def tilt_warnings(surface: Surface) -> tuple[str, ...]:
+    """Warn of a piece of a larger surface whose mean plane is much of its height.
+
+    Such a plane is mostly the stage's, or a wave longer than the piece, and the load goes to the
+    side that it lifts.
+    """
+    lower = 1 - math.sqrt(1 - tilt_share(surface.heights, surface.rms_height))
+    if not surface.is_cut_out or lower <= _TILT_MATTERS:
+        return ()
+    return (
+        f"this surface is tilted: without its mean plane the rms height would be {lower:.0%} "
+        "lower, and the side that the tilt lifts carries the load. Unless that is meant, remove it "
+        "(rl.read does by default; surface.detrended(); command line: --trend tilt)",
+    )
+
+
+def outliers(body: Body) -> NDArray[np.bool_]:
+    """Mark spikes: points that stick far out of their neighbours.
+
+    A point is marked if it is farther from the median of its neighbours than five times what
+    neighbours scatter by, in the median over the whole body. Neighbours are 5 x 5 points of a
+    surface, and 5, 25 and 101 of a line, whose points are often closer than its stylus is wide.
+    What is wider than half of the neighbours is a step, a scratch or a particle, and is not marked.
+    """
+    from scipy import ndimage  # here because it loads slowly
+
+    heights = without_trend(body.heights, "tilt")
+    marked = np.zeros(heights.shape, dtype=bool)
+    for size in _NEIGHBOURS[heights.ndim]:
+        mean, square = (
+            ndimage.uniform_filter(values, size, mode="nearest") for values in (heights, heights**2)
+        )
+        scatter = math.sqrt(max(0.0, float(np.median(square - mean**2))))
+        off = np.abs(heights - ndimage.median_filter(heights, size=size, mode="nearest"))
+        spots, _ = ndimage.label(off > _SPIKE * scatter)
+        sizes = np.bincount(spots.ravel())
+        narrow = sizes <= (size // 2 + 1) ** heights.ndim
+        narrow[0] = False  # what is no spot
+        if scatter > 0:
+            marked |= narrow[spots]
+    return marked
+
+
+def _trend_removed(body: Body) -> Trend:
+    """Which trend was removed from a body before."""
+    names: tuple[Trend, ...] = get_args(Trend)
+    return next((name for name in names if name == body.settings.get("detrended")), "none")
+
+
+def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:
+    sides = body.sizes if isinstance(body, Surface) else (body.length,)
+    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
+    if len(crop) != 2 * len(sides):
+        raise InputError(
+            f"crop has {len(crop)} lengths; give {2 * len(sides)}, from and to along each side"
+        )
+    ranges = []
+    for i, (side, spacing) in enumerate(zip(sides, spacings, strict=True)):
+        low, high = crop[2 * i : 2 * i + 2]
+        if not 0 <= low < high <= side * (1 + 1e-9):
+            raise InputError(
+                f"crop from {low:g} to {high:g} is not within 0 to {side:g}, or not rising"
+            )
+        first, end = round(low / spacing), round(high / spacing)
+        if end - first < 2:
+            raise InputError(f"crop from {low:g} to {high:g} keeps {end - first} points; take more")
+        ranges.append((first, min(end, body.heights.shape[i])))
+    if isinstance(body, Surface):
+        return body.cropped(*ranges)
+    (first, end) = ranges[0]
+    settings = {**body.settings, "cropped": f"{first}:{end}"}
+    piece = body.heights[first:end]
+    return Line(piece, spacings[0] * (end - first), body.unit, settings, body.kind)
+
+
+def _low_passed(body: BodyType, cutoff: float) -> BodyType:
+    from scipy import ndimage
+
+    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
+    deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / spacing for spacing in spacings]
+    heights = ndimage.gaussian_filter(body.heights, deviations, mode="nearest")
+    return with_heights(body, heights, low_pass=cutoff)
+
+
+def resampled(body: BodyType, points: int | tuple[int, int]) -> BodyType:
+    """Return the body on another grid over the same sides.
+
+    Means over cells where the new grid is coarser, cubic splines where it is finer.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        Any body.
+    points : int or tuple of int
+        As for :class:`Preparation`.
+
+    Raises
+    ------
+    InputError
+        If there are not as many numbers as the body has sides.
+    """
+    from scipy import ndimage
+
+    shape = body.heights.shape
+    if isinstance(points, tuple):
+        wanted: tuple[int, ...] = points
+    elif isinstance(body, Surface):
+        wanted = tuple(max(2, round(points * n / max(shape))) for n in shape)
+    else:
+        wanted = (points,)
+    if len(wanted) != len(shape):
+        raise InputError(f"points is {points}; give {len(shape)} of them")
+    heights = body.heights
+    for axis, n in enumerate(wanted):
+        if n < shape[axis]:
+            heights = _means(heights, axis, n)
+        elif n > shape[axis]:
+            zoom = [1.0] * len(shape)
+            zoom[axis] = n / shape[axis]
+            heights = ndimage.zoom(heights, zoom, order=3, mode="nearest", grid_mode=True)
+    return with_heights(body, heights, resampled_to=" x ".join(map(str, wanted)))
+
+
+def _means(heights: Real, axis: int, n: int) -> Real:
+    """Means over n equal pieces along an axis, each cell counting by the part that lies within."""
+    cells = heights.shape[axis]
+    moved = np.moveaxis(heights, axis, 0)
+    whole = np.concatenate([np.zeros((1, *moved.shape[1:])), np.cumsum(moved, axis=0)])
+    edges = np.arange(n + 1) * (cells / n)
+    below = np.minimum(edges.astype(np.intp), cells - 1)
+    part = (edges - below).reshape(-1, *[1] * (moved.ndim - 1))
+    at_edges = whole[below] + part * (whole[below + 1] - whole[below])
+    return np.moveaxis(np.diff(at_edges, axis=0) * (n / cells), 0, axis)

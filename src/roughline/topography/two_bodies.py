@@ -1,0 +1,69 @@
+"""Two rough bodies: what one sees of the other is the sum of their heights."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.errors import InputError
+from roughline.topography.body import MEASURED, Surface
+
+
+def facing(first: Surface, second: Surface) -> Surface:
+    """Return the surface that stands for two that face each other.
+
+    The second is turned over about its y axis, so its x runs backwards, and both are laid on the
+    rectangle and the points that they have in common: the smaller sides, from the corner, and the
+    first one's spacing. Gap and elastic contact depend on the sum of the heights alone. What was
+    cropped or resampled stands in the settings.
+
+    Parameters
+    ----------
+    first, second : Surface
+        Heights of both point away from their own bodies, in one unit. [length]
+
+    Raises
+    ------
+    InputError
+        If their units differ, or what they have in common is less than 2 x 2 points.
+    """
+    if first.unit != second.unit:
+        raise InputError(
+            f"the surfaces are in {first.unit or 'no unit'} and {second.unit or 'no unit'}: give "
+            "both in one unit"
+        )
+    turned = second.heights[::-1]
+    shape = tuple(
+        int(min(a, b) / spacing * (1 + 1e-12) + 1e-9)
+        for a, b, spacing in zip(first.sizes, second.sizes, first.spacing, strict=True)
+    )
+    if min(shape) < 2:
+        raise InputError(f"the surfaces have {shape[0]} x {shape[1]} points in common: too few")
+    dx, dy = first.spacing
+    same_grid = np.allclose(first.spacing, second.spacing, rtol=1e-9)
+    if same_grid:
+        other = turned[: shape[0], : shape[1]]
+    else:
+        from scipy import ndimage  # here because it loads slowly
+
+        x, y = (
+            (np.arange(n) + 0.5) * step / other_step - 0.5
+            for n, step, other_step in zip(shape, first.spacing, second.spacing, strict=True)
+        )
+        other = ndimage.map_coordinates(
+            turned, np.meshgrid(x, y, indexing="ij"), order=3, mode="nearest"
+        )
+    settings: dict[str, str | int | float] = {
+        "origin": MEASURED if first.is_cut_out or second.is_cut_out else "two surfaces",
+        **{f"first_{key}": value for key, value in first.settings.items()},
+        **{f"second_{key}": value for key, value in second.settings.items()},
+    }
+    for name, body in (("first", first), ("second", second)):
+        lost = [
+            size - n * step for size, n, step in zip(body.sizes, shape, first.spacing, strict=True)
+        ]
+        if any(gone > 0.5 * step for gone, step in zip(lost, body.spacing, strict=True)):
+            settings[f"{name}_cropped_to"] = f"{dx * shape[0]:.6g} x {dy * shape[1]:.6g}"
+    if not same_grid:
+        settings["second_resampled_to"] = f"{shape[0]} x {shape[1]}"
+    heights = first.heights[: shape[0], : shape[1]] + other
+    return Surface(heights, (dx * shape[0], dy * shape[1]), first.unit, settings)

@@ -1,0 +1,167 @@
+"""What a run will cost, what is refused before it starts, and what a result warns of."""
+
+import multiprocessing
+import os
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.computing import fft, memory
+from roughline.contact.curve import Curve
+
+FRACTAL = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, 1)
+
+
+def cut_out(surface: rl.Surface) -> rl.Surface:
+    nx, ny = surface.shape
+    return surface.cropped(x=(0, nx // 2), y=(0, ny)).detrended()
+
+
+def test_an_estimate_grows_with_points_loads_and_fields():
+    small, large = rl.estimate((512, 512), 20), rl.estimate((2048, 2048), 20)
+    assert large.memory == 16 * small.memory
+    assert large.seconds > 8 * small.seconds
+    assert rl.estimate((512, 512), 20, fields=True).memory > 3 * small.memory
+    assert str(large).startswith("about 0.4 GB and ")
+
+
+def test_a_grid_too_large_for_memory_is_refused_before_the_work(monkeypatch):
+    monkeypatch.setattr(memory.psutil, "virtual_memory", lambda: type("M", (), {"available": 5e5}))
+    surface = rl.Surface(np.random.default_rng(0).normal(size=(128, 128)), (1.0, 1.0))
+    message = (
+        "pressing 128 x 128 points needs about 0.00157 GB of memory, and 0.0005 GB is free: "
+        "take a smaller piece"
+    )
+    with pytest.raises(rl.InputError, match=message):
+        rl.press(surface, E_star=1.0, forces=[1.0])
+    with pytest.raises(rl.InputError, match="keeping the fields of 2 loads .* or keep fewer"):
+        rl.press(FRACTAL, E_star=1.0, forces=[1.0, 2.0], fields=True)
+    with pytest.raises(rl.InputError, match="a surface of 30000 x 30000 points needs about"):
+        rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(30000, 1)
+
+
+@pytest.mark.parametrize("count", [0, -1, 10**6])
+def test_impossible_thread_counts_are_refused(count):
+    with pytest.raises(rl.InputError, match=f"threads is {count}; this machine allows 1 to"):
+        rl.set_threads(count)
+
+
+def test_the_number_of_threads_does_not_change_a_bit():
+    before = fft.threads()
+    curves = []
+    try:
+        for count in sorted({1, fft.available_cores()}):
+            rl.set_threads(count)
+            curves.append(rl.press(FRACTAL, E_star=1.0, n_loads=5))
+    finally:
+        rl.set_threads(before)
+    for curve in curves:
+        assert (curve.stiffness == curves[0].stiffness).all()
+        assert (curve.depth == curves[0].depth).all()
+
+
+def stiffness_of(seed: int) -> float:
+    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, seed)
+    return float(rl.press(surface, E_star=1.0, forces=[0.1]).stiffness[0])
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked here")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_forked_processes_have_threads_of_their_own():
+    here = [stiffness_of(seed) for seed in range(2)]  # starts this process's threads
+    with multiprocessing.get_context("fork").Pool(2) as pool:
+        assert pool.map_async(stiffness_of, range(2)).get(timeout=60) == here
+
+
+def test_precisions_agree_to_their_tolerance():
+    surface, forces = rl.SelfAffine(hurst=0.5, rms_height=1.0).surface(96, 4), [0.01, 0.3, 3.0]
+    double = rl.press(surface, E_star=1.0, forces=forces, precision="float64")
+    mixed = rl.press(surface, E_star=1.0, forces=forces)
+    single = rl.press(surface, E_star=1.0, forces=forces, precision="float32", rtol=1e-4)
+    assert mixed.depth == pytest.approx(double.depth, rel=1e-6)
+    assert mixed.stiffness == pytest.approx(double.stiffness, rel=1e-5)
+    assert single.depth == pytest.approx(double.depth, rel=1e-4)
+    assert single.stiffness == pytest.approx(double.stiffness, rel=1e-2)
+    assert {curve.settings["precision"] for curve in (double, mixed, single)} == {
+        "float64",
+        "mixed",
+        "float32",
+    }
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-9, 1e-11])
+def test_mixed_precision_reaches_what_double_does(rtol):
+    curve = rl.press(FRACTAL, E_star=1.0, forces=[0.01, 0.3, 3.0], rtol=rtol)
+    assert (curve.residual <= rtol).all()
+
+
+def test_single_precision_refuses_tolerances_beyond_it():
+    with pytest.raises(
+        rl.InputError, match='single precision tells gaps to 3e-06 at best: .*"mixed"'
+    ):
+        rl.press(FRACTAL, E_star=1.0, forces=[1.0], precision="float32")
+    with pytest.raises(rl.InputError, match="single precision cannot tell gaps to rtol = 0.0001"):
+        rl.press(FRACTAL, E_star=1.0, depths=[1e3], precision="float32", rtol=1e-4)
+    with pytest.raises(rl.InputError, match="precision is 'half'; allowed are"):
+        rl.press(FRACTAL, E_star=1.0, forces=[1.0], precision="half")
+
+
+def edge_warnings(surface: rl.Surface, **options) -> tuple[str, ...]:
+    return tuple(rl.press(surface, E_star=1.0, n_loads=6, **options).warnings)
+
+
+def test_contact_at_the_border_of_a_piece_is_warned_of():
+    piece = cut_out(FRACTAL)
+    (warning,) = edge_warnings(piece)
+    assert "of the force is carried within 5% of the border" in warning
+    assert "Take a larger piece" in warning
+    assert edge_warnings(piece, periodic=True) == ()
+    curve = rl.press(piece, E_star=1.0, n_loads=6)
+    assert curve.to_dataset().attrs["warnings"] == warning
+
+
+def test_a_fractal_punch_is_meant_to_end_at_its_border():
+    assert edge_warnings(FRACTAL) == ()
+
+
+def test_contact_in_the_middle_of_a_measured_surface_is_not_warned_of(tmp_path):
+    x = np.linspace(-1, 1, 64)
+    cap = rl.Surface(
+        -(x[:, np.newaxis] ** 2 + x**2), (1.0, 1.0), settings={"origin": "instrument file"}
+    )
+    assert rl.press(cap, E_star=1.0, depths=[0.01, 0.1]).warnings == ()
+    assert len(rl.press(cap, E_star=1.0, depths=[2.5]).warnings) == 1
+
+
+def test_a_piece_and_a_coarser_grid_keep_their_sizes():
+    piece = FRACTAL.cropped(x=(8, 40), y=(0, 16))
+    assert piece.shape == (32, 16)
+    assert piece.sizes == pytest.approx((0.5, 0.25))
+    assert (piece.heights == FRACTAL.heights[8:40, :16]).all()
+    coarse = piece.coarsened()
+    assert coarse.shape == (16, 8)
+    assert coarse.sizes == piece.sizes
+    assert coarse.heights[0, 0] == pytest.approx(piece.heights[:2, :2].mean())
+    with pytest.raises(rl.InputError, match=r"x is \(0, 65\); give 0 <= first < end <= 64"):
+        FRACTAL.cropped(x=(0, 65), y=(0, 64))
+    with pytest.raises(rl.InputError, match="the surface has 3 x 64 points; give even numbers"):
+        FRACTAL.cropped(x=(0, 3), y=(0, 64)).coarsened()
+
+
+def test_fields_of_some_loads_only():
+    curve = rl.press(FRACTAL, E_star=1.0, forces=[0.1, 1.0, 2.0], fields=[1])
+    assert [fields is not None for fields in curve.fields] == [False, True, False]
+    with pytest.raises(rl.InputError, match=r"fields is \[3\]; give True, False, or numbers"):
+        rl.press(FRACTAL, E_star=1.0, forces=[0.1, 1.0, 2.0], fields=[3])
+
+
+def test_the_outline_of_cells_is_counted_and_taken_from_summits_alone():
+    heights = np.zeros((16, 16))
+    heights[4:8, 4:12] = 1.0  # 32 cells, 24 sides
+    share = (np.pi - 1 + np.log(2)) / 24
+    curve: Curve = rl.press(rl.Surface(heights, (1.0, 1.0)), E_star=1.0, depths=[1e-3])
+    assert curve.area_fraction[0] == 32 / 256
+    room = curve.area_fraction_most - curve.area_fraction_corrected
+    assert room == pytest.approx([24 * share / 256])
+    assert curve.area_fraction_corrected[0] == pytest.approx(32 / 256, rel=1e-3)  # a punch

@@ -1,0 +1,273 @@
+"""Answers of whole problems whose solution is known: discs, spheres, flat squares."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import special
+
+import roughline as rl
+from roughline.assessment.larger_surface import (
+    share_of_the_whole,
+    stiffness_of_the_larger_surface,
+    stiffness_of_the_piece,
+)
+from roughline.engineering.answers import answers, elastic_warnings, saturated_stiffness
+from roughline.engineering.formulas import interface_stiffness
+from roughline.engineering.materials import Interface
+
+PAIR = Interface(rl.material("steel"), rl.material("copper"))
+
+
+def by_symbol(found):
+    return {each.symbol: each for each in found}
+
+
+def sphere(n, size=1e-3, radius=5e-3):
+    x = (np.arange(n) + 0.5) / n * size - size / 2
+    return rl.Surface(-(x[:, np.newaxis] ** 2 + x**2) / (2 * radius), (size, size), unit="m")
+
+
+def disc(n, size=1e-3, radius=3e-4):
+    x = (np.arange(n) + 0.5) / n * size - size / 2
+    inside = x[:, np.newaxis] ** 2 + x**2 <= radius**2
+    return rl.Surface(np.where(inside, 0.0, -1e-4), (size, size), unit="m")
+
+
+def test_a_sphere():
+    surface, force, radius = sphere(256), 30.0, 5e-3
+    E_star = PAIR.E_star
+    curve = rl.press(surface, E_star=E_star, forces=[force])
+    found = by_symbol(answers(curve, surface.area, PAIR))
+    a = (3 * force * radius / (4 * E_star)) ** (1 / 3)
+    resistivities = 1.6e-7 + 1.68e-8
+    kappa = 2 * 50 * 401 / (50 + 401)
+    expected = {
+        "F": force,
+        "d": a**2 / radius,
+        "k": 2 * E_star * a,
+        "A": math.pi * a**2,
+        "p_c": force / (math.pi * a**2),
+        "R": resistivities / (4 * a),
+        "G": 2 * kappa * a,
+        "k_t": 2 * PAIR.G_star * a,
+        "p": force / 1e-6,
+    }
+    for symbol, value in expected.items():
+        assert found[symbol].values[0] == pytest.approx(value, rel=3e-3), symbol
+
+
+def test_a_disc():
+    surface = disc(256)
+    curve = rl.press(surface, E_star=PAIR.E_star, forces=[1.0])
+    found = by_symbol(answers(curve, surface.area, PAIR))
+    resistance = (1.6e-7 + 1.68e-8) / (4 * 3e-4)
+    assert found["R"].values[0] == pytest.approx(resistance, rel=5e-3)  # the staircase of the grid
+    kappa = 2 * 50 * 401 / (50 + 401)
+    assert found["G"].values[0] == pytest.approx(2 * kappa * 3e-4, rel=5e-3)
+
+
+def test_a_flat_square_has_no_interface_of_its_own():
+    flat = rl.Surface(np.zeros((64, 64)), (1e-3, 1e-3), "m")
+    saturated = saturated_stiffness(flat, PAIR.E_star)
+    assert saturated / (PAIR.E_star * 1e-3) == pytest.approx(1.14617, rel=1e-5)  # on 64 x 64
+    long = rl.Surface(np.zeros((32, 64)), (1e-3, 2e-3), "m")
+    assert saturated_stiffness(long, PAIR.E_star) > 1.4 * saturated
+
+
+def test_in_full_contact_the_interface_is_infinitely_stiff():
+    flat = rl.Surface(np.zeros((32, 32)), (1e-3, 1e-3), "m")
+    curve = rl.press(flat, E_star=PAIR.E_star, forces=[10.0])
+    saturated = saturated_stiffness(flat, PAIR.E_star)
+    interval = (0.99 * curve.stiffness, 1.01 * curve.stiffness)
+    given = answers(
+        curve,
+        flat.area,
+        PAIR,
+        interface_stiffness=stiffness_of_the_piece(flat, curve, interval),
+        frequency=5e6,
+        stiffness_interval=interval,
+    )
+    found = by_symbol(given)
+    assert np.isinf(found["k_i"].values).all()
+    assert np.isinf(found["h_c"].values).all()
+    steel, copper = PAIR.first.impedance, PAIR.second.impedance
+    bonded = abs(steel - copper) / (steel + copper)
+    assert found["|R|"].values[0] == pytest.approx(bonded)
+    assert found["R"].values[0] == pytest.approx(
+        PAIR.E_star * (1.6e-7 + 1.68e-8) / (2 * saturated), rel=1e-6
+    )
+
+
+def test_in_periodic_mode_the_stiffness_is_the_interfaces():
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6, q_high=1e5).surface(64, 1)
+    surface = rl.Surface(surface.heights, surface.sizes, "m")
+    curve = rl.press(surface, E_star=PAIR.E_star, forces=[5.0], periodic=True)
+    found = by_symbol(answers(curve, surface.area, PAIR))
+    assert "k_i" not in found
+    kappa = 2 * 50 * 401 / (50 + 401)
+    per_area = kappa * curve.stiffness[0] / surface.area / PAIR.E_star
+    assert found["h_c"].values[0] == pytest.approx(per_area, rel=1e-12)
+
+
+def test_intervals_are_carried_on():
+    surface = sphere(64)
+    curve = rl.press(surface, E_star=PAIR.E_star, forces=[10.0, 30.0])
+    saturated = saturated_stiffness(surface, PAIR.E_star)
+    low, high = 0.9 * curve.stiffness, 1.3 * curve.stiffness
+    share = curve.area_fraction_corrected
+    found = by_symbol(
+        answers(
+            curve,
+            surface.area,
+            PAIR,
+            interface_stiffness=stiffness_of_the_piece(surface, curve, (low, high)),
+            frequency=5e6,
+            stiffness_interval=(low, high),
+            area_interval=(0.5 * share, 1.5 * share),
+        )
+    )
+
+    def ends(symbol):
+        each = found[symbol]
+        return np.array([each.low / each.values, each.high / each.values])
+
+    def given(low, high):
+        return pytest.approx(np.array([[low, low], [high, high]]), rel=1e-9)
+
+    for symbol in ("k", "k/A_0", "G", "k_t"):
+        assert ends(symbol) == given(0.9, 1.3), symbol
+    assert ends("R") == given(1 / 1.3, 1 / 0.9)
+    for symbol in ("A", "A/A_0"):
+        assert ends(symbol) == given(0.5, 1.5), symbol
+    for symbol in ("p_c", "p_c/H"):
+        assert ends(symbol) == given(1 / 1.5, 1 / 0.5), symbol
+    own = found["k_i"]
+    assert own.low == pytest.approx(interface_stiffness(low, saturated))
+    assert own.high == pytest.approx(interface_stiffness(high, saturated))
+    assert ends("h_c") == pytest.approx(ends("k_i"))
+    reflection = found["|R|"]
+    assert (reflection.low < reflection.values).all()
+    assert (reflection.values < reflection.high).all()
+    assert found["F"].low is None
+    assert found["R_Holm"].high is None
+
+
+PARENTS = [  # points of the parent, of its pieces, H, roll-offs along a side of these, seed
+    (256, 64, 0.7, 4, 91),
+    (256, 64, 0.3, 8, 92),
+    (288, 72, 0.9, 6, 93),
+    (256, 64, 0.6, 0.25, 94),
+    (256, 64, 0.85, 0.5, 95),
+]
+WANTED = np.array([0.02, 0.1, 0.35, 0.6, 0.93])  # contact area fractions, about
+
+
+@pytest.fixture(scope="module")
+def pieces():
+    """Of each piece: its roll-offs, k_i of its parent, and its periodic curve."""
+    found = []
+    for n, m, hurst, waves, seed in PARENTS:
+        roll = {} if waves * n <= m else {"q_roll": math.tau * waves * n / m}
+        spectrum = rl.SelfAffine(hurst=hurst, rms_height=0.01, q_high=math.tau * n / 4, **roll)
+        parent = spectrum.surface(n, seed)
+        pressures = parent.rms_slope * special.erfinv(WANTED) / math.sqrt(2)
+        truth = rl.press(parent, E_star=1.0, forces=pressures * parent.area, periodic=True)
+        for i in range(0, n, m):
+            piece = parent.cropped((i, i + m), (i, i + m)).detrended()
+            forces = pressures * piece.area
+            curve = rl.press(piece, E_star=1.0, forces=forces, periodic=True)
+            found.append((waves, truth.stiffness * piece.area / parent.area, piece, curve))
+    return found
+
+
+def test_the_interval_of_a_piece_holds_the_stiffness_of_its_parent(pieces):
+    held, seen = [], []
+    for waves, truth, piece, curve in pieces:
+        given = stiffness_of_the_larger_surface(piece, curve)
+        assert given.values == pytest.approx(curve.stiffness)
+        held.append((given.low <= truth) & (truth <= given.high))
+        seen.append("shows no roll-off" not in given.validity)
+        assert not seen[-1] or waves > 1
+    assert np.mean(held) >= 0.93
+    assert np.mean(np.array(held)[seen]) >= 0.85  # some 35 values, five of a piece alike
+    assert np.mean(seen) > 0.3  # the others allow for longer waves, by wide intervals
+
+
+def test_the_periodic_half_space_is_nearer_to_the_parent_than_the_punch(pieces):
+    """With roll-offs inside, from a third of contact on, 1 / k - 1 / k_s is off by a fifth."""
+    free, periodic = [], []
+    for waves, truth, piece, curve in pieces:
+        if waves >= 4:
+            punch = rl.press(piece, E_star=1.0, forces=curve.force)
+            free.append(stiffness_of_the_piece(piece, punch).values / truth)
+            periodic.append(curve.stiffness / truth)
+    free, periodic = np.median(free, axis=0), np.median(periodic, axis=0)
+    assert free[2] > 1.12
+    assert free[4] < 0.85
+    assert periodic[1:3] == pytest.approx(1, abs=0.06)  # the pieces' own scatter
+    assert (np.abs(np.log(periodic[2:])) < np.abs(np.log(free[2:]))).all()
+
+
+def test_what_a_piece_leaves_open():
+    share = np.array([1e-4, 0.01, 0.3, 0.8, 0.96, 1.0])
+    widths = []
+    for roll_offs in (None, 2.0, 4.0, 8.0):
+        low, high = share_of_the_whole(share, roll_offs)
+        assert (low < 1).all()
+        assert (high > 1).all()
+        assert np.isinf(high).tolist() == [False] * 4 + [True] * 2
+        widths.append(np.log(high / low)[1:4])
+    assert (np.diff(widths, axis=0) < 0).all()  # the more waves, the more is known
+
+
+def test_near_full_contact_the_interval_has_no_upper_end():
+    """Where k_s - k is smaller than what the grid knows of the punch."""
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-3, q_roll=12 * math.tau, q_high=16 * math.tau)
+    surface = spectrum.surface(64, 5)
+    forces = surface.rms_slope * np.array([0.1, 1.5])
+    curve = rl.press(surface, E_star=1.0, forces=forces)
+    assert 0.9 < curve.area_fraction[1] < 1
+    given = stiffness_of_the_piece(surface, curve)
+    assert np.isfinite(given.values).all()
+    assert np.isnan(given.high[0])
+    assert np.isinf(given.high[1])
+    assert given.low[1] < given.values[1]
+    assert "of this piece alone" in given.validity
+    known = stiffness_of_the_piece(surface, curve, (curve.stiffness, curve.stiffness))
+    assert known.high[0] == pytest.approx(given.values[0])
+    assert np.isinf(known.high[1])
+
+
+def test_both_uncertainties_are_combined():
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-3, q_roll=8 * math.tau)
+    piece = spectrum.surface(64, 3).cropped((0, 48), (0, 48)).detrended()
+    curve = rl.press(piece, E_star=1.0, forces=[1e-3], periodic=True)
+    alone = stiffness_of_the_larger_surface(piece, curve)
+    k = curve.stiffness
+    wide = stiffness_of_the_larger_surface(piece, curve, (k / 10, 10 * k))
+    assert wide.low == pytest.approx(k * np.exp(-np.hypot(np.log(10), np.log(k / alone.low))))
+    assert wide.high == pytest.approx(k * np.exp(np.hypot(np.log(10), np.log(alone.high / k))))
+
+
+def test_what_is_not_known_of_a_material_is_left_out():
+    surface = sphere(32)
+    glass = Interface(rl.material("glass"), rl.material("rigid"))
+    curve = rl.press(surface, E_star=glass.E_star, forces=[1.0])
+    found = by_symbol(answers(curve, surface.area, glass, frequency=1e6))
+    assert not {"R", "R_Holm", "G", "h_c", "|R|"} & found.keys()
+    assert found["p_c/H"].values[0] == pytest.approx(found["p_c"].values[0] / 5.5e9)
+    assert all(each.formula for each in found.values())
+
+
+def test_the_elastic_assumption_is_watched():
+    surface = sphere(64)
+    soft, hard = (
+        Interface(rl.material(f"steel hardness={hardness} GPa"), rl.material("rigid"))
+        for hardness in (1, 1000)
+    )
+    curve = rl.press(surface, E_star=soft.E_star, forces=[100.0])
+    told = elastic_warnings(answers(curve, surface.area, soft), None)
+    assert "of the softer body's hardness" in told[0]
+    assert elastic_warnings(answers(curve, surface.area, hard), 0.5) == []
+    assert "plasticity index is 3" in elastic_warnings([], 3.0)[0]

@@ -1,0 +1,141 @@
+"""Materials: a table with sources, values of one's own, and what pairs of them have."""
+
+import math
+
+import pytest
+
+import roughline as rl
+from roughline.engineering.materials import (
+    Interface,
+    Material,
+    contact_modulus,
+    material,
+    materials,
+    tangential_modulus,
+)
+
+
+def test_every_material_is_whole_and_says_where_it_is_from():
+    table = materials()
+    assert {"steel", "copper", "gold", "aluminium", "glass", "rigid"} <= set(table)
+    for each in table.values():
+        assert each.source
+        assert each.name == "rigid" or 1e8 < each.E < 1e12
+        assert each.name == "rigid" or 1000 < each.density < 2e4
+        assert each.resistivity is None or 1e-8 < each.resistivity < 1e-6
+        assert each.hardness is None or each.hardness < each.E / 7
+        if each.resistivity is not None and each.name not in ("stainless-steel", "steel"):
+            # Wiedemann and Franz: an independent bound on both conductivities of a metal
+            lorenz = each.conductivity * each.resistivity / 293
+            assert 2.0e-8 < lorenz < 3.4e-8
+
+
+def test_by_name_by_values_and_both():
+    assert material("Stainless Steel") == materials()["stainless-steel"]
+    own = material("E=70 GPa nu=0.33 density = 2700 kg/m^3")
+    assert (own.E, own.nu, own.density, own.hardness) == (70e9, 0.33, 2700, None)
+    hard = material("steel hardness=2 GPa; resistivity=2e-7 ohm m")
+    assert (hard.E, hard.hardness) == (materials()["steel"].E, 2e9)
+    assert hard.resistivity == pytest.approx(2e-7)
+    assert "hardness, resistivity given" in hard.source
+    warm = material("steel conductivity=20 W/(m K) density=7.9e3 kg/m3")
+    assert (warm.conductivity, warm.density) == (20, 7900)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("coper", 'no material is called "coper"; did you mean "copper"'),
+        ("", "needs both E and nu"),
+        ("E=70 GPa", "needs both E and nu"),
+        ("E=70 nu=0.3", 'E is "70", without a unit'),
+        ("E=70 mm nu=0.3", "no quantity in Pa"),
+        ("E=70 GPa nu=0.6", "nu of given is 0.6; allowed is -1 to 0.5"),
+        ("E=-70 GPa nu=0.3", "a positive modulus is needed"),
+        ("E=nan GPa nu=0.3", "a positive modulus is needed"),
+        ("steel colour=grey", 'a material has no "colour"'),
+        ("steel nu=zero", 'nu is "zero"; a number such as 0.3 is needed'),
+        ("steel nu=0.2 nu=0.3", "gives nu twice"),
+        ("steel nu=0,33", 'nu is "0,33", with a comma in "0,33"; numbers take a decimal point'),
+        ("E=70,5 GPa nu=0.3", 'a comma in "70,5"'),
+        ("steel density=inf kg/m^3", "density of steel is inf"),
+    ],
+)
+def test_bad_materials_get_one_line(text, message):
+    with pytest.raises((rl.InputError, rl.UnitError), match=message.replace("(", r"\(")) as caught:
+        material(text)
+    assert "\n" not in str(caught.value)
+
+
+def test_pairs():
+    steel, rigid = materials()["steel"], materials()["rigid"]
+    assert contact_modulus(steel, rigid) == pytest.approx(steel.E / (1 - steel.nu**2))
+    assert contact_modulus(steel, steel) == pytest.approx(steel.E / (1 - steel.nu**2) / 2)
+    ratio = tangential_modulus(steel, steel) / contact_modulus(steel, steel)
+    assert ratio == pytest.approx((2 - 2 * steel.nu) / (2 - steel.nu), rel=1e-12)
+    for pair in (contact_modulus, tangential_modulus):
+        with pytest.raises(rl.InputError, match="both materials are rigid"):
+            pair(rigid, rigid)
+
+
+def test_a_pair_says_what_it_lacks():
+    steel, glass, rigid = (materials()[name] for name in ("steel", "glass", "rigid"))
+    assert Interface(steel, glass).lacking("resistivity") == ["the second body (glass)"]
+    assert Interface(glass, glass).lacking("resistivity") == [
+        "the first body (glass)",
+        "the second body (glass)",
+    ]
+    assert Interface(steel, glass).lacking("hardness") == []
+    assert Interface(steel, rigid).lacking("hardness") == []  # a rigid body never yields
+    assert Interface(steel, rigid).lacking("conductivity") == ["the second body (rigid)"]
+
+
+def test_impedance_of_steel_is_the_textbook_value():
+    # 46e6 kg / (m² s), longitudinal speed 5.9 km/s
+    steel = materials()["steel"]
+    assert steel.impedance == pytest.approx(46e6, rel=0.02)
+    assert steel.impedance / steel.density == pytest.approx(5.9e3, rel=0.02)
+    assert Material("x", 1e9, 0.5, density=1e3).impedance is None
+    assert materials()["rigid"].impedance is None
+    assert math.isinf(materials()["rigid"].shear_modulus)
+
+
+# Second sources: elastic constants from N. E. Dowling, "Mechanical Behavior of Materials", table
+# 5.2; resistivities at 20 °C from R. A. Serway, "Principles of Physics", 2nd ed. (1998), and others
+DOWLING = {
+    "aluminium": (70.3, 0.345),
+    "alumina": (400, 0.22),
+    "brass": (101, 0.350),
+    "copper": (130, 0.343),
+    "fused-silica": (70, 0.18),
+    "glass": (69, 0.20),
+    "pmma": (2.7, 0.35),
+    "steel": (212, 0.293),
+    "titanium": (120, 0.361),
+    "tungsten": (411, 0.280),
+}
+RESISTIVITIES = {
+    "silver": 1.59e-8,
+    "copper": 1.68e-8,
+    "gold": 2.44e-8,
+    "aluminium": 2.82e-8,
+    "tungsten": 5.60e-8,
+    "zinc": 5.90e-8,
+    "nickel": 6.99e-8,
+    "tin": 1.09e-7,
+    "steel": 1.43e-7,
+    "titanium": 4.20e-7,
+    "stainless-steel": 6.9e-7,
+}
+
+
+@pytest.mark.parametrize("name", DOWLING)
+def test_moduli_agree_with_a_second_table(name):
+    E, nu = DOWLING[name]
+    assert pytest.approx(E * 1e9, rel=0.12) == rl.material(name).E
+    assert rl.material(name).nu == pytest.approx(nu, abs=0.045)
+
+
+@pytest.mark.parametrize("name", RESISTIVITIES)
+def test_resistivities_agree_with_a_second_table(name):
+    assert rl.material(name).resistivity == pytest.approx(RESISTIVITIES[name], rel=0.13)

@@ -1,0 +1,205 @@
+"""What was put into synthetic topographies is found again, within the intervals."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.spectra.fit import fit_self_affine
+from roughline.spectra.isotropic import isotropic_spectrum
+from roughline.spectra.profile import profile_spectrum
+
+Q_0 = 2 * math.pi
+TRIALS = 200
+
+
+def random_spectrum(rng, n, hursts=(0.1, 0.95), without=1.0):
+    """H, with or without a roll-off, and with or without a cutoff below the grid's."""
+    roll = rng.choice([without, rng.uniform(4, 16)])
+    cutoff = rng.choice([n / 2, rng.uniform(0.35, 0.8) * n / 2])
+    return rng.uniform(*hursts), roll, cutoff
+
+
+def lattice_rms(hurst, roll, cutoff, C_0):
+    """Rms height of the waves of a unit square, by the law."""
+    m = np.fft.fftfreq(2 * int(cutoff) + 2, 1 / (2 * int(cutoff) + 2))
+    q = np.hypot(m[:, np.newaxis], m)
+    q = q[(q > 0) & (q <= cutoff)]
+    return math.sqrt(C_0 * Q_0**2 * (np.maximum(1, q / roll) ** (-2 * (hurst + 1))).sum())
+
+
+def found(fit, hurst, roll, cutoff, last, rms=1.0):
+    """Whether each parameter lies in its interval; a ring or bin holds all waves up to the next."""
+    return (
+        fit.hurst_interval[0] <= hurst <= fit.hurst_interval[1],
+        fit.q_roll_interval[0] <= roll * Q_0 * (1 + 1e-9) and roll * Q_0 <= fit.q_roll_interval[1],
+        fit.q_high_interval[0] <= cutoff * Q_0 <= fit.q_high_interval[1] * last,
+        fit.rms_interval[0] <= rms <= fit.rms_interval[1],
+    )
+
+
+@pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
+def test_whole_surfaces_are_recovered_in_95_of_100(amplitudes):
+    n, rng, hits, quiet = 128, np.random.default_rng(7), np.zeros(4), 0
+    for seed in range(TRIALS):
+        hurst, roll, cutoff = random_spectrum(rng, n)
+        q_high = None if cutoff == n / 2 else cutoff * Q_0
+        spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_roll=roll * Q_0, q_high=q_high)
+        fit = fit_self_affine(isotropic_spectrum(spectrum.surface(n, seed, amplitudes)))
+        hits += found(fit, hurst, roll, cutoff, last=1 + 1 / (n / 2 - 1))
+        quiet += not any("off the law" in text for text in fit.objections)
+    assert (hits >= 0.95 * TRIALS).all(), hits
+    assert quiet >= 0.95 * TRIALS
+
+
+PARENT = 4  # sides of a piece in the surface that it is cut from
+
+
+def tilted_piece(rng, n, seed, hursts, amplitudes="gaussian"):
+    """A piece with a tilt, as an instrument has it, and what its surface was made of."""
+    hurst, roll, cutoff = random_spectrum(rng, n, hursts, without=1 / PARENT)
+    spectrum = rl.SelfAffine(
+        hurst=hurst, length=PARENT, C_0=1.0, q_roll=roll * Q_0 * (1 + 1e-12), q_high=cutoff * Q_0
+    )
+    heights = spectrum.surface(PARENT * n, seed, amplitudes).heights
+    first, second = rng.integers(0, (PARENT - 1) * n, 2)
+    x = np.linspace(-1, 1, n)
+    tilt = rng.normal(size=2) * heights.std()
+    piece = (
+        heights[first : first + n, second : second + n] + tilt[0] * x[:, np.newaxis] + tilt[1] * x
+    )
+    surface = rl.Surface(piece, (1.0, 1.0), settings={"origin": "instrument file"})
+    return surface, (hurst, roll, cutoff), lattice_rms(hurst, roll, cutoff, 1.0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hursts", [(0.1, 0.4), (0.4, 0.7), (0.7, 0.95)])
+def test_tilted_pieces_are_recovered_in_95_of_100(hursts):
+    n, trials, rng = 128, TRIALS // 3, np.random.default_rng(9)
+    hits, off = np.zeros(4), []
+    for seed in range(trials):
+        surface, law, rms = tilted_piece(rng, n, seed, hursts)
+        fit = fit_self_affine(isotropic_spectrum(surface))
+        hits += found(fit, *law, last=1 + 1 / (n / 2 - 1), rms=rms)
+        off.append(fit.hurst - law[0])
+    assert (hits >= 0.95 * trials).all(), hits
+    assert abs(np.mean(off)) < 0.03
+
+
+def piece_of_a_cut(rng, n, spectrum, longer):
+    """Piece of a cut with independent Gaussian modes of the exact spectrum C_profile."""
+    power = (
+        spectrum.continuum.C_profile(np.arange(1, longer * n // 2) * Q_0 / longer) * Q_0 / longer
+    )
+    modes = np.sqrt(power / 2) * (rng.normal(size=power.size) + 1j * rng.normal(size=power.size))
+    whole = np.fft.irfft([0, *modes, 0], longer * n) * longer * n
+    return whole[:n] + rng.normal() * np.linspace(-1, 1, n)
+
+
+@pytest.mark.parametrize("n", [256, 2048])
+def test_line_scans_are_recovered_in_95_of_100(n):
+    rng, hits, longer = np.random.default_rng(8), np.zeros(4), 8
+    trials = TRIALS // 2
+    for _ in range(trials):
+        hurst, roll, cutoff = random_spectrum(rng, n, without=1 / longer)
+        spectrum = rl.SelfAffine(
+            hurst=hurst,
+            length=longer,
+            C_0=1.0,
+            q_roll=roll * Q_0 * (1 + 1e-12),
+            q_high=cutoff * Q_0,
+        )
+        scan = rl.Line(piece_of_a_cut(rng, n, spectrum, longer), 1.0, kind="profile")
+        fit = fit_self_affine(profile_spectrum(scan))
+        rms = lattice_rms(hurst, roll, cutoff, 1.0)
+        hits += found(fit, hurst, roll, cutoff, last=1.12, rms=rms)  # 20 bins a decade
+    assert (hits >= 0.95 * trials).all(), hits
+
+
+def test_intervals_are_not_idle():
+    """On 512² points H is known to a tenth, a roll-off and a cutoff to some rings."""
+    spectrum = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_roll=8 * Q_0, q_high=150 * Q_0)
+    fit = fit_self_affine(isotropic_spectrum(spectrum.surface(512, 3, "gaussian")))
+    assert fit.hurst == pytest.approx(0.6, abs=0.05)
+    assert np.ptp(fit.hurst_interval) < 0.12
+    assert np.ptp(fit.q_roll_interval) < 5 * Q_0
+    assert np.ptp(fit.q_high_interval) < 10 * Q_0
+    assert fit.objections == []
+    again = fit.spectrum()
+    assert again.hurst == fit.hurst
+    assert fit.values(np.array([2 * Q_0, 40 * Q_0])) == pytest.approx(
+        spectrum.C_2d([2 * Q_0, 40 * Q_0]), rel=0.15
+    )
+    assert np.isnan(fit.values(np.array([200 * Q_0]))).all()
+
+
+def test_what_is_not_self_affine_is_said():
+    noise = rl.Surface(np.random.default_rng(1).normal(size=(128, 128)), (1.0, 1.0))
+    assert fit_self_affine(isotropic_spectrum(noise)).objections
+    x = np.arange(128) / 128
+    waves = 0.1 * noise.heights + np.cos(16 * np.pi * x) + np.cos(50 * np.pi * x)[:, np.newaxis]
+    assert fit_self_affine(isotropic_spectrum(rl.Surface(waves, (1.0, 1.0)))).objections
+    with pytest.raises(rl.InputError, match="a fit needs 12"):
+        fit_self_affine(isotropic_spectrum(rl.Surface(noise.heights[:12, :12], (1.0, 1.0))))
+
+
+def off_the_law(spectrum, fit):
+    """Rms over tenths of a decade of the logarithm of the spectrum over the fitted law.
+
+    Of those with 40 modes or more: chance leaves less than .1 there.
+    """
+    law = fit.values(spectrum.q)
+    inside = np.isfinite(law) & (spectrum.modes > 0)
+    tenths = np.unique(np.floor(10 * np.log10(spectrum.q[inside])), return_inverse=True)[1]
+    modes, power, expected = (
+        np.bincount(tenths, spectrum.modes[inside] * values[inside])
+        for values in (np.ones(law.size), spectrum.C_2d, law)
+    )
+    known = modes >= 40
+    return np.sqrt(np.mean(np.log10(power[known] / expected[known]) ** 2))
+
+
+def binned_hurst(spectrum, fit):
+    """H by least squares over tenths of a decade of the power law that was found."""
+    inside = (spectrum.q >= fit.q_roll) & (spectrum.q <= fit.q_high) & (spectrum.modes > 0)
+    q, power = spectrum.q[inside], spectrum.C_2d[inside]
+    tenths = np.floor(10 * np.log10(q)).astype(int)
+    means = [
+        [np.log(values[tenths == tenth].mean()) for tenth in np.unique(tenths)]
+        for values in (q, power)
+    ]
+    return -np.polyfit(*means, 1)[0] / 2 - 1
+
+
+def test_all_decades_of_a_measured_map_count(topographies):
+    surface = rl.prepared(rl.read(topographies / "opd-1.opd"))
+    spectrum = isotropic_spectrum(surface)
+    fit = fit_self_affine(spectrum)
+    assert fit.hurst_interval[0] <= binned_hurst(spectrum, fit) <= fit.hurst_interval[1]
+    assert off_the_law(spectrum, fit) < 0.2
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("hursts", [(0.1, 0.6), (0.9, 0.4), (0.3, 1.0)])
+def test_where_the_slope_changes_the_law_is_near_or_refused(hursts, seed):
+    n, (long, short) = 256, hursts
+    waves = rl.SelfAffine(hurst=long, rms_height=1.0, q_roll=4 * Q_0).surface(n, seed, "gaussian")
+    q = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2))
+    steeper = np.maximum(1.0, q / 25) ** -(short - long)
+    heights = np.fft.ifft2(np.fft.fft2(waves.heights) * steeper).real
+    spectrum = isotropic_spectrum(rl.Surface(heights, (1.0, 1.0)))
+    fit = fit_self_affine(spectrum)
+    assert min(hursts) - 0.1 < fit.hurst < max(hursts) + 0.1
+    assert fit.objections or off_the_law(spectrum, fit) < 0.2
+
+
+def test_units_are_neutral():
+    surface = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_roll=8 * Q_0).surface(128, 3)
+    one = fit_self_affine(isotropic_spectrum(surface))
+    tiny = rl.Surface(surface.heights * 1e-9, (1e-6, 1e-6))
+    other = fit_self_affine(isotropic_spectrum(tiny))
+    assert other.hurst == one.hurst
+    assert other.hurst_interval == one.hurst_interval
+    assert other.q_roll == pytest.approx(one.q_roll * 1e6, rel=1e-9)
+    assert other.rms_interval == pytest.approx(np.array(one.rms_interval) * 1e-9, rel=1e-9)

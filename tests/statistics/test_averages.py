@@ -1,0 +1,145 @@
+"""Averages of ensembles: what is averaged, how sure, and what was left out."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.statistics import bootstrap
+from roughline.statistics.averages import at_levels, relative_difference
+
+
+@pytest.fixture
+def ensemble():
+    return np.exp(np.random.default_rng(1).normal(0, 0.3, (40, 5)) + np.arange(5))
+
+
+def test_the_mean_is_the_mean(ensemble):
+    found = rl.average(ensemble)
+    assert found.mean == pytest.approx(ensemble.mean(axis=0))
+    assert found.scatter == pytest.approx(ensemble.std(axis=0, ddof=1))
+    assert found.standard_error == pytest.approx(found.scatter / np.sqrt(40))
+    assert (found.count == 40).all()
+    # the interval is close to Student's, 2.02 errors on each side for 39 degrees of freedom
+    assert found.high - found.low == pytest.approx(2 * 2.02 * found.standard_error, rel=0.15)
+    geometric = rl.average(ensemble, "geometric")
+    assert geometric.mean == pytest.approx(np.exp(np.log(ensemble).mean(axis=0)))
+    assert geometric.scatter == pytest.approx(0.3, rel=0.4)
+    assert (geometric.mean < found.mean).all()
+
+
+@pytest.mark.parametrize("realisations", [10, 20, 60])
+def test_intervals_hold_the_truth_as_often_as_they_say(realisations):
+    """Of means and differences of log-normal curves of two correlated loads."""
+    trials, rng = 1000, np.random.default_rng(realisations)
+    common, own = rng.normal(0, 0.3, (2, realisations + 200, trials, 1))
+    tilted = np.array([-0.3, 0.3]) * own
+    curves = np.exp(common + tilted - 0.3**2 * (1 + 0.3**2) / 2)  # of mean 1
+    few, many = (part.reshape(len(part), -1) for part in np.split(curves, [realisations]))
+    found = rl.average(few)
+    _, low, high = relative_difference(few, many, paired=False)
+    held = ((found.low <= 1) & (found.high >= 1), (low <= 0) & (high >= 0))
+    for each in held:
+        # three standard errors of a binomial of 1000; percentiles hold 88, 92 and 93 %
+        assert each.mean() == pytest.approx(0.95, abs=3 * np.sqrt(0.95 * 0.05 / trials))
+
+
+def test_what_is_not_finite_is_left_out_and_counted(ensemble):
+    hurt = ensemble.copy()
+    hurt[3, 1], hurt[4, 1], hurt[:, 4] = np.nan, np.nan, np.nan
+    found = rl.average(hurt)
+    assert list(found.count) == [40, 38, 40, 40, 0]
+    assert found.mean[1] == pytest.approx(np.nanmean(hurt[:, 1]))
+    assert np.isnan([found.mean[4], found.low[4], found.standard_error[4]]).all()
+    one = rl.average(ensemble[:1])
+    assert one.mean == pytest.approx(ensemble[0])
+    assert np.isnan(one.low).all()
+
+
+def test_pairs_share_their_scatter(ensemble):
+    """Where realisations belong together, their common scatter drops out of the difference."""
+    other = 1.1 * ensemble * np.random.default_rng(2).normal(1, 0.01, ensemble.shape)
+    pairs = relative_difference(other, ensemble, paired=True)
+    apart = relative_difference(other, ensemble, paired=False)
+    assert pairs[0] == pytest.approx(apart[0])
+    assert pairs[0] == pytest.approx(0.1, abs=0.01)
+    assert ((pairs[1] <= pairs[0]) & (pairs[0] <= pairs[2])).all()
+    assert (pairs[2] - pairs[1] < 0.1 * (apart[2] - apart[1])).all()
+    hurt = other.copy()
+    hurt[0, 0] = np.nan
+    again = relative_difference(hurt, ensemble, paired=True)[0]
+    assert again[0] == pytest.approx(hurt[1:, 0].mean() / ensemble[1:, 0].mean() - 1)
+
+
+def test_resampling_is_the_same_for_the_same_seed(ensemble):
+    found = bootstrap.means(ensemble, 3)
+    assert found.values.shape == (bootstrap.ROUNDS, 5)
+    assert (found.values == bootstrap.means(ensemble, 3).values).all()
+    draws = np.random.default_rng(3).integers(40, size=(bootstrap.ROUNDS, 40))
+    assert found.values == pytest.approx(ensemble[draws].mean(axis=1))
+    assert found.errors == pytest.approx(ensemble[draws].std(axis=1) / np.sqrt(39))
+
+
+def test_errors_of_smooth_functions_are_those_of_their_scatter(ensemble):
+    """The linearised error of log(mean) is that of the realisations over the mean."""
+    weights = np.array([0.0, 1.0, 0.0, -2.0, 0.0])
+    found = bootstrap.of_log_means(ensemble, weights)
+    assert found.value == pytest.approx(np.log(ensemble.mean(axis=0)) @ weights)
+    each = (ensemble / ensemble.mean(axis=0)) @ weights
+    assert found.error == pytest.approx(each.std(ddof=1) / np.sqrt(40))
+    alone = bootstrap.of_log_means(ensemble, np.array([0.0, 1.0, 0, 0, 0]))
+    assert alone.interval() == pytest.approx(bootstrap.means(ensemble[:, 1]).log().interval())
+
+
+def test_realisations_that_are_all_alike_have_no_width():
+    found = rl.average(np.full((20, 2), 1 / 3))
+    assert (found.low == found.mean).all()
+    assert (found.high == found.mean).all()
+
+
+def test_few_realisations_are_judged_by_student():
+    """With two values, 12.7 standard errors on each side."""
+    found = rl.average(np.array([[1.0], [3.0]]))
+    assert [found.low[0], found.high[0]] == pytest.approx([2 - 12.7062, 2 + 12.7062], abs=1e-3)
+
+
+def test_levels_are_those_of_the_plane():
+    """Lines of springs at a fixed level, found from curves at fixed force."""
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0)
+    forces = np.geomspace(1e-5, 3, 111)
+    lines = [spectrum.line(2**14, i) for i in range(8)]
+    curves = [rl.press(line, E_star=1.0, forces=forces) for line in lines]
+    highest = [line.heights.max() - line.heights.mean() for line in lines]
+    depth, stiffness = ([getattr(c, name) for c in curves] for name in ("depth", "stiffness"))
+    force, found = at_levels(forces, depth, stiffness, highest, 50)
+    assert force.shape == found.shape == (8, 50)
+    planes = np.array(highest)[:, np.newaxis] - np.array(depth)
+    levels = np.linspace(planes[:, 0].max(), planes[:, -1].max(), 50)
+    for i, line in enumerate(lines):
+        above = np.maximum(line.heights - line.heights.mean() - levels[:, np.newaxis], 0)
+        exact = above.sum(axis=1) / line.heights.size
+        sure = exact > 2e-5
+        assert force[i][sure] == pytest.approx(exact[sure], rel=0.02)
+        share = np.count_nonzero(above, axis=1) / line.heights.size
+        assert found[i][sure] == pytest.approx(share[sure], rel=0.05)
+    assert (force[:, 0] == 0).sum() == 7
+
+
+@pytest.mark.parametrize(
+    ("values", "options", "message"),
+    [
+        (np.ones(3), {}, r"shape \(3,\)"),
+        (np.ones((0, 3)), {}, "realisations, loads"),
+        (np.ones((3, 3)), {"averaging": "median"}, "averaging is 'median'"),
+        (np.ones((3, 3)), {"confidence": 95}, "confidence is 95"),
+        (np.zeros((3, 3)), {"averaging": "geometric"}, "needs positive values"),
+    ],
+)
+def test_bad_input(values, options, message):
+    with pytest.raises(rl.InputError, match=message):
+        rl.average(values, **options)
+    with pytest.raises(rl.InputError, match="the same loads are needed"):
+        relative_difference(np.ones((3, 2)), np.ones((3, 3)), paired=False)
+    with pytest.raises(rl.InputError, match="for pairs the same realisations"):
+        relative_difference(np.ones((3, 2)), np.ones((4, 2)), paired=True)
+    with pytest.raises(rl.InputError, match="a relative difference needs positive values"):
+        relative_difference(np.zeros((3, 2)), np.ones((3, 2)), paired=True)

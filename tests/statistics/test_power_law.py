@@ -1,0 +1,157 @@
+"""Fits recover what was put in, and refuse what cannot be fitted."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.statistics.power_law import linear_exponent, scaling_exponent
+
+FORCE = np.geomspace(1e-5, 1, 51)
+
+
+def test_an_exact_power_law_is_recovered():
+    law = rl.fit_power_law(FORCE, 0.9 * FORCE**0.55, window=(1e-4, 1e-2))
+    assert law.exponent == pytest.approx(0.55, abs=1e-12)
+    assert law.prefactor == pytest.approx(0.9, rel=1e-12)
+    assert np.ptp(law.exponent_interval) < 1e-12
+    assert (law.window, law.points, law.realisations) == ((1e-4, 1e-2), 21, 1)
+    assert law(1e-3) == pytest.approx(0.9 * 1e-3**0.55)
+    assert law.interval_from == "regression"
+
+
+def test_only_the_window_counts_and_its_edges_belong_to_it():
+    broken = np.where(FORCE > 1.0001e-2, 7.0, 0.9 * FORCE**0.55)
+    assert rl.fit_power_law(FORCE, broken, (1e-4, 1e-2)).exponent == pytest.approx(0.55)
+    assert rl.fit_power_law(FORCE, broken, (1e-4, 2e-2)).exponent != pytest.approx(0.55, abs=0.01)
+
+
+@pytest.mark.parametrize("realisations", [1, 10, 20, 60])
+def test_intervals_cover_the_truth_at_their_level(realisations):
+    rng = np.random.default_rng(1)
+    trials, covered = 200, 0
+    force = np.geomspace(1e-2, 1e-1, 10)
+    for _ in range(trials):
+        if realisations == 1:
+            noise = np.exp(0.05 * rng.normal(size=force.size))
+        else:  # each realisation is off by a factor and a tilt of its own, as surfaces are
+            factor, tilt = rng.normal(size=(2, realisations, 1))
+            steep = 0.1 * np.log(force / 0.03)
+            noise = np.exp(0.3 * factor + steep * tilt - steep**2 / 2)  # of the same mean
+        law = rl.fit_power_law(force, 0.8 * force**0.6 * noise, (1e-2, 1e-1))
+        covered += law.exponent_interval[0] <= 0.6 <= law.exponent_interval[1]
+    # 95 % of 200, less three standard errors of a binomial: 180.8
+    assert 0.95 * trials - 3 * np.sqrt(0.05 * 0.95 * trials) <= covered
+
+
+def test_the_mean_at_fixed_force_is_fitted():
+    stiffness = np.array([1.0, 3.0])[:, None] * FORCE**0.5
+    law = rl.fit_power_law(FORCE, stiffness, (1e-4, 1e-2))
+    assert law.prefactor == pytest.approx(2.0)  # the geometric mean would give 1.73
+    assert law.realisations == 2
+    assert law.interval_from == "resampled realisations"
+
+
+def test_the_same_seed_gives_the_same_interval():
+    stiffness = np.random.default_rng(0).uniform(1, 2, (20, 1)) * FORCE**0.5
+    fits = [rl.fit_power_law(FORCE, stiffness, (1e-4, 1e-2), rng=seed) for seed in (3, 3, 4)]
+    assert fits[0] == fits[1]
+    assert fits[0].prefactor_interval != fits[2].prefactor_interval
+
+
+def test_predicted_exponents():
+    dimensions = np.array([2.0, 2.2, 2.4, 2.6, 2.8, 3.0])
+    assert scaling_exponent(dimensions).round(3).tolist() == [0.5, 0.556, 0.625, 0.714, 0.833, 1.0]
+    assert linear_exponent(dimensions).round(3).tolist() == [
+        0.513,
+        0.565,
+        0.616,
+        0.667,
+        0.719,
+        0.77,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "window", "message"),
+    [
+        (FORCE, (2.0, 3.0), "holds 0 loads; at least 3"),
+        (FORCE, (1e-2, 1e-3), "window is .0.01, 0.001.; two rising"),
+        (np.full(51, np.nan), (1e-4, 1e-2), "21 values of stiffness_bar in the window are not"),
+        (-FORCE, (1e-4, 1e-2), "are not positive"),
+        (FORCE[:-1], (1e-4, 1e-2), r"force_bar has shape \(51,\) and stiffness_bar \(50,\)"),
+    ],
+)
+def test_what_cannot_be_fitted_is_refused(stiffness, window, message):
+    with pytest.raises(rl.InputError, match=message):
+        rl.fit_power_law(FORCE, stiffness, window)
+    with pytest.raises(rl.InputError, match="confidence is 1.5"):
+        rl.fit_power_law(FORCE, FORCE, (1e-4, 1e-2), confidence=1.5)
+
+
+def law_with_scatter(bend, realisations=60, loads=31, seed=3):
+    """Realisations around ζ F^α, bent ever more above F = 1, with scatter that loads share."""
+    rng = np.random.default_rng(seed)
+    force = np.geomspace(1e-3, 1e3, loads)
+    mean = 0.8 * force**0.6 * np.exp(-0.05 * bend * np.log(np.maximum(force, 1)) ** 2)
+    common = np.exp(rng.normal(0, 0.2, (realisations, 1)))
+    tilt = rng.normal(0, 0.01, (realisations, 1)) * np.log(force)
+    return force, mean * common * np.exp(tilt + rng.normal(0, 0.02, (realisations, loads)))
+
+
+def test_the_window_of_a_true_power_law_is_everything():
+    """In about 95 of 100 ensembles, as the level of the test says."""
+    whole = 0
+    for seed in range(100):
+        force, stiffness = law_with_scatter(bend=0.0, seed=seed)
+        # the tilts bend the arithmetic mean, not the geometric one
+        found = rl.find_window(force, stiffness, averaging="geometric")
+        whole += found == (force[0], force[-1])
+    assert 88 <= whole <= 99
+
+
+@pytest.mark.parametrize("averaging", ["arithmetic", "geometric"])
+def test_the_window_ends_where_the_law_bends(averaging):
+    force, stiffness = law_with_scatter(bend=1.0)
+    low, high = rl.find_window(force, stiffness, averaging=averaging)
+    assert low < 1e-2
+    assert 0.5 < high < 10
+    law = rl.fit_power_law(force, stiffness, (low, high), averaging=averaging)
+    assert law.averaging == averaging
+    assert law.exponent == pytest.approx(0.6, abs=0.02)
+
+
+def test_a_larger_ensemble_notices_more():
+    few = rl.find_window(*law_with_scatter(bend=1.0, realisations=8))
+    many = rl.find_window(*law_with_scatter(bend=1.0, realisations=400))
+    assert np.log(many[1] / many[0]) <= np.log(few[1] / few[0])
+
+
+def test_no_window_where_no_power_law_is():
+    force = np.geomspace(1, 10, 6)
+    wave = 1 + 0.5 * np.sin(np.arange(6) * 2.5)
+    noise = np.random.default_rng(0).normal(1, 1e-4, (20, 6))
+    assert rl.find_window(force, wave * noise) is None
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "message"),
+    [
+        (np.ones(5), "with two realisations or more"),
+        (np.ones((1, 5)), "with two realisations or more"),
+        (np.ones((3, 4)), "with two realisations or more"),
+        (np.full((3, 5), np.nan), "must be positive and finite"),
+    ],
+)
+def test_a_window_of_bad_input(stiffness, message):
+    with pytest.raises(rl.InputError, match=message):
+        rl.find_window(np.geomspace(1, 10, 5), stiffness)
+
+
+def test_the_geometric_mean_is_fitted_on_request():
+    force, stiffness = law_with_scatter(bend=0.0)
+    law = rl.fit_power_law(force, stiffness, (1e-3, 1e3), averaging="geometric")
+    logs = np.polyfit(np.log(force), np.log(stiffness).mean(axis=0), 1)
+    assert law.exponent == pytest.approx(logs[0])
+    assert law.prefactor == pytest.approx(np.exp(logs[1]))
+    assert law.exponent_interval[0] < law.exponent < law.exponent_interval[1]
+    assert rl.fit_power_law(force, stiffness, (1e-3, 1e3)).prefactor > law.prefactor
