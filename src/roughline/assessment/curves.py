@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.assessment.larger_surface import stiffness_of_the_larger_surface
-from roughline.assessment.pressed import Real
 from roughline.assessment.source import Source, read_parts, together
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.engineering.answers import Answer, Ends

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.engineering.answers import Answer, Ends, saturated_stiffness
 from roughline.engineering.formulas import interface_stiffness
@@ -14,8 +15,6 @@ from roughline.errors import InputError
 from roughline.spectra.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.topography.body import Body, Line, Surface
-
-Real = NDArray[np.float64]
 
 LONGER = 4
 """Where a piece shows no roll-off, waves up to this many times its side are allowed for."""

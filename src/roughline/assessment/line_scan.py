@@ -7,17 +7,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from roughline.comparison.trust import trust_map
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import profile_spectrum
 from roughline.spectra.scan_bins import ScanBins
 from roughline.topography.body import Line
-
-Real = NDArray[np.float64]
 
 LINES = 200
 _SPRINGS_A_WAVE = 8

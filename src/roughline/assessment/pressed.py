@@ -17,8 +17,6 @@ from roughline.engineering.materials import Interface
 from roughline.theories.theory import TheoryCurve
 from roughline.topography.body import Body, Surface
 
-Real = NDArray[np.float64]
-
 
 @dataclass(frozen=True, eq=False)
 class Pressed:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from roughline.comparison.trust import Difference
+from roughline.computing.arrays import Real
 from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.spectra.isotropic import isotropic_spectrum
@@ -18,8 +19,6 @@ from roughline.statistics.averages import Average, average, relative_difference
 from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Body, Surface
 from roughline.topography.preparation import tilt_warnings
-
-Real = NDArray[np.float64]
 
 LINES = 200
 _SPRINGS_A_WAVE = 128  # of the shortest wave, so that the springs do not show

@@ -20,10 +20,9 @@ from importlib.resources import files
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.statistics.verdict import Verdict, verdict
-
-Real = NDArray[np.float64]
 
 COLUMNS = (
     "roll_off_ratio",

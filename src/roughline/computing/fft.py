@@ -15,9 +15,9 @@ import ducc0.fft
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 
-Real = NDArray[np.float64]
 Complex = NDArray[np.complexfloating]
 
 

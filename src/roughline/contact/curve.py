@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.contact import scaling
 from roughline.errors import InputError, StoreError
 
 if TYPE_CHECKING:
     import xarray
 
-Real = NDArray[np.float64]
 
 RESOLVED_FROM = 10
 """Springs or cells in contact from which on a stiffness is physics rather than grid."""

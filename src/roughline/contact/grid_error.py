@@ -6,14 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.errors import InputError
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
-
-Real = NDArray[np.float64]
 
 # Times the last difference between grids; chosen to cover grids four times finer
 # (benchmarks/grid_error.py). An area at the scale of its cells hides some of its differences.

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.engineering import formulas
@@ -16,7 +17,6 @@ from roughline.engineering.materials import Interface
 from roughline.topography.body import Surface
 from roughline.units import decimal
 
-Real = NDArray[np.float64]
 Ends = tuple[Real, Real]
 
 

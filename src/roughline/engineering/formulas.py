@@ -11,9 +11,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 
-Real = NDArray[np.float64]
 Value = TypeVar("Value", float, NDArray[np.float64])
 
 _FULL = 1e-6  # of the saturated stiffness that is missing in what counts as full contact

@@ -21,8 +21,8 @@ References
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Mask
 from roughline.halfspace.operator import Places
 from roughline.halfspace.patch import ConjugateGradients, Patch, merged
 from roughline.halfspace.state import (
@@ -36,8 +36,6 @@ from roughline.halfspace.state import (
     Start,
     Vector,
 )
-
-Mask = NDArray[np.bool_]
 
 # An inner solve aims below the tolerance so that the certificate is not missed by a hair.
 _INNER_MARGIN = 0.3

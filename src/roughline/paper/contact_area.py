@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.contact import scaling
 from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import NOTHING, Estimate
@@ -16,7 +16,6 @@ from roughline.statistics.power_law import exponent_weights, inside_window
 if TYPE_CHECKING:
     import xarray
 
-Real = NDArray[np.float64]
 
 WINDOW_AREA = (10**-1.5, 10**-0.5)
 """Range of F̄ for the area law."""

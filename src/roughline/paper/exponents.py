@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.paper.contact_area import AreaLaw, area_law, saturation
 from roughline.paper.results import PaperResults
@@ -19,7 +19,6 @@ from roughline.statistics.power_law import PowerLaw, exponent_weights, fit_power
 if TYPE_CHECKING:
     import xarray
 
-Real = NDArray[np.float64]
 Window = tuple[float, float]
 
 WINDOW_REDUCED: Window = (1e-4, 1e-2)

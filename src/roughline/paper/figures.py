@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.contact import scaling
 from roughline.paper.exponents import (
     WINDOW_FULL,
@@ -29,8 +30,6 @@ from roughline.statistics.power_law import linear_exponent, scaling_exponent
 
 if TYPE_CHECKING:
     import xarray
-
-Real = NDArray[np.float64]
 
 
 def figure_1(gallery: xarray.Dataset) -> Figure:

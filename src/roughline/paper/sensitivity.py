@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.paper.exponents import Window, usable
 from roughline.statistics import bootstrap
 from roughline.statistics.averages import at_levels
@@ -17,7 +17,6 @@ from roughline.statistics.power_law import PowerLaw, find_window, fit_power_law,
 if TYPE_CHECKING:
     import xarray
 
-Real = NDArray[np.float64]
 
 WINDOWS_REDUCED: tuple[Window, ...] = ((1e-4, 1e-2), (1e-3, 1e-1), (1e-2, 0.3))
 WINDOWS_FULL: tuple[Window, ...] = ((1e-3, 1e-2), (1e-2, 1e-1), (1e-2, 0.3))

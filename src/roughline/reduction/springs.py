@@ -15,10 +15,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.computing.compiled import compiled
-
-Real = NDArray[np.float64]
-
 
 _MOST_BINS = 2**16  # numbers of a bin have 16 bits; more would not fit into a core's cache
 

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from roughline.assessment.pressed import Pressed
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.engineering.formulas import partial_slip
 from roughline.report.folder import make_folder
@@ -19,8 +20,6 @@ from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.roughness import Roughness
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering, prefix
-
-Real = NDArray[np.float64]
 
 _MOST_PIXELS = 600  # along a side; a picture shows no more
 _DASHES = ("--", ":", "-.")

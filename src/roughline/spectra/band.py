@@ -6,11 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
-
-Real = NDArray[np.float64]
 
 # A wavenumber computed as m q_low may miss a cutoff of the same name by rounding.
 _ROUNDING = 1e-12

@@ -6,18 +6,17 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import stats
 
+from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.map_rings import MapRings
 from roughline.spectra.profile import ProfileSpectrum
 from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
-from roughline.spectra.self_affine_laws import Indices, Laws
+from roughline.spectra.self_affine_laws import Laws
 
-Real = NDArray[np.float64]
 Interval = tuple[float, float]
 
 _LEVEL = 0.975  # of profile likelihoods; 95 in 100 hold the truth, as ends are chosen as well

@@ -6,15 +6,13 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from roughline.computing import fft
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.spectra import synthesis
 from roughline.spectra.leakage import RING_HALF_WIDTH
 from roughline.topography.body import Line, Settings, Surface
-
-Real = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

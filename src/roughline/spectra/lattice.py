@@ -16,11 +16,11 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from roughline.computing.arrays import Real
 from roughline.spectra.band import Band
 
-Real = NDArray[np.float64]
 BodyName = Literal["surface", "line"]
 
 _BLOCK = 2**20  # wavevectors summed at a time

@@ -14,7 +14,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-Real = NDArray[np.float64]
+from roughline.computing.arrays import Real
+
 Modes = NDArray[np.intp]
 Sides = tuple[float, float]
 

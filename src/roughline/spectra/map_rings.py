@@ -7,13 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Indices, Real
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.leakage import LONGER, LONGEST, map_leakage, power_inside
-from roughline.spectra.self_affine_laws import HURSTS, LEAST_MEANS, Indices, Laws, Means, power_law
-
-Real = NDArray[np.float64]
+from roughline.spectra.self_affine_laws import HURSTS, LEAST_MEANS, Laws, Means, power_law
 
 _CORRELATED = 2.4  # modes of the rings that a Hann window makes of one
 _ROLLS_PER_DECADE = 40

@@ -7,16 +7,15 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from roughline.computing import fft
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
 from roughline.spectra.lattice import ContinuumSpectrum, LatticeSpectrum, lattice_waves
 from roughline.spectra.self_affine import SelfAffine
 from roughline.topography.body import Surface
 
-Real = NDArray[np.float64]
 SurfaceOrSpectrum = Surface | SelfAffine | ContinuumSpectrum | LatticeSpectrum | IsotropicSpectrum
 
 _PER_DECADE = 200  # bands of wavenumbers

@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import fft
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.spectra.leakage import LONG_WAVES, LONGER, scan_leakage
 from roughline.topography.body import Line
-
-Real = NDArray[np.float64]
 
 _BINS_PER_DECADE = 20
 _LEAST_POINTS = 64

@@ -6,15 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.spectra.fit import SelfAffineFit, fit_self_affine
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
 from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
 from roughline.topography.body import Body, Line, Surface
-
-Real = NDArray[np.float64]
 
 ALIKE = 0.7  # minor over major slope, from which on a surface counts as isotropic
 

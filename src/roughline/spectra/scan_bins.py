@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.spectra.leakage import LONG_WAVES, map_leakage
 from roughline.spectra.map_rings import modes_of_surface
 from roughline.spectra.profile import Cuts, ProfileSpectrum, cuts_of_surface
 from roughline.spectra.self_affine_laws import HURSTS, LEAST_MEANS, Laws, Means, power_law
-
-Real = NDArray[np.float64]
 
 _NOTHING = 1e-300  # stands for no power, where logarithms are taken
 _SAME = 1 + 1e-9  # but for rounding

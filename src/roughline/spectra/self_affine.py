@@ -15,8 +15,9 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from roughline.computing.arrays import Real
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import ContinuumWarning, InputError
 from roughline.spectra import synthesis
@@ -29,7 +30,6 @@ from roughline.spectra.lattice import (
 )
 from roughline.topography.body import Line, Settings, Surface
 
-Real = NDArray[np.float64]
 Amplitudes = Literal["fixed", "gaussian"]
 Normalisation = Literal["rms_height", "C_0"]
 

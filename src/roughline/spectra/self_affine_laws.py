@@ -14,10 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
-
-Real = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 HURSTS = np.linspace(-0.49, 1.5, 200)
 """Exponents that are tried."""

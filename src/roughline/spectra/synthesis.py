@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing import fft
+from roughline.computing.arrays import Real
 from roughline.computing.compiled import compiled
 from roughline.errors import InputError
 
-Real = NDArray[np.float64]
 _AMPLITUDES = 0x616D706C  # spawn key of the amplitudes, far from those that count realisations
 
 Seed = int | np.random.SeedSequence | np.random.Generator | None

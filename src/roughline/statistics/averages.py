@@ -8,11 +8,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import Resampled
 
-Real = NDArray[np.float64]
 Averaging = Literal["arithmetic", "geometric"]
 
 

@@ -17,9 +17,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-Real = NDArray[np.float64]
+from roughline.computing.arrays import Real
+
 Statistic = Callable[[Real], tuple[Real, Real]]
 """Takes means, shape (..., loads); returns values, shape (...), and gradients, (..., loads)."""
 

@@ -9,11 +9,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.statistics import bootstrap
 from roughline.statistics.averages import Averaging
 
-Real = NDArray[np.float64]
 Value = TypeVar("Value", float, Real)
 
 

@@ -11,14 +11,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy import special
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.spectra.moments import SurfaceOrSpectrum, bands, moments
 from roughline.spectra.self_affine import SelfAffine
-
-Real = NDArray[np.float64]
 
 _PERSSON_GAMMA = 0.45  # Yang and Persson 2008
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)  # within a band

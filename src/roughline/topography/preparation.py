@@ -9,12 +9,12 @@ from typing import get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.topography.body import Body, BodyType, Line, Surface, with_heights
 from roughline.topography.missing import Missing
 from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
 
-Real = NDArray[np.float64]
 _TILT_MATTERS = 0.05  # of the rms height, from which on a tilt is warned of
 _SPIKE = 5.0  # over what neighbours scatter by
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 
-Real = NDArray[np.float64]
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
 DEGREES: dict[str, int] = {"none": -1, "mean": 0, "tilt": 1, "curvature": 2}
