@@ -9,7 +9,11 @@ from typing import TYPE_CHECKING, Any
 from roughline._version import __version__
 
 if TYPE_CHECKING:
+    from roughline.assessment.assess import assess as assess
+    from roughline.assessment.assessment import Assessment as Assessment
     from roughline.assessment.line_scan import press_scan as press_scan
+    from roughline.assessment.question import Question as Question
+    from roughline.assessment.question import Reading as Reading
     from roughline.comparison.models import Comparison as Comparison
     from roughline.comparison.models import compare as compare
     from roughline.comparison.trust import trust_map as trust_map
@@ -52,6 +56,10 @@ if TYPE_CHECKING:
     from roughline.topography.two_bodies import facing as facing
 
 _HOMES = {
+    "assess": "assessment.assess",
+    "Assessment": "assessment.assessment",
+    "Question": "assessment.question",
+    "Reading": "assessment.question",
     "facing": "topography.two_bodies",
     "theory": "theories.theory",
     "press_scan": "assessment.line_scan",

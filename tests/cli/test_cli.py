@@ -11,10 +11,10 @@ from typer.testing import CliRunner
 
 import roughline as rl
 from roughline import cli
-from roughline.assessment.pressed import Pressed
-from roughline.assessment.source import Source
+from roughline.assessment import loads as load_cases
+from roughline.assessment.assessment import Assessment
 from roughline.engineering.materials import materials
-from roughline.report.contact_figures import write_pressed
+from roughline.report.contact_figures import write_contact
 
 
 def roughline(*arguments, timeout=120):
@@ -219,10 +219,8 @@ def test_a_wrong_call_is_exit_2(arguments):
 
 
 def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch):
-    import roughline.assessment.curves as curves
-
-    original = curves.press
-    monkeypatch.setattr(curves, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
+    original = load_cases.press
+    monkeypatch.setattr(load_cases, "press", lambda *a, **k: original(*a, **k, max_iterations=12))
     code, out, _ = invoke("press", surface_file, "--modulus", "1 GPa", "--loads", 6)
     assert code == 1
     assert "max_iterations reached" in " ".join(out.split())
@@ -232,9 +230,7 @@ def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch)
 def test_ctrl_c_keeps_the_loads_that_were_solved(
     surface_file, invoke, monkeypatch, tmp_path, where
 ):
-    import roughline.assessment.curves as curves
-
-    original = curves.press
+    original = load_cases.press
 
     def press(*arguments, progress, **named):
         def stop(done, total):
@@ -244,7 +240,7 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
 
         return original(*arguments, progress=stop, **named)
 
-    monkeypatch.setattr(curves, "press", press)
+    monkeypatch.setattr(load_cases, "press", press)
     folder = tmp_path / "pressed"
     code, out, err = invoke(
         *("press", surface_file, "--materials", "steel,copper", "--load", "1 N", "--load", "2 N"),
@@ -261,10 +257,8 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
 
 
 def test_a_report_with_loads_that_failed_says_so(surface_file, invoke, monkeypatch, tmp_path):
-    import roughline.assessment.curves as curves
-
-    original = curves.press
-    monkeypatch.setattr(curves, "press", lambda *a, **k: original(*a, **k, max_iterations=1))
+    original = load_cases.press
+    monkeypatch.setattr(load_cases, "press", lambda *a, **k: original(*a, **k, max_iterations=1))
     code, out, err = invoke(
         *("press", surface_file, "--materials", "steel,copper", "--load", "0.1 N"),
         *("--load", "0.5 N", "--theory", "persson", "--friction", 0.3, "--report", tmp_path / "r"),
@@ -278,7 +272,8 @@ def test_figures_of_a_failed_load_show_the_others(surface_file, tmp_path):
     surface = rl.read(surface_file)
     curve = rl.press(surface, E_star=1e9, n_loads=6, fields=True, max_iterations=12, throw=False)
     assert not curve.converged.all()
-    pressed = Pressed(Source(surface_file), [surface], surface, curve, np.arange(6))
-    files = write_pressed(pressed, tmp_path / "figures")
+    question = rl.Question(surface_file, E_star=1e9, n_loads=6)
+    pressed = Assessment(question, [], surface, curve, np.arange(6))
+    files = write_contact(pressed, tmp_path / "figures")
     assert all(file.stat().st_size > 0 for file in files)
     assert np.isfinite(curve.stiffness).any()

@@ -9,13 +9,11 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughline as rl
-from roughline.assessment import curves, pressing
-from roughline.assessment.loading import Loading
-from roughline.assessment.pressing import press_file
-from roughline.assessment.source import Source
+from roughline.assessment import grid
+from roughline.assessment import loads as load_cases
 from roughline.report.contact_figures import draw_contact, draw_filled
 from roughline.report.contact_tables import answer_table, quantity, star_is_shown
-from roughline.report.terminal import print_pressed
+from roughline.report.terminal import print_assessment
 
 PAIR = ("--materials", "steel,copper")
 INTERVAL = re.compile(r"± \S+%|\S+ to \S+")
@@ -39,13 +37,9 @@ def holed(tmp_path):
     return tmp_path / "holed.npy", "--unit", "m", "--size", "1 mm"
 
 
-def solution(file, *loads, out=None, **named):
-    """Press a file for steel on copper without the command line."""
-    pair = rl.material("steel"), rl.material("copper")
-    told = []
-    return press_file(
-        Source(file), Loading(loads), materials=pair, out=out, announce=told.append, **named
-    )
+def solution(file, *loads, **named):
+    """Assess a file for steel on copper without the command line."""
+    return rl.assess(rl.Question(file, ("steel", "copper"), loads=loads, **named))
 
 
 def table_lines(out):
@@ -58,13 +52,13 @@ def table_lines(out):
 
 def test_loads_keep_their_order_and_words_and_are_solved_once(rough, invoke, monkeypatch):
     solved = []
-    original = curves.press
+    original = load_cases.press
 
     def press(*arguments, **named):
         solved.append(named["forces"])
         return original(*arguments, **named)
 
-    monkeypatch.setattr(curves, "press", press)
+    monkeypatch.setattr(load_cases, "press", press)
     loads = ("--load", "10 N", "--load", "2 N", "--load", "2000 mN")
     code, out, errors = invoke("press", rough, *PAIR, *loads, "--json")
     assert code == 0, errors
@@ -102,13 +96,13 @@ def test_filling_alone_makes_no_interval(holed, invoke):
 
 def test_the_other_filling_is_pressed_under_the_same_loads(holed, invoke, monkeypatch):
     pressed = []
-    original = curves.press
+    original = load_cases.press
 
     def press(*arguments, **named):
         pressed.append(original(*arguments, **named))
         return pressed[-1]
 
-    monkeypatch.setattr(curves, "press", press)
+    monkeypatch.setattr(load_cases, "press", press)
     code, _, errors = invoke("press", *holed, "--modulus", "100 GPa", "--loads", "3")
     assert code == 0, errors
     first, other = (curve.force.tolist() for curve in pressed)
@@ -146,7 +140,7 @@ def test_the_grids_error_is_estimated_unasked_where_it_is_cheap(
     assert code == 0, errors
     assert INTERVAL.search(out)
     assert "grid error not estimated" not in out
-    monkeypatch.setattr(pressing, "_CHEAP", 10)
+    monkeypatch.setattr(grid, "_CHEAP", 10)
     code, out, _ = invoke("press", rough, *PAIR, *arguments)
     assert "grid error not estimated" in out
     assert "third longer; --grid-error does it" in " ".join(out.split())
@@ -177,7 +171,7 @@ def test_a_star_stands_at_the_load_that_the_grid_decides(rough, invoke):
 def test_no_star_is_explained_that_is_not_shown(rough, capsys):
     pressed = solution(rough, "10 N", whole_curve=True)
     assert not pressed.curve.resolved.all()  # lighter loads of a report's figure
-    print_pressed(pressed)
+    print_assessment(pressed)
     assert "fewer than ten points in contact" not in capsys.readouterr().out
     assert not star_is_shown(pressed)
 
@@ -229,31 +223,29 @@ def test_a_report_speaks_to_a_client(holed, invoke, tmp_path):
     assert "all of the load on one plastic spot" in page  # why Holm's resistance differs
 
 
-def test_one_area_is_told_everywhere(rough, tmp_path):
-    pressed = solution(rough, "1 N", "10 N", out=tmp_path / "out", whole_curve=True)
+def test_one_area_is_told_everywhere(rough):
+    pressed = solution(rough, "1 N", "10 N", whole_curve=True)
     axes = Figure().subplots()
     draw_contact(axes, pressed.body, pressed.curve)
-    area = next(each for each in pressed.answers if each.symbol == "A/A_0")
+    area = pressed.answers["contact_area_fraction"]
     told = quantity(area, 1).split("%")[0]
     assert axes.get_title() == f"corrected area {told}% at 10 N"
-    assert area.values[1] == pressed.at_asked.area_fraction_corrected[1]
+    assert area.values[1] == pressed.curve_as_asked.area_fraction_corrected[1]
 
 
-def test_filled_points_are_marked_where_they_were(holed, tmp_path):
+def test_filled_points_are_marked_where_they_were(holed):
     file, *_ = holed
-    source = Source(file, unit="m", sizes=(1e-3,))
     missing = np.isnan(np.load(file))
-    assert (source.missing_points().heights == missing).all()
-    pressed = press_file(
-        source,
-        Loading(["1 N"]),
+    question = rl.Question(
+        file,
         E_star=1e11,
+        loads="1 N",
+        reading=rl.Reading(unit="m", sizes=(1e-3,)),
         preparation=rl.Preparation(crop=(1.5625e-4, 1e-3, 0, 1e-3)),
-        out=tmp_path / "out",
-        announce=print,
     )
-    (marks,) = pressed.filled
-    assert (marks.heights == missing[10:]).all()
+    pressed = rl.assess(question)
+    (part,) = pressed.topographies
+    assert (part.filled_region.heights == missing[10:]).all()
     axes = Figure().subplots()
     draw_filled(axes, pressed)
     outline = np.concatenate([path.vertices for path in axes.collections[-1].get_paths()])
@@ -294,7 +286,7 @@ def test_messages_are_of_the_loads_that_are_shown(rough):
     """The lighter loads of a report's curve have other contact pressures."""
     alone, whole = (solution(rough, "10 N", whole_curve=whole) for whole in (False, True))
     warnings = [
-        [note for note in pressed.notes if "of the softer body's hardness" in note]
+        [note for note in pressed.remarks if "of the softer body's hardness" in note]
         for pressed in (alone, whole)
     ]
     assert warnings[0] == warnings[1] != []

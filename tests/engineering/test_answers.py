@@ -12,11 +12,16 @@ from roughline.assessment.larger_surface import (
     stiffness_of_the_larger_surface,
     stiffness_of_the_piece,
 )
-from roughline.engineering.answers import answers, elastic_warnings, saturated_stiffness
+from roughline.engineering.answers import answers, saturated_stiffness
 from roughline.engineering.formulas import interface_stiffness
+from roughline.engineering.limits import elastic_warnings
 from roughline.engineering.materials import Interface
 
 PAIR = Interface(rl.material("steel"), rl.material("copper"))
+
+
+def by_key(found):
+    return {each.key: each for each in found}
 
 
 def by_symbol(found):
@@ -267,7 +272,7 @@ def test_the_elastic_assumption_is_watched():
         for hardness in (1, 1000)
     )
     curve = rl.press(surface, E_star=soft.E_star, forces=[100.0])
-    told = elastic_warnings(answers(curve, surface.area, soft), None)
+    told = elastic_warnings(by_key(answers(curve, surface.area, soft)), None)
     assert "of the softer body's hardness" in told[0]
-    assert elastic_warnings(answers(curve, surface.area, hard), 0.5) == []
-    assert "plasticity index is 3" in elastic_warnings([], 3.0)[0]
+    assert elastic_warnings(by_key(answers(curve, surface.area, hard)), 0.5) == []
+    assert "plasticity index is 3" in elastic_warnings({}, 3.0)[0]

@@ -9,7 +9,9 @@ from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.engineering.answers import Answer, Ends, saturated_stiffness
+from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answers import saturated_stiffness
+from roughline.engineering.declared import DECLARED
 from roughline.engineering.formulas import interface_stiffness
 from roughline.errors import InputError
 from roughline.spectra.fit import fit_self_affine
@@ -120,14 +122,11 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     low = np.where(close, np.fmin(low, k * (1 - error)), low)
     high = np.where(close, np.inf, high)
     known = interval is not None or bool(close.any())
-    return Answer(
-        "interface stiffness",
-        "k_i",
-        "N/m",
+    return _interface_stiffness(
         interface_stiffness(k, saturated),
-        interface_stiffness(low, saturated) if known else None,
-        interface_stiffness(high, saturated) if known else None,
-        "1/k_i = 1/k - 1/k_s, k_s of the flat punch",
+        (interface_stiffness(low, saturated), interface_stiffness(high, saturated))
+        if known
+        else (None, None),
         validity,
     )
 
@@ -168,13 +167,17 @@ def stiffness_of_the_larger_surface(
         )
     else:
         held = f"it holds {roll_offs:.2g} roll-off wavelengths along a side"
-    return Answer(
-        "interface stiffness",
-        "k_i",
-        "N/m",
+    return _interface_stiffness(
         k,
-        low,
-        high,
-        "dF/dd of the map in a periodic half-space under the same force",
+        (low, high),
         f"of the larger surface that the map was cut out of; {held}",
+        formula="dF/dd of the map in a periodic half-space under the same force",
     )
+
+
+def _interface_stiffness(
+    values: Real, ends: tuple[Real | None, Real | None], validity: str, **formula: str
+) -> Answer:
+    """The answer, with ends in their own order."""
+    declared = vars(DECLARED["interface_stiffness"]) | {"validity": validity} | formula
+    return Answer("interface_stiffness", values=values, low=ends[0], high=ends[1], **declared)

@@ -1,120 +1,116 @@
-"""Topography files: what is needed to read them, two together, and what to say of them."""
+"""Topographies of a question: read, prepared, filled otherwise, and laid together."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
+from roughline.assessment.question import Question, Reading
 from roughline.errors import InputError
 from roughline.files.measurement import Measurement
-from roughline.files.read import measurement, read, suspicions
+from roughline.files.read import measurement
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation, prepared
 from roughline.topography.trend import Trend
 from roughline.topography.two_bodies import facing
-from roughline.units import engineering
 
 
-@dataclass(frozen=True)
-class Source:
-    """A file, and what is needed to read it; as for :func:`roughline.read`.
+@dataclass(frozen=True, eq=False)
+class Topography:
+    """A body as it was read and prepared, with what is needed to fill its missing points anew.
 
-    Lengths in `sizes` have units. `trend` is what reading removes: "none" where the preparation
-    says itself what is to be removed, in its own turn.
+    Attributes
+    ----------
+    body : Surface or Line
+        Prepared. [m]
+    file : Path or None
+        Where it is from; None for a body that was given.
+    measurement : Measurement or None
+        What the file holds, its missing points marked; None where none were missing.
+    reading : Reading
+        How the file was read.
+    preparation : Preparation or None
+        What was done to the body.
     """
 
-    file: Path
-    unit: str | None = None
-    channel: str | None = None
-    sizes: str | None = None
-    missing: Filling = "harmonic"
-    most_missing: float = 0.1
-    trend: Trend = "tilt"
+    body: Body
+    file: Path | None
+    measurement: Measurement | None
+    reading: Reading
+    preparation: Preparation | None
 
-    def measurement(self) -> Measurement:
-        """What the file holds, whether or not it can be pressed."""
-        return measurement(self.file, self.channel)
+    @classmethod
+    def of(
+        cls, given: Body | Path, reading: Reading, preparation: Preparation | None
+    ) -> Topography:
+        """Take or read a body, and prepare it.
 
-    def read(self, missing: Filling | None = None) -> Body:
-        """Read it, with points filled as stated or by another method."""
-        return read(
-            self.file,
-            self.unit,
-            channel=self.channel,
-            sizes=self.sizes,
-            missing=missing or self.missing,
-            most_missing=self.most_missing,
-            trend=self.trend,
-        )
+        Raises
+        ------
+        InputError
+            If the file cannot be read, or a step does not suit the body.
+        """
+        if isinstance(given, Surface | Line):
+            return cls(prepared(given, preparation), None, None, reading, preparation)
+        found = measurement(given, reading.channel)
+        kept = None
+        if not found.is_own and found.unknown.any():
+            kept = replace(found, heights=np.ma.array(found.heights, copy=True))
+        body = measured_body(found, reading, preparation)
+        return cls(prepared(body, preparation), given, kept, reading, preparation)
 
-    def body(self, found: Measurement) -> Body:
-        """The body that was measured, as :meth:`read` gives it."""
-        filling = Missing(self.missing, self.most_missing)
-        return found.body(self.unit, self.sizes, filling, self.trend)
+    @property
+    def is_filled(self) -> bool:
+        """Whether points were missing and have been filled."""
+        return bool(self.body.settings.get("missing_points"))
 
-    def obstacles(self, found: Measurement) -> list[str]:
-        """What is still needed before what the file holds can be pressed."""
-        filling = Missing(self.missing, self.most_missing)
-        return [str(each) for each in found.obstacles(self.unit, self.sizes, filling)]
+    def filled_by(self, method: Filling) -> Body:
+        """The body with its missing points filled by a method; itself where they are not known."""
+        if self.measurement is None:
+            return self.body
+        heights = np.ma.array(self.measurement.heights, copy=True)
+        found = replace(self.measurement, heights=heights)
+        reading = replace(self.reading, missing=method)
+        return prepared(measured_body(found, reading, self.preparation), self.preparation)
 
-    def missing_points(self) -> Body | None:
-        """Where points are missing, as heights of 1; None where they were filled before."""
-        found = measurement(self.file, self.channel)
-        if found.is_own:
+    @cached_property
+    def filled_region(self) -> Surface | None:
+        """Where points were filled: 1 there, 0 elsewhere; None where that is not known.
+
+        It is cropped like the body, and has the points of its file.
+        """
+        if self.measurement is None or self.measurement.kind != "surface":
             return None
-        marked = replace(found, heights=found.unknown.astype(np.float64))
-        body = marked.body(self.unit, self.sizes, Missing(), "none")
-        return replace(body, heights=np.sign(body.heights))
+        marked = replace(self.measurement, heights=self.measurement.unknown.astype(np.float64))
+        marks = marked.body(self.reading.unit, self.reading.sizes, Missing(), "none")
+        assert isinstance(marks, Surface)
+        crop = self.preparation.crop if self.preparation else None
+        cropped = Preparation(crop=crop, trend="none").applied(marks)
+        return replace(cropped, heights=np.sign(cropped.heights))
 
 
-def notes_on_body(body: Body) -> list[str]:
-    """Say what is suspicious, what was filled, and what spikes there are."""
-    return suspicions(body) + notes_on_points(body)
+def measured_body(found: Measurement, reading: Reading, preparation: Preparation | None) -> Body:
+    """The body that a file holds; its trend is left to the preparation if that names one."""
+    trend: Trend = "none" if preparation and preparation.trend else "tilt"
+    filling = Missing(reading.missing, reading.most_missing)
+    return found.body(reading.unit, reading.sizes, filling, trend)
 
 
-def notes_on_points(body: Body) -> list[str]:
-    """Say what was filled, and what spikes there are."""
-    notes = []
-    if body.settings.get("missing_points"):
-        count, share = body.settings["missing_points"], float(body.settings["missing_share"])
-        notes.append(f"{count} missing points ({share:.2%}) filled: {body.settings['filled']}")
-    if body.settings.get("outliers_kept"):
-        notes.append(
-            f"{body.settings['outliers_kept']} spikes kept; the highest point decides where touch "
-            "is, so see whether they are real, or remove them"
-        )
-    if body.settings.get("outliers_removed"):
-        notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")
-    return notes
+def topographies(question: Question) -> list[Topography]:
+    """Read and prepare the first body and, if it is rough, the second."""
+    given = [each for each in (question.body, question.against) if each is not None]
+    return [
+        Topography.of(each, question.reading, question.preparation)  # type: ignore[arg-type]
+        for each in given
+    ]
 
 
-def read_parts(
-    sources: Sequence[Source], preparation: Preparation | None, filling: Filling | None = None
-) -> list[Body]:
-    """Read and prepare each topography; missing points are filled as stated or otherwise."""
-    return [prepared(each.read(filling), preparation) for each in sources]
-
-
-def filled_regions(
-    sources: Sequence[Source], parts: Sequence[Body], preparation: Preparation | None
-) -> list[Surface | None]:
-    """Read for each map where points were filled: 1 there, 0 elsewhere; None if none is known.
-
-    They are cropped like the map, and have its file's points.
-    """
-    crop = Preparation(crop=preparation.crop if preparation else None, trend="none")
-    found: list[Surface | None] = []
-    for source, part in zip(sources, parts, strict=True):
-        marks = source.missing_points() if part.settings.get("missing_points") else None
-        found.append(crop.applied(marks) if isinstance(marks, Surface) else None)
-    return found
-
-
-def together(parts: Sequence[Body]) -> Body:
+def pressed_body(bodies: Sequence[Body]) -> Body:
     """Return the body to press: the sum of two surfaces, or the first of two line scans.
 
     Raises
@@ -122,9 +118,9 @@ def together(parts: Sequence[Body]) -> Body:
     InputError
         If one is a surface and the other is not, or they have too little in common.
     """
-    if len(parts) == 1:
-        return parts[0]
-    first, second = parts
+    if len(bodies) == 1:
+        return bodies[0]
+    first, second = bodies
     if isinstance(first, Surface) and isinstance(second, Surface):
         return facing(first, second)
     if (
@@ -134,31 +130,3 @@ def together(parts: Sequence[Body]) -> Body:
     ):
         return first
     raise InputError("two rough bodies must both be surfaces, or both line scans")
-
-
-def notes_on_facing(body: Body) -> list[str]:
-    """Say what was cropped and resampled when two surfaces were laid together."""
-    if not isinstance(body, Surface):
-        return []
-    notes = []
-    for name in ("first", "second"):
-        if f"{name}_cropped_to" in body.settings:
-            sizes = " x ".join(engineering(size, "m") for size in body.sizes)
-            notes.append(
-                f"{name} body: cropped to what both have in common, {sizes}, from x = y = 0"
-            )
-    if "second_resampled_to" in body.settings:
-        pixel = " x ".join(engineering(size, "m") for size in body.spacing)
-        notes.append(f"second body: resampled by cubic splines to pixels of {pixel}, the first's")
-    return notes
-
-
-def notes_on_parts(parts: Sequence[Body], say: Callable[[Body], list[str]]) -> list[str]:
-    """Say something of each topography, and of which of two it is."""
-    if len(parts) == 1:
-        return say(parts[0])
-    return [
-        f"{which} body: {note}"
-        for which, part in zip(("first", "second"), parts, strict=True)
-        for note in say(part)
-    ]

@@ -12,7 +12,8 @@ from roughline._version import __version__
 from roughline.cli.campaign import app as campaign_app
 from roughline.cli.campaign import paper
 from roughline.cli.contact import compare, press
-from roughline.cli.options import PanelsFirst
+from roughline.cli.flags import in_flags
+from roughline.cli.help import PanelsFirst
 from roughline.cli.topography import generate, info
 from roughline.errors import ConvergenceError, RoughlineError
 
@@ -59,5 +60,5 @@ def main() -> None:
 
 
 def _say(error: RoughlineError, code: int) -> int:
-    typer.echo(f"roughline: {error}", err=True)
+    typer.echo(f"roughline: {in_flags(str(error))}", err=True)
     return code

@@ -51,7 +51,8 @@ def paper(
     Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
     """
     from roughline.paper.page import recompute
-    from roughline.report.terminal import announce, campaign_progress
+    from roughline.report.progress import campaign_progress
+    from roughline.report.terminal import announce
 
     with interruptible(_kept(out)), campaign_progress() as progress:
         page = recompute(
@@ -89,8 +90,9 @@ def run_campaign(
     are recorded with their reasons, stop no others, and are tried again by the next run.
     """
     from roughline.campaign import read_plan, run
-    from roughline.report.json_output import of_summary
-    from roughline.report.terminal import announce, campaign_progress, print_summary
+    from roughline.report.campaign_output import of_summary, print_summary
+    from roughline.report.progress import campaign_progress
+    from roughline.report.terminal import announce
 
     where = store or plan.with_suffix(".zarr")
     with interruptible(_kept(where)), campaign_progress() as progress:
@@ -115,8 +117,7 @@ def run_campaign(
 def status_of_campaign(store: StoreArgument, json: Json = False) -> None:
     """Say what is done of a campaign, and why cases failed."""
     from roughline.campaign import Store
-    from roughline.report.json_output import of_status
-    from roughline.report.terminal import print_status
+    from roughline.report.campaign_output import of_status, print_status
 
     found = Store(_store_of(store))
     if json:

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import shlex
 import sys
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from roughline.cli import options
+from roughline.cli.flags import in_flags
 from roughline.cli.options import end_interrupted, interruptible, print_json
+from roughline.errors import InputError
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
 
 LOADS = "Loads"
 BODIES = "Bodies"
@@ -82,7 +88,7 @@ def press(
     theory: Annotated[
         list[str] | None,
         typer.Option(
-            help="persson, bush-gibson-thomas or greenwood-williamson; may be repeated.",
+            help="{theories}; may be repeated.",
             rich_help_panel=ANSWERS,
         ),
     ] = None,
@@ -136,9 +142,8 @@ def press(
     the grid and filled points, or a single line scan, leave open. A star behind a load marks fewer
     than ten points in contact, where the grid decides.
 
-    Materials by name: alumina, aluminium, brass, copper, fused-silica, glass, gold, nickel, pmma,
-    ptfe, rigid, silicon, silver, stainless-steel, steel, tin, titanium, tungsten, zinc. Others by
-    value, or a name with some values changed: E, nu, hardness, resistivity, conductivity, density.
+    Materials by name: {materials}. Others by value, or a name with some values changed: E, nu,
+    hardness, resistivity, conductivity, density.
 
     Exit codes: 0; 1 if a load was not solved to the tolerance, which is said and shown as missing;
     2 for input that cannot be used; 130 after Ctrl-C, with the loads solved until then.
@@ -154,43 +159,94 @@ def press(
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.assessment.questions import ask
+    from roughline.assessment.assess import assess
+    from roughline.assessment.question import Question
     from roughline.computing.fft import set_threads
-    from roughline.report.json_output import of_pressed
-    from roughline.report.terminal import announce, load_progress, print_pressed
+    from roughline.report.json_output import of_assessment
+    from roughline.report.progress import load_progress
+    from roughline.report.terminal import announce, print_assessment
 
     if threads is not None:
         set_threads(threads)
-    source = options.source_of(file, unit, channel, size, fill, max_missing, trend)
+    _refuse_incomplete_report(report, json, materials, load, friction)
+    question = Question(
+        file,
+        materials=materials,
+        E_star=modulus,
+        loads=load or (),
+        depths=depth or (),
+        n_loads=loads,
+        against=against,
+        periodic=periodic,
+        friction=friction,
+        frequency=frequency,
+        theories=theory or (),
+        grid_error=grid_error,
+        reading=options.reading_of(unit, channel, size, fill, max_missing),
+        preparation=options.preparation_of(trend, crop, low_pass, resample, remove_outliers),
+        whole_curve=report is not None,
+        fields=report is not None or out is not None,
+    )
     with interruptible("there is no result"), load_progress() as progress:
-        result = ask(
-            source,
-            loads=load or [],
-            depths=depth or [],
-            count=loads,
-            modulus=modulus,
-            materials=materials,
-            against=against,
-            preparation=options.preparation_of(trend, crop, low_pass, resample, remove_outliers),
-            periodic=periodic,
-            grid_error=grid_error,
-            friction=friction,
-            frequency=frequency,
-            theories=theory or [],
-            report=report,
-            out=out,
-            command=shlex.join(["roughline", *map(_without_folders, sys.argv[1:])]),
-            announce=announce,
-            progress=progress,
+        _make_folders(report, out)  # one that cannot be written is told before the work
+        result = assess(question, announce=announce, progress=progress)
+        result = replace(
+            result,
+            warnings=[in_flags(each) for each in result.warnings],
+            notes=[in_flags(each) for each in result.notes],
         )
+        files = _written(result, report, out)
     if json:
-        print_json(of_pressed(result))
+        print_json(of_assessment(result, files))
     else:
-        print_pressed(result)
+        print_assessment(result, files)
     if result.interrupted:
         end_interrupted("the loads solved before are above")
     if not result.curve.converged.all():
         raise typer.Exit(1)
+
+
+def _refuse_incomplete_report(
+    report: Path | None,
+    json: bool,
+    materials: str | None,
+    load: list[str] | None,
+    friction: float | None,
+) -> None:
+    """Refuse a report without materials or loads, and partial slip that nothing would show."""
+    if report is not None and materials is None:
+        raise InputError("a report, reflection and partial slip need two --materials")
+    if report is not None and not load:
+        raise InputError('a report needs a --load, such as "10 N"')
+    if friction is not None and materials is not None and report is None and not json:
+        raise InputError("partial slip is drawn in a report: give --report too")
+
+
+def _make_folders(*folders: Path | None) -> None:
+    """Make the folders that results will be written to."""
+    from roughline.report.folder import make_folder
+
+    for folder in folders:
+        if folder is not None:
+            make_folder(folder)
+
+
+def _written(result: Assessment, report: Path | None, out: Path | None) -> list[Path]:
+    """Write what is wanted; interrupted, a report gets the curve alone."""
+    files: list[Path] = []
+    if report is None and out is None:
+        return files
+    from roughline.report.contact_figures import write_contact
+    from roughline.report.contact_report import write_contact_report
+
+    if report is not None and result.interrupted:
+        files += write_contact(result, report)  # a curve, but no answers to report yet
+    elif report is not None:
+        command = shlex.join(["roughline", *map(_without_folders, sys.argv[1:])])
+        files += write_contact_report(result, report, command)
+    if out is not None:
+        files += write_contact(result, out)
+    return files
 
 
 def _without_folders(argument: str) -> str:
@@ -231,27 +287,32 @@ def compare(
     For a spectrum, random surfaces and random lines are pressed, and the map that comes with the
     package is read; for a surface in a file, that surface and lines of its spectrum.
     """
-    from roughline.assessment.compared import compare_models
-    from roughline.report.json_output import of_compared
-    from roughline.report.terminal import load_progress, print_compared
+    from roughline.assessment.comparison import compare_models
+    from roughline.report.json_output import of_comparison
+    from roughline.report.progress import load_progress
+    from roughline.report.terminal import print_comparison
 
-    body = (
-        options.source_of(file, unit, channel, size, fill, max_missing)
-        if file
-        else options.spectrum_of(hurst, fractal_dimension, length, "1 m", roll_off, cutoff)
+    roughness = file or options.spectrum_of(
+        hurst, fractal_dimension, length, "1 m", roll_off, cutoff
     )
     with interruptible("nothing is written"), load_progress() as progress:
+        _make_folders(out)
         result = compare_models(
-            body,
+            roughness,
+            reading=options.reading_of(unit, channel, size, fill, max_missing),
             n=n,
             surfaces=surfaces,
             force_bars=force_bar,
             tolerance=tolerance,
             seed=seed,
-            out=out,
             progress=progress,
         )
+        files: list[Path] = []
+        if out is not None:
+            from roughline.report.comparison_figures import write_comparison
+
+            files = write_comparison(result, out)
     if json:
-        print_json(of_compared(result))
+        print_json(of_comparison(result, files))
     else:
-        print_compared(result)
+        print_comparison(result, files)

@@ -6,16 +6,14 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
-from typer.core import TyperCommand, TyperOption
 
 from roughline.errors import InputError
 
 if TYPE_CHECKING:
-    from roughline.assessment.source import Source
+    from roughline.assessment.question import Reading
     from roughline.spectra.self_affine import SelfAffine
     from roughline.topography.preparation import Preparation
 
@@ -38,18 +36,6 @@ class Trend(StrEnum):
     mean = "mean"
     tilt = "tilt"
     curvature = "curvature"
-
-
-class PanelsFirst(TyperCommand):
-    """A command whose help begins with its panels; options without one come last."""
-
-    def get_params(self, ctx: Any) -> list[Any]:
-        """Return the parameters, those without a panel in one of their own."""
-        params = super().get_params(ctx)
-        for param in params:
-            if isinstance(param, TyperOption) and not param.rich_help_panel:
-                param.rich_help_panel = "Other options"
-        return params
 
 
 Unit = Annotated[
@@ -131,20 +117,13 @@ Scheduler = Annotated[
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units, for other programs.")]
 
 
-def source_of(
-    file: Path,
-    unit: str | None,
-    channel: str | None,
-    size: str | None,
-    fill: Filling,
-    max_missing: float,
-    trend: Trend | None = None,
-) -> Source:
-    """The file that the options describe; a trend that is given is left to the preparation."""
-    from roughline.assessment.source import Source
+def reading_of(
+    unit: str | None, channel: str | None, size: str | None, fill: Filling, max_missing: float
+) -> Reading:
+    """How the options say that files are read."""
+    from roughline.assessment.question import Reading
 
-    when_read: Literal["none", "tilt"] = "none" if trend else "tilt"
-    return Source(file, unit, channel, size, fill.value, max_missing, when_read)
+    return Reading(unit, channel, size, fill.value, max_missing)
 
 
 def preparation_of(

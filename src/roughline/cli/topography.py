@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from roughline.cli import options
+from roughline.cli.flags import in_flags
 from roughline.cli.options import print_json
 
 
@@ -34,17 +35,27 @@ def info(
     Intervals are of 95 %. The Hurst exponent, the roll-off and the cutoff are those of a plateau
     and a power law fitted to the spectrum; the last line says whether that describes it.
     """
-    from roughline.assessment.described import describe_file
-    from roughline.report.json_output import of_described
-    from roughline.report.terminal import print_described
+    from roughline.assessment.description import describe
+    from roughline.report.json_output import of_description
+    from roughline.report.terminal import print_description
 
-    source = options.source_of(file, unit, channel, size, fill, max_missing, trend)
+    if out is not None:
+        from roughline.report.folder import make_folder
+
+        make_folder(out)
+    reading = options.reading_of(unit, channel, size, fill, max_missing)
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
-    result = describe_file(source, steps, out)
+    result = describe(file, reading, steps)
+    result = replace(result, obstacles=[in_flags(str(each)) for each in result.obstacles])
+    files: list[Path] = []
+    if out is not None:
+        from roughline.report.description_figures import write_description
+
+        files = write_description(result, out)
     if json:
-        print_json(of_described(result))
+        print_json(of_description(result, files))
     else:
-        print_described(result)
+        print_description(result, files)
 
 
 def generate(

@@ -10,10 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from roughline.assessment.pressed import Pressed
+from roughline.assessment.assessment import Assessment, PartialSlip
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.engineering.formulas import partial_slip
 from roughline.report.folder import make_folder
 from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.spectra.isotropic import IsotropicSpectrum
@@ -25,13 +24,13 @@ _MOST_PIXELS = 600  # along a side; a picture shows no more
 _DASHES = ("--", ":", "-.")
 
 
-def write_pressed(pressed: Pressed, out: Path) -> list[Path]:
-    """Write a pressed body: ``curve.nc``, and figures of the curve and of the contact.
+def write_contact(assessment: Assessment, out: Path) -> list[Path]:
+    """Write ``curve.nc``, and figures of the curve and of the contact.
 
     Parameters
     ----------
-    pressed : Pressed
-        Of a surface, with the fields of the load to be shown.
+    assessment : Assessment
+        With the fields of the load to be shown, if it is of a surface.
     out : Path
         Folder; made if it does not exist.
 
@@ -46,35 +45,35 @@ def write_pressed(pressed: Pressed, out: Path) -> list[Path]:
         If the folder cannot be written.
     """
     make_folder(out)
-    replace(pressed.curve, fields=()).write(out / "curve.nc")
+    replace(assessment.curve, fields=()).write(out / "curve.nc")
     written = [out / "curve.nc"]
     with styled():
-        written += save(curve_figure(pressed), out, "curve")
-        if isinstance(pressed.body, Surface):
-            written += save(contact_figure(pressed.body, pressed), out, "contact")
+        written += save(curve_figure(assessment), out, "curve")
+        if isinstance(assessment.body, Surface):
+            written += save(contact_figure(assessment.body, assessment), out, "contact")
     return written
 
 
-def curve_figure(pressed: Pressed) -> Figure:
+def curve_figure(assessment: Assessment) -> Figure:
     """Force over depth, and stiffness over force; open marks where the grid decides."""
     figure = new_figure(PAGE, 3.0)
     left, right = figure.subplots(1, 2)
-    curve = pressed.curve
+    curve = assessment.curve
     depth_unit, depth = _prefixed(curve.depth, "m")
     force_unit, force = _prefixed(curve.force, "N")
     _draw_loads(left, curve.depth * depth, curve.force * force, curve.resolved)
     left.set(xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=f"force $F$ [{force_unit}]")
-    draw_stiffness(right, pressed)
+    draw_stiffness(right, assessment)
     return figure
 
 
-def contact_figure(surface: Surface, pressed: Pressed) -> Figure:
+def contact_figure(surface: Surface, assessment: Assessment) -> Figure:
     """Topography, and the real contact area at the last load whose fields are there."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
     draw_heights(left, surface)
-    draw_filled(left, pressed)
-    draw_contact(right, surface, pressed.curve)
+    draw_filled(left, assessment)
+    draw_contact(right, surface, assessment.curve)
     return figure
 
 
@@ -87,16 +86,16 @@ def roughness_figure(body: Body, found: Roughness) -> Figure:
     return figure
 
 
-def draw_stiffness(axes: Axes, pressed: Pressed) -> None:
+def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     """Stiffness over force with its interval, and theories beside it."""
-    curve, area = pressed.curve, pressed.area
+    curve, area = assessment.curve, assessment.area
     force_unit, force = _prefixed(curve.force, "N")
     unit, stiffness = _prefixed(curve.stiffness, "N/m")
     _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve.resolved)
-    if pressed.stiffness_interval is not None:
-        low, high = (end * stiffness for end in pressed.stiffness_interval)
+    if assessment.stiffness_interval is not None:
+        low, high = (end * stiffness for end in assessment.stiffness_interval)
         axes.fill_between(curve.force * force, low, high, color="0.85", zorder=-5)
-    for theory, dashes in zip(pressed.theories, _DASHES, strict=False):
+    for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         if theory.stiffness is not None:
             axes.plot(
                 theory.pressure * area * force,
@@ -108,32 +107,28 @@ def draw_stiffness(axes: Axes, pressed: Pressed) -> None:
     axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel=f"stiffness $k$ [{unit}]")
 
 
-def draw_area(axes: Axes, pressed: Pressed) -> None:
+def draw_area(axes: Axes, assessment: Assessment) -> None:
     """Contact area over force with its interval, and theories beside it."""
-    curve, area = pressed.curve, pressed.area
+    curve, area = assessment.curve, assessment.area
     assert curve.area_fraction_corrected is not None
     force_unit, force = _prefixed(curve.force, "N")
     _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve.resolved)
-    if pressed.area_interval is not None:
-        axes.fill_between(curve.force * force, *pressed.area_interval, color="0.85", zorder=-5)
-    for theory, dashes in zip(pressed.theories, _DASHES, strict=False):
+    if assessment.area_interval is not None:
+        axes.fill_between(curve.force * force, *assessment.area_interval, color="0.85", zorder=-5)
+    for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
         axes.legend()
     axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel="contact area $A/A_0$")
 
 
-def draw_partial_slip(axes: Axes, pressed: Pressed, friction: float) -> None:
+def draw_partial_slip(axes: Axes, slip: PartialSlip | None) -> None:
     """Tangential force over displacement at the largest load, until the whole contact slides."""
-    assert pressed.pair is not None
-    curve, solved = pressed.curve, pressed.curve.converged
-    if not solved[-1]:
+    if slip is None:
         axes.text(0.5, 0.5, "largest load not solved", ha="center", transform=axes.transAxes)
         return
-    moduli = pressed.pair.E_star, pressed.pair.G_star
-    displacement, force = partial_slip(curve.depth[solved], curve.force[solved], *moduli, friction)
-    x_unit, x = _prefixed(displacement, "m")
-    y_unit, y = _prefixed(force, "N")
-    axes.plot(displacement * x, force * y, color="k")
+    x_unit, x = _prefixed(slip.displacement, "m")
+    y_unit, y = _prefixed(slip.force, "N")
+    axes.plot(slip.displacement * x, slip.force * y, color="k")
     axes.set(
         xlabel=f"slip displacement $u_x$ [{x_unit}]", ylabel=f"tangential force $Q$ [{y_unit}]"
     )
@@ -155,13 +150,14 @@ def draw_heights(axes: Axes, body: Body) -> None:
     _label_sides(axes, body)
 
 
-def draw_filled(axes: Axes, pressed: Pressed) -> None:
+def draw_filled(axes: Axes, assessment: Assessment) -> None:
     """Mark on a map of heights where points were missing and have been filled."""
-    if not isinstance(pressed.body, Surface):
+    if not isinstance(assessment.body, Surface):
         return
-    _, size = _prefixed(np.array(pressed.body.sizes), "m")
+    _, size = _prefixed(np.array(assessment.body.sizes), "m")
     bounds = axes.axis()
-    for i, marks in enumerate(pressed.filled):
+    for i, part in enumerate(assessment.topographies):
+        marks = part.filled_region
         if isinstance(marks, Surface) and 0 < marks.heights.mean() < 1:
             # the second of two bodies is turned over
             shown = _highest(marks.heights if i == 0 else marks.heights[::-1])

@@ -1,16 +1,17 @@
-"""The report that a client receives: one page, as HTML and PDF, from a pressed file."""
+"""The report that a client receives: one page, as HTML and PDF, from a assessment file."""
 
 from __future__ import annotations
 
 from datetime import date
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from roughline._version import __version__
-from roughline.assessment.pressed import Pressed
+from roughline.assessment.assessment import Assessment
+from roughline.engineering.materials import Material
 from roughline.report.contact_figures import (
     draw_area,
     draw_contact,
@@ -19,7 +20,7 @@ from roughline.report.contact_figures import (
     draw_partial_slip,
     draw_spectrum,
     draw_stiffness,
-    write_pressed,
+    write_contact,
 )
 from roughline.report.contact_tables import (
     UNRESOLVED,
@@ -31,11 +32,16 @@ from roughline.report.contact_tables import (
 from roughline.report.page import Picture, Section, Table, render
 from roughline.report.pdf import write_pdf
 from roughline.report.style import PAGE, new_figure, save, styled
-from roughline.spectra.roughness import Roughness, roughness
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
 
-_LEADING = ("k", "A/A_0", "R", "h_c")  # symbols of the answers that the page begins with
+# keys of the answers that the page begins with
+_LEADING = (
+    "contact_stiffness",
+    "contact_area_fraction",
+    "constriction_resistance",
+    "thermal_conductance_per_area",
+)
 _ABREAST = 4  # loads that fit beside each other on a page
 
 ASSUMPTIONS = (
@@ -50,139 +56,122 @@ ASSUMPTIONS = (
 )
 
 
-def write_report(
-    pressed: Pressed, folder: Path, command: str, friction: float | None = None
-) -> list[Path]:
+def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: str) -> list[Path]:
     """Write ``report.html``, ``report.pdf``, ``curve.nc`` and the figures.
 
     Parameters
     ----------
-    pressed : Pressed
+    assessment : Pressed
         With answers for two materials.
     folder : Path
         Made if it does not exist.
-    command : str
-        The command that does it again.
-    friction : float, optional
-        Coefficient of friction; adds the curve of partial slip at the largest load. [1]
+    how_to_repeat : str
+        The command, or the lines of Python, that give the same report.
 
     Raises
     ------
     StoreError
         If the folder cannot be written.
     """
-    files = write_pressed(pressed, folder)
-    described = None
-    body = pressed.body
-    if isinstance(body, Surface) or body.kind == "profile":
-        described = roughness(body)
+    files = write_contact(assessment, folder)
     with styled():
-        overview = save(_overview(pressed, described, friction), folder, "overview")
-    title, lead = f"Contact of {pressed.source.file.name}", _lead(pressed)
+        overview = save(_overview(assessment), folder, "overview")
+    title, lead = f"Contact of {assessment.question.name}", _lead(assessment)
     made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
-    sections = _sections(pressed, described, overview[0], command)
+    sections = _sections(assessment, overview[0], how_to_repeat)
     page = folder / "report.html"
     page.write_text(render(title, lead, sections, made), encoding="utf-8")
     write_pdf(folder / "report.pdf", title, lead, sections, made)
     return [page, folder / "report.pdf", *files, *overview]
 
 
-def settings_of(pressed: Pressed) -> dict[str, Any]:
-    """Everything that the numbers depend on, by name."""
-    return {
-        "roughline_version": __version__,
-        "E_star": pressed.curve.E_star,
-        **pressed.curve.settings,
-    }
-
-
-def _lead(pressed: Pressed) -> str:
+def _lead(assessment: Assessment) -> str:
     """The answers at the largest load, by the names that they have in the table."""
-    pair, curve = pressed.pair, pressed.at_asked
+    pair, curve = assessment.question.pair, assessment.curve_as_asked
     assert pair is not None
-    largest = int(np.argmax(pressed.asked))
-    shown = {each.symbol: quantity(each, largest) for each in pressed.answers}
-    names = {each.symbol: each.name for each in pressed.answers}
-    found = [f"{names[symbol]} {shown[symbol]}" for symbol in _LEADING if symbol in shown]
+    largest = int(np.argmax(assessment.asked))
+    answers = assessment.answers
+    shown = {key: quantity(each, largest) for key, each in answers.items()}
+    leading = [f"{answers[key].name} {shown[key]}" for key in _LEADING if key in shown]
     unsure = curve.converged[largest] and not curve.resolved[largest]
     return _sentence(
-        f"{pair.first.name} on {pair.second.name} under {shown['F']}, {shown['p']} over the "
-        f"nominal area: {', '.join(found)}" + (f" ({UNRESOLVED})" if unsure else "")
+        f"{pair.first.name} on {pair.second.name} under {shown['normal_force']}, "
+        f"{shown['mean_pressure']} over the nominal area: {', '.join(leading)}"
+        + (f" ({UNRESOLVED})" if unsure else "")
     )
 
 
-def _overview(pressed: Pressed, described: Roughness | None, friction: float | None) -> Any:
+def _overview(assessment: Assessment) -> Figure:
+    friction = assessment.question.friction
     figure = new_figure(PAGE, 4.6)
     panels = figure.subplots(2, 2 if friction is None else 3).ravel()
-    draw_heights(panels[0], pressed.body)
-    draw_filled(panels[0], pressed)
+    draw_heights(panels[0], assessment.body)
+    draw_filled(panels[0], assessment)
     remaining = list(panels[1:])
-    if described is not None:
-        draw_spectrum(remaining.pop(0), described)
-    draw_stiffness(remaining.pop(0), pressed)
-    if isinstance(pressed.body, Surface):
-        if pressed.theories or friction is not None:
-            draw_area(remaining.pop(0), pressed)
+    if assessment.roughness is not None:
+        draw_spectrum(remaining.pop(0), assessment.roughness)
+    draw_stiffness(remaining.pop(0), assessment)
+    if isinstance(assessment.body, Surface):
+        if assessment.theories or friction is not None:
+            draw_area(remaining.pop(0), assessment)
         if remaining:
-            draw_contact(remaining.pop(0), pressed.body, pressed.curve)
+            draw_contact(remaining.pop(0), assessment.body, assessment.curve)
     if friction is not None and remaining:
-        draw_partial_slip(remaining.pop(0), pressed, friction)
+        draw_partial_slip(remaining.pop(0), assessment.partial_slip)
     for empty in remaining:
         empty.set_axis_off()
     return figure
 
 
-def _sections(
-    pressed: Pressed, described: Roughness | None, overview: Path, command: str
-) -> list[Section]:
-    pair = pressed.pair
+def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> list[Section]:
+    pair = assessment.question.pair
     assert pair is not None
-    settings = "; ".join(f"{key} = {_shown(value)}" for key, value in settings_of(pressed).items())
-    legend = [f"A star behind a load: {UNRESOLVED}."] if star_is_shown(pressed) else []
+    settings = "; ".join(f"{key} = {_shown(value)}" for key, value in assessment.settings.items())
+    legend = [f"A star behind a load: {UNRESOLVED}."] if star_is_shown(assessment) else []
     return [
         Section(
             "Answers",
             [f"Materials: {_material(pair.first)}; {_material(pair.second)}."],
-            notes=[*legend, *map(_sentence, pressed.notes)],
+            notes=[*legend, *map(_sentence, assessment.remarks)],
             tables=[
                 Table(header, rows, numbers=range(1, len(header)))
-                for header, rows in map(partial(answer_table, pressed), _abreast(pressed))
+                for header, rows in map(partial(answer_table, assessment), _abreast(assessment))
             ],
         ),
         Section(
             "Surface",
-            [_surface(pressed, described)],
-            pictures=[Picture(overview, "Overview", _caption(pressed))],
+            [_surface(assessment)],
+            pictures=[Picture(overview, "Overview", _caption(assessment))],
         ),
-        Section("Where the answers are from", tables=[Table(*formula_table(pressed))]),
+        Section("Where the answers are from", tables=[Table(*formula_table(assessment))]),
         Section(
             "Assumptions",
             [
                 *ASSUMPTIONS,
-                *(f"{theory.name}: {theory.validity}." for theory in pressed.theories),
+                *(f"{theory.name}: {theory.validity}." for theory in assessment.theories),
             ],
         ),
-        Section("To do it again", [command, settings]),
+        Section("To do it again", [how_to_repeat, settings]),
     ]
 
 
-def _abreast(pressed: Pressed) -> list[slice]:
+def _abreast(assessment: Assessment) -> list[slice]:
     """Loads that stand beside each other in a table."""
-    return [slice(i, i + _ABREAST) for i in range(0, pressed.asked.size, _ABREAST)]
+    return [slice(i, i + _ABREAST) for i in range(0, assessment.asked.size, _ABREAST)]
 
 
-def _caption(pressed: Pressed) -> str:
-    marked = any(marks is not None for marks in pressed.filled)
+def _caption(assessment: Assessment) -> str:
+    marked = any(part.filled_region is not None for part in assessment.topographies)
     return (
         "Heights"
         + (" (red: filled points)" if marked else "")
         + ", spectrum with the nearest self-affine law, stiffness over force (open marks: fewer "
         "than ten points in contact)"
-        + (", and theories for the same spectrum" if pressed.theories else "")
+        + (", and theories for the same spectrum" if assessment.theories else "")
         + (
             ", and the points in contact at the largest load; their area is corrected for the "
             "outline's steps, as in the table"
-            if isinstance(pressed.body, Surface)
+            if isinstance(assessment.body, Surface)
             else ""
         )
         + "."
@@ -193,35 +182,35 @@ def _shown(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def _material(material: Any) -> str:
+def _material(material: Material) -> str:
     parts = [f"E = {engineering(material.E, 'Pa')}", f"nu = {material.nu:g}"]
     if material.hardness:
         parts.append(f"H = {engineering(material.hardness, 'Pa')}")
     return f"{material.name} ({', '.join(parts)}; {material.source})"
 
 
-def _surface(pressed: Pressed, described: Roughness | None) -> str:
-    body = pressed.body
+def _surface(assessment: Assessment) -> str:
+    body, parameters = assessment.body, assessment.roughness
     if isinstance(body, Line):
         what = f"{body.heights.size} points over {engineering(body.length, 'm')}"
     else:
         sides = " x ".join(engineering(size, "m") for size in body.sizes)
         what = f"{body.shape[0]} x {body.shape[1]} points on {sides}"
-    if len(pressed.parts) == 1:
+    if len(assessment.topographies) == 1:
         done = f"Preparation: {_preparation(body)}."
     else:
-        first, second = map(_preparation, pressed.parts)
+        first, second = (_preparation(part.body) for part in assessment.topographies)
         done = f"Preparation of the first body: {first}; of the second: {second}."
         what += ", two bodies together" if isinstance(body, Surface) else ", the first of two"
     text = (
         f"{what}; rms height {engineering(body.rms_height, 'm')}, rms slope {body.rms_slope:.3g}. "
         f"{done}"
     )
-    if described is not None and described.fit is not None:
-        low, high = described.fit.hurst_interval
-        text += f" Hurst exponent {described.fit.hurst:.2f} ({low:.2f} to {high:.2f})."
-    if described is not None and described.remarks:
-        text += " " + " ".join(_sentence(remark) for remark in described.remarks)
+    if parameters is not None and parameters.fit is not None:
+        low, high = parameters.fit.hurst_interval
+        text += f" Hurst exponent {parameters.fit.hurst:.2f} ({low:.2f} to {high:.2f})."
+    if parameters is not None and parameters.remarks:
+        text += " " + " ".join(_sentence(remark) for remark in parameters.remarks)
     return text
 
 

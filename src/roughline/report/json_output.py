@@ -5,18 +5,16 @@ from __future__ import annotations
 import enum
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from roughline._version import __version__
-from roughline.assessment.compared import Compared
-from roughline.assessment.described import Described
-from roughline.assessment.pressed import Pressed
-from roughline.campaign.run import Summary
-from roughline.campaign.store import Store
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.comparison import ModelComparison
+from roughline.assessment.description import Description
 from roughline.contact.curve import Status
 from roughline.topography.body import Body, Surface
 
@@ -26,15 +24,18 @@ def to_json(content: Mapping[str, Any]) -> str:
     return json.dumps(_plain({"roughline_version": __version__, **content}), indent=1)
 
 
-def of_pressed(pressed: Pressed) -> dict[str, Any]:
-    """What pressing gave, in SI units, over the loads that were asked for, in their order."""
-    curve = pressed.at_asked
-    return {
-        "file": pressed.source.file,
-        "body": _of_body(pressed.body),
+def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[str, Any]:
+    """What pressing gave, in SI units, over the loads that were asked for, in their order.
+
+    Answers stand by their symbols; the key of each is that of :attr:`Assessment.answers`.
+    """
+    question, curve, slip = assessment.question, assessment.curve_as_asked, assessment.partial_slip
+    content = {
+        "file": question.body if isinstance(question.body, Path) else None,
+        "body": _of_body(assessment.body),
         "E_star": curve.E_star,
-        "nominal_area": pressed.area,
-        "loads": pressed.headings,
+        "nominal_area": assessment.area,
+        "loads": assessment.headings,
         "curve": {
             name: getattr(curve, name)
             for name in (
@@ -50,10 +51,11 @@ def of_pressed(pressed: Pressed) -> dict[str, Any]:
             )
         }
         | {"status": [Status(value).name.lower() for value in curve.status]},
-        "stiffness_interval": pressed.ends_at_asked(pressed.stiffness_interval),
-        "area_fraction_interval": pressed.ends_at_asked(pressed.area_interval),
+        "stiffness_interval": assessment.stiffness_interval_as_asked,
+        "area_fraction_interval": assessment.area_interval_as_asked,
         "answers": {
             each.symbol: {
+                "key": each.key,
                 "name": each.name,
                 "unit": each.unit,
                 "values": each.values,
@@ -63,7 +65,7 @@ def of_pressed(pressed: Pressed) -> dict[str, Any]:
                 "validity": each.validity,
                 "source": each.source,
             }
-            for each in pressed.answers
+            for each in assessment.answers.values()
         },
         "theories": {
             each.name: {
@@ -73,28 +75,31 @@ def of_pressed(pressed: Pressed) -> dict[str, Any]:
                 "mean_gap": each.mean_gap,
                 "validity": each.validity,
             }
-            for each in pressed.theories
+            for each in assessment.theories
         },
-        "notes": pressed.notes,
+        "notes": assessment.remarks,
         "settings": curve.settings,
-        "files": pressed.files,
+        "files": list(files),
     }
+    if question.friction is not None:
+        content["partial_slip"] = None if slip is None else vars(slip)
+    return content
 
 
-def of_described(described: Described) -> dict[str, Any]:
+def of_description(description: Description, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What a topography is like, in SI units."""
-    found, missing = described.roughness, described.missing
-    fit = found.fit if found is not None else None
+    parameters, missing = description.roughness, description.missing
+    fit = parameters.fit if parameters is not None else None
     names = ("rms_height", "rms_slope", "skewness", "kurtosis", "summits", "summit_skewness")
     return {
-        "file": described.source.file,
+        "file": description.file,
         "in_file": {
-            "points": described.measurement.heights.shape,
-            "sizes": described.measurement.sizes,
-            "unit": described.measurement.unit,
-            "kind": described.measurement.kind,
-            "channel": described.measurement.channel,
-            "channels": described.measurement.channels,
+            "points": description.measurement.heights.shape,
+            "sizes": description.measurement.sizes,
+            "unit": description.measurement.unit,
+            "kind": description.measurement.kind,
+            "channel": description.measurement.channel,
+            "channels": description.measurement.channels,
         },
         "missing": {
             "points": missing.count,
@@ -105,9 +110,9 @@ def of_described(described: Described) -> dict[str, Any]:
             "at_border": missing.at_border,
             "cells": missing.cells,
         },
-        "obstacles": described.obstacles,
-        "body": None if described.body is None else _of_body(described.body),
-        **{name: getattr(found, name, None) for name in (*names, "isotropy")},
+        "obstacles": description.obstacles,
+        "body": None if description.body is None else _of_body(description.body),
+        **{name: getattr(parameters, name, None) for name in (*names, "isotropy")},
         "self_affine": None
         if fit is None
         else {
@@ -125,13 +130,13 @@ def of_described(described: Described) -> dict[str, Any]:
                 "objections",
             )
         },
-        "remarks": found.remarks if found is not None else [],
-        "notes": described.notes,
-        "files": described.files,
+        "remarks": parameters.remarks if parameters is not None else [],
+        "notes": description.notes,
+        "files": list(files),
     }
 
 
-def of_compared(compared: Compared) -> dict[str, Any]:
+def of_comparison(compared: ModelComparison, files: Sequence[Path] = ()) -> dict[str, Any]:
     """Both models of one roughness, dimensionless."""
     result = compared.comparison
     return {
@@ -146,32 +151,7 @@ def of_compared(compared: Compared) -> dict[str, Any]:
         "tolerance": compared.tolerance,
         "trusted": result.trusted(compared.tolerance),
         "warnings": result.warnings,
-        "files": compared.files,
-    }
-
-
-def of_summary(summary: Summary, store: Path) -> dict[str, Any]:
-    """What a run of a campaign did."""
-    return {
-        "store": store,
-        "done": summary.done,
-        "failed": summary.failed,
-        "core_seconds": summary.core_seconds,
-        "reasons": summary.reasons,
-        "unconverged": summary.unconverged,
-    }
-
-
-def of_status(store: Store) -> dict[str, Any]:
-    """What is done of a campaign."""
-    names = ("done", "failed", "cases")
-    return {
-        "store": store.path,
-        "ensembles": {
-            name: dict(zip(names, store.counts(name), strict=True))
-            | {"failures": store.failures(name)}
-            for name in store.names
-        },
+        "files": list(files),
     }
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
@@ -11,9 +10,8 @@ from pathlib import Path
 
 import jinja2
 
+from roughline.report.values import value_and_interval
 from roughline.statistics.verdict import Verdict
-
-_INTERVAL = re.compile(r" (?=[(±])")
 
 
 @dataclass(frozen=True)
@@ -86,11 +84,6 @@ def _markdown_table(table: Table) -> str:
     ]
     cells = [[cell.replace("|", "\\|") for cell in row] for row in (*lines, *table.rows)]
     return "\n".join(f"| {' | '.join(row)} |" for row in cells)
-
-
-def value_and_interval(cell: str) -> list[str]:
-    """Where a number may be broken in two lines: before its interval."""
-    return _INTERVAL.split(cell, maxsplit=1)
 
 
 def _verdict_class(words: str) -> str:

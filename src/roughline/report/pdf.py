@@ -10,7 +10,8 @@ from xml.sax.saxutils import escape
 from matplotlib import get_data_path
 
 from roughline.errors import StoreError
-from roughline.report.page import Section, Table, value_and_interval
+from roughline.report.page import Section, Table
+from roughline.report.values import value_and_interval
 
 _SIZE = 6.6  # of the text, so that a page holds it [points]
 _MARGIN = 36  # [points]

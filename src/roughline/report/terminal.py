@@ -1,42 +1,28 @@
-"""What the terminal shows: progress with time left, and tables."""
+"""What the terminal shows of one body: its curve or answers, its description, the comparison."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    ProgressColumn,
-    Task,
-    TaskID,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 from rich.table import Table
-from rich.text import Text
 
-from roughline.assessment.compared import Compared, compared_table, verdict
-from roughline.assessment.described import Described, described_table, missing_map
-from roughline.assessment.pressed import Pressed
-from roughline.campaign.run import Summary
-from roughline.campaign.store import Store
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.comparison import ModelComparison
+from roughline.assessment.description import Description
 from roughline.contact.curve import Status
+from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
     curve_table,
     star_is_shown,
 )
-from roughline.report.page import value_and_interval
+from roughline.report.description_table import description_table, missing_map
+from roughline.report.values import value_and_interval
 from roughline.theories.theory import TheoryCurve
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
@@ -46,102 +32,40 @@ _MOST_ANSWERED = 3  # loads whose answers fit on a screen
 _SHORTEST_NAME = 20  # columns that the name of an answer needs at least
 
 
-class _Rate(ProgressColumn):
-    """Steps a second, or a minute where they are slow."""
-
-    def render(self, task: Task) -> Text:
-        """Show the speed of the last while."""
-        speed = task.speed or 0.0
-        shown = f"{speed:.1f}/s" if speed >= 1 else f"{60 * speed:.1f}/min"
-        return Text(shown if speed else "", style="progress.data.speed")
-
-
-@contextmanager
-def campaign_progress() -> Iterator[Callable[[str, int, int, int], None]]:
-    """Show a bar for each ensemble of a campaign; gives the callback."""
-    with _bars() as show:
-
-        def progress(name: str, done: int, failed: int, total: int) -> None:
-            show(f"{name}, {failed} failed" if failed else name, done, total, key=name)
-
-        yield progress
-
-
-@contextmanager
-def load_progress() -> Iterator[Callable[[int, int], None]]:
-    """Show a bar over the loads of one body; gives the callback."""
-    with _bars() as show:
-        yield lambda done, total: show("loads", done, total, key="loads")
-
-
-class _Show(Protocol):
-    def __call__(self, name: str, done: int, total: int, *, key: str) -> None: ...
-
-
-@contextmanager
-def _bars() -> Iterator[_Show]:
-    """Bars by name, on standard error; nothing is drawn before the first is told of."""
-    progress = Progress(
-        TextColumn("{task.description:<22}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        _Rate(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
-        console=Console(stderr=True),
-    )
-    tasks: dict[str, TaskID] = {}
-
-    def show(name: str, done: int, total: int, *, key: str) -> None:
-        if not tasks:
-            progress.start()
-        if key not in tasks:
-            # a bar that starts half full tells its time from what is added
-            tasks[key] = progress.add_task(name, total=total, completed=done)
-        progress.update(tasks[key], completed=done, description=name)
-
-    try:
-        yield show
-    finally:
-        if tasks:
-            progress.stop()
-
-
-def print_pressed(pressed: Pressed) -> None:
+def print_assessment(assessment: Assessment, files: Iterable[Path] = ()) -> None:
     """Print what was pressed, its curve or its answers, and the files written."""
     console = Console()
-    console.print(_described(pressed.body), highlight=False, soft_wrap=True)
-    curve, pair = pressed.curve, pressed.pair
+    console.print(_described(assessment.body), highlight=False, soft_wrap=True)
+    curve, pair = assessment.curve, assessment.question.pair
     model = "reduced model, exact" if curve.area_fraction is None else "full model"
     boundary = curve.settings.get("boundary")
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
-    many = pressed.asked.size > _MOST_SHOWN
-    answered = pair is not None and pressed.asked.size <= _MOST_ANSWERED
+    many = assessment.asked.size > _MOST_SHOWN
+    answered = pair is not None and assessment.asked.size <= _MOST_ANSWERED
     if many:
-        console.print(_in_one_line(pressed), highlight=False, soft_wrap=True)
+        console.print(_in_one_line(assessment), highlight=False, soft_wrap=True)
     elif answered:
-        _print_table(console, *answer_table(pressed, slice(None)))  # formulas are for the report
+        _print_table(console, *answer_table(assessment, slice(None)))  # formulas are for the report
     else:
-        _print_table(console, *curve_table(pressed))
-    if star_is_shown(pressed) and not many:
+        _print_table(console, *curve_table(assessment))
+    if star_is_shown(assessment) and not many:
         console.print(f"* {UNRESOLVED}", highlight=False)
     if pair is not None and not answered:
         console.print(f"answers at more than {_MOST_ANSWERED} loads are for --json and --report")
-    for failure in _failures(pressed) if not many else ():
+    for failure in _failures(assessment) if not many else ():
         console.print(failure, highlight=False)
-    for theory in pressed.theories:
-        console.print(_theory_line(theory, pressed), highlight=False, soft_wrap=True)
-    for note in pressed.notes:
+    for theory in assessment.theories:
+        console.print(_theory_line(theory, assessment), highlight=False, soft_wrap=True)
+    for note in assessment.remarks:
         console.print(f"note: {note}", highlight=False, soft_wrap=not console.is_terminal)
-    print_files(pressed.files)
+    print_files(files)
 
 
-def _in_one_line(pressed: Pressed) -> str:
+def _in_one_line(assessment: Assessment) -> str:
     """Both ends of a curve that is too long for a screen."""
-    curve, solved = pressed.curve, pressed.curve.converged
+    curve, solved = assessment.curve, assessment.curve.converged
     text = f"{solved.size} loads"
     if solved.any():
         ends = (
@@ -154,10 +78,10 @@ def _in_one_line(pressed: Pressed) -> str:
     return f"{text}; each of them: --out DIR or --json"
 
 
-def _failures(pressed: Pressed) -> list[str]:
+def _failures(assessment: Assessment) -> list[str]:
     """Say which loads were not solved, and why."""
-    curve = pressed.curve
-    asked = dict(zip(pressed.asked.tolist(), pressed.headings, strict=True))
+    curve = assessment.curve
+    asked = dict(zip(assessment.asked.tolist(), assessment.headings, strict=True))
     told = (
         f"load {asked.get(int(i), 'of the curve')}: {Status(curve.status[i]).reason}"
         for i in np.flatnonzero(~curve.converged)
@@ -165,76 +89,55 @@ def _failures(pressed: Pressed) -> list[str]:
     return list(dict.fromkeys(told))  # loads of the curve alone share a line
 
 
-def _theory_line(theory: TheoryCurve, pressed: Pressed) -> str:
+def _theory_line(theory: TheoryCurve, assessment: Assessment) -> str:
     """A theory at the largest load."""
     text = f"{theory.name} at the largest load: area {theory.area_fraction[-1]:.3%}"
     if theory.stiffness is not None:
-        stiffness = theory.stiffness[-1] * pressed.area
+        stiffness = theory.stiffness[-1] * assessment.area
         text += f", interface stiffness {engineering(stiffness, 'N/m')}"
     return f"{text} ({theory.validity})"
 
 
-def print_described(described: Described) -> None:
+def print_description(description: Description, files: Iterable[Path] = ()) -> None:
     """Print what a topography is like."""
     console = Console()
     table = Table(box=None, show_header=False)
-    for row in described_table(described):
+    for row in description_table(description):
         table.add_row(*row)
     console.print(table, highlight=False)
-    for line in missing_map(described):
+    for line in missing_map(description):
         console.print(line, highlight=False, soft_wrap=True)
-    for obstacle in described.obstacles:
+    for obstacle in description.obstacles:
         console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
-    remarks = described.roughness.remarks if described.roughness else []
-    for note in (*described.notes, *remarks):
+    remarks = description.roughness.remarks if description.roughness else []
+    for note in (*description.notes, *remarks):
         console.print(f"note: {note}", highlight=False, soft_wrap=True)
-    print_files(described.files)
+    print_files(files)
 
 
-def print_compared(compared: Compared) -> None:
+def print_comparison(compared: ModelComparison, files: Iterable[Path] = ()) -> None:
     """Print both curves, their difference, and where the reduced model may be trusted."""
     console = Console()
     console.print(compared.what, highlight=False, soft_wrap=True)
-    console.print(_table(*compared_table(compared)))
+    console.print(table(*comparison_table(compared)))
     if not compared.comparison.resolved.all():
         console.print("* fewer than ten cells in contact: the grid decides, not the surface")
-    console.print(verdict(compared), highlight=False, soft_wrap=True)
+    console.print(verdict_in_words(compared), highlight=False, soft_wrap=True)
     for warning in compared.comparison.warnings:
         console.print(f"note: {warning}", highlight=False, soft_wrap=True)
-    print_files(compared.files)
-
-
-def print_summary(summary: Summary, store: Path) -> None:
-    """Print what a campaign did, equal reasons of failures together."""
-    console = Console()
-    done, failed = sum(summary.done.values()), sum(summary.failed.values())
-    console.print(f"{done} cases computed, {failed} failed; results in {store}", soft_wrap=True)
-    if summary.unconverged:
-        console.print(f"{summary.unconverged} loads did not converge: they are NaN")
-    for reason, count in summary.reasons.most_common():
-        console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)
-
-
-def print_status(store: Store) -> None:
-    """Print what is done of a campaign, and why cases failed."""
-    console = Console()
-    rows = [[name, *map(str, store.counts(name))] for name in store.names]
-    console.print(_table(["ensemble", "done", "failed", "in all"], rows))
-    reasons = Counter(why for name in store.names for why in store.failures(name).values())
-    for reason, count in reasons.most_common():
-        console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)
+    print_files(files)
 
 
 def _print_table(console: Console, header: list[str], rows: list[list[str]]) -> None:
     """Print a table of names and values; where it is too wide, intervals stand below values."""
     if _width(header, rows) > console.width:
         rows = [[_stacked(cell) for cell in row] for row in rows]
-    table = _table(header, rows)
-    table.columns[0].justify = "left"
+    shown = table(header, rows)
+    shown.columns[0].justify = "left"
     if _width(header, [["", *row[1:]] for row in rows]) + _SHORTEST_NAME <= console.width:
-        for column in table.columns[1:]:
+        for column in shown.columns[1:]:
             column.no_wrap = True  # the names are broken in lines instead
-    console.print(table)
+    console.print(shown)
 
 
 def _stacked(cell: str) -> str:
@@ -251,13 +154,14 @@ def _width(header: list[str], rows: list[list[str]]) -> int:
     )
 
 
-def _table(header: list[str], rows: list[list[str]]) -> Table:
-    table = Table(box=None, header_style="bold", pad_edge=False, padding=(0, 2, 0, 0))
+def table(header: list[str], rows: list[list[str]]) -> Table:
+    """A table of texts without lines, numbers to the right."""
+    made = Table(box=None, header_style="bold", pad_edge=False, padding=(0, 2, 0, 0))
     for name in header:
-        table.add_column(name, justify="right", overflow="fold")
+        made.add_column(name, justify="right", overflow="fold")
     for row in rows:
-        table.add_row(*row)
-    return table
+        made.add_row(*row)
+    return made
 
 
 def print_files(files: Iterable[Path]) -> None:

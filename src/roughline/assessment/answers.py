@@ -1,0 +1,87 @@
+"""What follows from an assessed curve for two materials, and which assumptions do not hold."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.larger_surface import stiffness_of_the_piece
+from roughline.engineering.answer import Answer
+from roughline.engineering.answers import answers
+from roughline.engineering.formulas import plasticity_index
+from roughline.engineering.limits import elastic_warnings
+from roughline.spectra.moments import Moments, moments
+from roughline.spectra.roughness import ALIKE, isotropy
+from roughline.topography.body import Body, Surface
+
+
+def has_spectrum(body: Body) -> bool:
+    """Whether it is a surface with enough points and some roughness."""
+    return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
+
+
+def surface_moments(body: Body) -> Moments | None:
+    """Moments of a surface's spectrum; None for a line, and where there is no spectrum."""
+    return moments(body) if isinstance(body, Surface) and has_spectrum(body) else None
+
+
+def with_answers(
+    result: Assessment, of_larger_surface: Answer | None, spectrum: Moments | None
+) -> Assessment:
+    """Return the assessment with its answers for the loads that were asked for.
+
+    Parameters
+    ----------
+    result : Assessment
+        With its curve.
+    of_larger_surface : Answer or None
+        Interface stiffness of the larger surface behind the body, over the loads of the curve.
+    spectrum : Moments or None
+        Of the body.
+    """
+    pair = result.question.pair
+    if pair is None:
+        return result
+    given = answers(
+        result.curve_as_asked,
+        result.area,
+        pair,
+        interface_stiffness=_interface_stiffness(result, of_larger_surface),
+        amplitudes=(result.body.rms_height, spectrum.rms_slope if spectrum else None),
+        frequency=result.question.frequency_in_hertz,
+        stiffness_interval=result.stiffness_interval_as_asked,
+        area_interval=result.area_interval_as_asked,
+    )
+    return replace(result, answers={each.key: each for each in given})
+
+
+def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
+    """Say where the elastic assumption breaks, and of what the answers are not."""
+    question, body, pair = result.question, result.body, result.question.pair
+    broken = []
+    if pair is not None:
+        index = None
+        if spectrum is not None and pair.hardness is not None:
+            summits = spectrum.summit_deviation, spectrum.summit_radius
+            index = plasticity_index(result.curve.E_star, pair.hardness, summits)
+        broken += elastic_warnings(result.answers, index)
+    if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
+        broken.append(
+            f"theories assume equal directions; slopes differ, least {alike:.2f} of the largest"
+        )
+    if "interface_stiffness" in result.answers:
+        validity = result.answers["interface_stiffness"].validity
+        broken.append(f"the interface stiffness k_i is {validity}")
+    return broken
+
+
+def _interface_stiffness(result: Assessment, of_larger_surface: Answer | None) -> Answer | None:
+    """Stiffness of the interface alone; None where the contact stiffness is that already."""
+    ends = result.stiffness_interval_as_asked
+    if of_larger_surface is not None:
+        answer = of_larger_surface.at(result.asked)
+        # what one piece leaves open is narrower than what is unknown without the grid's error
+        return replace(answer, low=None, high=None) if ends is None else answer
+    if result.question.periodic:
+        return None
+    return stiffness_of_the_piece(result.body, result.curve_as_asked, ends)

@@ -1,0 +1,150 @@
+"""What pressing a body gave: its curve with intervals, and what follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from roughline._version import __version__
+from roughline.assessment.loads import nominal_area
+from roughline.assessment.question import Question
+from roughline.assessment.source import Topography
+from roughline.computing.arrays import Indices, Real
+from roughline.contact.curve import Curve, Fields
+from roughline.engineering.answer import Answer, Ends
+from roughline.spectra.roughness import Roughness, roughness
+from roughline.theories.theory import TheoryCurve
+from roughline.topography.body import Body, Surface
+
+
+@dataclass(frozen=True, eq=False)
+class PartialSlip:
+    """Tangential loading at the largest normal load, from no load to full sliding.
+
+    Attributes
+    ----------
+    friction : float
+        Coefficient of friction. [1]
+    displacement, force : ndarray
+        Slip displacement [m] and tangential force [N].
+    """
+
+    friction: float
+    displacement: Real
+    force: Real
+
+
+@dataclass(frozen=True, eq=False)
+class Assessment:
+    """What pressing a body gave, and what follows from it.
+
+    Attributes
+    ----------
+    question : Question
+        What was asked.
+    topographies : sequence of Topography
+        Of the first body and, if that is rough, of the second, prepared. [m]
+    body : Surface or Line
+        What was pressed: the sum of two surfaces, or the first body. [m]
+    curve : Curve
+        Its curve; a load that did not converge is marked. One load has its fields, if they were
+        asked for.
+    asked : ndarray of int
+        Which loads of the curve were asked for, in the order in which they were.
+    stiffness_interval, area_interval : tuple of ndarray, shape (loads,), or None
+        Both ends, over the loads of the curve: what the grid and filled points, or a single line
+        scan, leave open of the stiffness [N / m] and of the corrected area fraction [1]. None where
+        the grid's error is not known.
+    interrupted : bool
+        Whether Ctrl-C came before the last load was solved, or its errors estimated.
+    answers : mapping of str to Answer
+        By their keys, such as "contact_stiffness", for the two materials, over the loads that were
+        asked for; empty without materials.
+    theories : sequence of TheoryCurve
+        At the mean pressures of the loads that were solved.
+    partial_slip : PartialSlip or None
+        At the largest load, if a coefficient of friction was given and that load was solved.
+    warnings : sequence of str
+        Where an assumption breaks, what is suspicious, and why there are no intervals.
+    notes : sequence of str
+        What is left out, what was filled, and how the loads were meant.
+    """
+
+    question: Question
+    topographies: Sequence[Topography]
+    body: Body
+    curve: Curve
+    asked: Indices
+    stiffness_interval: Ends | None = None
+    area_interval: Ends | None = None
+    interrupted: bool = False
+    answers: Mapping[str, Answer] = field(default_factory=dict)
+    theories: Sequence[TheoryCurve] = ()
+    partial_slip: PartialSlip | None = None
+    warnings: Sequence[str] = ()
+    notes: Sequence[str] = ()
+
+    @property
+    def area(self) -> float:
+        """Nominal area; of a line scan, the square of its length. [m²]"""
+        return nominal_area(self.body)
+
+    @cached_property
+    def roughness(self) -> Roughness | None:
+        """Roughness parameters of the body; None for a reduced line, which is no topography."""
+        if isinstance(self.body, Surface) or self.body.kind == "profile":
+            return roughness(self.body)
+        return None
+
+    @property
+    def remarks(self) -> list[str]:
+        """Warnings and notes, gravest first."""
+        return [*self.warnings, *self.notes]
+
+    @property
+    def headings(self) -> list[str]:
+        """What each load that was asked for is called: as it was typed, or its number."""
+        return self.question.headings or [str(i + 1) for i in self.asked]
+
+    @property
+    def fields(self) -> Fields | None:
+        """Fields of one load; None if they were not asked for, or the load was not solved."""
+        return next((each for each in self.curve.fields if each is not None), None)
+
+    @property
+    def curve_as_asked(self) -> Curve:
+        """The curve at the loads that were asked for, in their order, without fields."""
+        taken = {
+            item.name: getattr(self.curve, item.name)[self.asked]
+            for item in fields(Curve)
+            if isinstance(getattr(self.curve, item.name), np.ndarray)
+        }
+        return replace(self.curve, **taken, fields=())
+
+    @property
+    def stiffness_interval_as_asked(self) -> Ends | None:
+        """Both ends of the stiffness at the loads that were asked for. [N / m]"""
+        return ends_at(self.stiffness_interval, self.asked)
+
+    @property
+    def area_interval_as_asked(self) -> Ends | None:
+        """Both ends of the corrected area fraction at the loads that were asked for. [1]"""
+        return ends_at(self.area_interval, self.asked)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Everything that the numbers depend on, by name."""
+        return {
+            "roughline_version": __version__,
+            "E_star": self.curve.E_star,
+            **self.curve.settings,
+        }
+
+
+def ends_at(ends: Ends | None, loads: Indices) -> Ends | None:
+    """Both ends of an interval at some of the loads, by their numbers."""
+    return None if ends is None else (ends[0][loads], ends[1][loads])

@@ -1,0 +1,126 @@
+"""Both models of one roughness, a spectrum or a surface in a file, and what the map says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from roughline.assessment.question import Reading
+from roughline.assessment.source import measured_body
+from roughline.comparison.models import Comparison, compare
+from roughline.comparison.trust import Difference, trust_map
+from roughline.errors import InputError
+from roughline.files.read import measurement
+from roughline.spectra.roughness import ALIKE, isotropy
+from roughline.spectra.self_affine import SelfAffine
+from roughline.statistics.verdict import Verdict
+from roughline.topography.body import Line, Surface
+from roughline.topography.preparation import prepared
+
+
+@dataclass(frozen=True)
+class ModelComparison:
+    """What a comparison gave.
+
+    Attributes
+    ----------
+    what : str
+        What was compared.
+    comparison : Comparison
+        Curves and differences.
+    tolerance : float
+        Relative difference up to which the two models count as agreeing.
+    from_map : list of Difference or None
+        What the map says for each load; None for loads outside it, and for surfaces.
+    """
+
+    what: str
+    comparison: Comparison
+    tolerance: float
+    from_map: list[Difference | None]
+
+    @property
+    def verdicts(self) -> list[Verdict]:
+        """Whether the models agree within the tolerance, load by load."""
+        return [each.verdict(self.tolerance) for each in self.comparison.differences()]
+
+
+def compare_models(
+    roughness: SelfAffine | Path,
+    *,
+    reading: Reading | None = None,
+    n: int = 256,
+    surfaces: int = 20,
+    force_bars: list[float] | None = None,
+    tolerance: float = 0.1,
+    seed: int = 0,
+    progress: Callable[[int, int], None] | None = None,
+) -> ModelComparison:
+    """Compare the two models for a spectrum or for the surface in a file.
+
+    Parameters
+    ----------
+    roughness : SelfAffine or Path
+        The spectrum, or a file with a surface.
+    reading : Reading, optional
+        How the file is read.
+    n, surfaces, force_bars
+        As for :func:`roughline.compare`.
+    tolerance : float
+        Relative difference up to which the two models count as agreeing.
+    seed : int
+        Root of all seeds.
+    progress : callable or None
+        Called with (surfaces done, surfaces in all).
+
+    Raises
+    ------
+    InputError
+        If the tolerance is none, or the file holds a line.
+    """
+    if not 0 < tolerance < 1:
+        raise InputError(f"tolerance is {tolerance}; a share between 0 and 1 is needed")
+    if isinstance(roughness, SelfAffine):
+        body: SelfAffine | Surface = roughness
+        what = (
+            f"{surfaces} surfaces of {n} x {n} points, D_f = {roughness.fractal_dimension:g}, "
+            f"q_roll / q_0 = {roughness.q_roll / roughness.q_low:.3g}"
+        )
+    else:
+        body = _surface(roughness, reading or Reading())
+        what = _what_is_in(roughness, body)
+    result = compare(
+        body, n=n, surfaces=surfaces, force_bars=force_bars, rng=seed, progress=progress
+    )
+    from_map = [_on_map(body, force_bar) for force_bar in result.force_bar]
+    return ModelComparison(what, result, tolerance, from_map)
+
+
+def _surface(file: Path, reading: Reading) -> Surface:
+    """The surface in a file."""
+    content = measurement(file, reading.channel)
+    body = prepared(measured_body(content, reading, None))
+    if isinstance(body, Line):
+        raise InputError(f"{file} holds a line; the models are compared on a surface")
+    return body
+
+
+def _what_is_in(file: Path, surface: Surface) -> str:
+    """Say what is compared, and whether a spectrum without directions stands for it."""
+    what = f"{file}, {surface.shape[0]} x {surface.shape[1]} points, and lines of its spectrum"
+    if (alike := isotropy(surface)) < ALIKE:
+        what += (
+            f"; its slopes differ by direction, least {alike:.2f} of the largest: a spectrum "
+            "averaged over directions stands for no such surface"
+        )
+    return what
+
+
+def _on_map(body: SelfAffine | Surface, force_bar: float) -> Difference | None:
+    if isinstance(body, Surface):
+        return None
+    try:
+        return trust_map().at(body.fractal_dimension, force_bar, body.q_roll / body.q_low)
+    except InputError:  # outside the map, which is no fault of the comparison
+        return None

@@ -1,0 +1,89 @@
+"""A topography file, described: what it holds, its roughness, and what is still needed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from roughline.assessment.notes import filled_points_and_spikes
+from roughline.assessment.question import Reading
+from roughline.assessment.source import measured_body
+from roughline.errors import InputError
+from roughline.files.measurement import Measurement
+from roughline.files.read import measurement, suspicions
+from roughline.spectra.roughness import Roughness, roughness
+from roughline.topography.body import Body
+from roughline.topography.missing import Missing, MissingPattern, missing_pattern
+from roughline.topography.preparation import Preparation, prepared
+
+
+@dataclass(frozen=True, eq=False)
+class Description:
+    """What is known of a file.
+
+    Attributes
+    ----------
+    file : Path
+        The file.
+    unit : str or None
+        Unit of its lengths, if the caller gave one.
+    measurement : Measurement
+        What the file holds.
+    missing : MissingPattern
+        Where points are missing in the file.
+    obstacles : sequence of str
+        Why it cannot be pressed as it is; empty if it can.
+    body : Surface or Line or None
+        Prepared, in metres; None if there is too little in the file.
+    roughness : Roughness or None
+        Its parameters; None without a body, and for a reduced line, which is no topography.
+    notes : sequence of str
+        What was filled, what is suspicious.
+    """
+
+    file: Path
+    unit: str | None
+    measurement: Measurement
+    missing: MissingPattern
+    obstacles: Sequence[str]
+    body: Body | None = None
+    roughness: Roughness | None = None
+    notes: Sequence[str] = ()
+
+
+def describe(
+    file: Path, reading: Reading | None = None, preparation: Preparation | None = None
+) -> Description:
+    """Read a file, prepare what it holds, and describe it.
+
+    A file that lacks a unit, sizes or too many points is described as far as it goes.
+
+    Parameters
+    ----------
+    file : Path
+        The topography.
+    reading : Reading, optional
+        How it is read.
+    preparation : Preparation, optional
+        Default: only the tilt of measured topographies is removed.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or what is asked for does not suit it.
+    """
+    reading = reading or Reading()
+    content = measurement(file, reading.channel)
+    missing = missing_pattern(content.unknown, content.sizes)
+    filling = Missing(reading.missing, reading.most_missing)
+    obstacles = [str(each) for each in content.obstacles(reading.unit, reading.sizes, filling)]
+    if obstacles:
+        return Description(file, reading.unit, content, missing, obstacles)
+    body = prepared(measured_body(content, reading, preparation), preparation)
+    notes, parameters = suspicions(body) + filled_points_and_spikes(body), None
+    try:
+        parameters = roughness(body)
+    except InputError as error:  # a reduced line is no topography
+        notes.append(str(error))
+    return Description(file, reading.unit, content, missing, obstacles, body, parameters, notes)

@@ -1,0 +1,31 @@
+"""Whether the grid's error is estimated, and what is said where it is not."""
+
+from __future__ import annotations
+
+from roughline.assessment.loads import LoadCase
+from roughline.assessment.question import Question
+from roughline.topography.body import Body, Line, Surface
+
+_COARSENED_FROM = 64  # points a side from which on the grid's error is estimated unasked
+_CHEAP = 2**24  # points times loads up to which that takes a few seconds
+
+
+def grid_error_is_estimated(question: Question, body: Body, case: LoadCase) -> bool:
+    """Whether the grid's error is estimated: as the question says, or else where that is cheap."""
+    if question.grid_error is not None or isinstance(body, Line):
+        return bool(question.grid_error)
+    cheap = question.whole_curve or body.heights.size * case.count <= _CHEAP
+    return cheap and min(body.shape) >= _COARSENED_FROM
+
+
+def why_without_grid_error(question: Question, body: Surface, tried: bool) -> str:
+    """Say that values come without an interval, and why; it was `tried` if Ctrl-C came before."""
+    if tried:
+        why = "interrupted before"
+    elif question.grid_error is not None:
+        why = "not wanted"
+    elif min(body.shape) < _COARSENED_FROM:
+        why = f"fewer than {_COARSENED_FROM} points a side; grid_error=True does it still"
+    else:
+        why = "it takes a third longer; grid_error=True does it"
+    return f"grid error not estimated, so values come without intervals ({why})"

@@ -1,0 +1,126 @@
+"""Loads of a question on a body, and what pressing under them is repeated with."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughline.assessment.question import DEFAULT_LOADS, Question
+from roughline.computing.arrays import Indices
+from roughline.contact.curve import Curve
+from roughline.contact.press import press
+from roughline.errors import Interrupted
+from roughline.topography.body import Body, Line, Surface
+
+LoadProgress = Callable[[int, int], None]
+"""Called with (loads done, loads in all)."""
+
+_LIGHTEST = 1e-3  # of the largest load, where a whole curve begins
+_CURVE_LOADS = 16  # of a whole curve
+
+
+@dataclass(frozen=True)
+class LoadCase:
+    """Loads and settings under which a body is pressed, and pressed again when it is changed.
+
+    Attributes
+    ----------
+    E_star : float
+        Contact modulus. [Pa]
+    forces, depths : list of float
+        Rising; one of them, or both, are empty. [N], [m]
+    n_loads : int or None
+        Number of spaced forces instead.
+    periodic, grid_error
+        As for :func:`roughline.press`.
+    levelled : bool
+        Whether the tilt is removed first, which a periodic half-space cannot have.
+    """
+
+    E_star: float
+    forces: list[float]
+    depths: list[float]
+    n_loads: int | None
+    periodic: bool
+    grid_error: bool = False
+    levelled: bool = False
+
+    @classmethod
+    def of(cls, question: Question, body: Body) -> LoadCase:
+        """The loads of a question on a body, spaced ones of a line scan included."""
+        asked = question.forces(nominal_area(body))
+        forces = sorted({*asked})
+        if question.whole_curve and asked:
+            forces = _with_curve(asked)
+        n_loads = question.n_loads
+        if isinstance(body, Line) and body.kind == "profile" and not forces:
+            forces = _forces_of_a_scan(body, question.modulus, n_loads or DEFAULT_LOADS)
+            n_loads = None
+        depths = sorted({*question.heights()})
+        return cls(question.modulus, forces, depths, n_loads, question.periodic)
+
+    @property
+    def count(self) -> int:
+        """Number of loads."""
+        return len(self.forces) or len(self.depths) or self.n_loads or 0
+
+    def under_forces_of(self, curve: Curve) -> LoadCase:
+        """The same under the forces of a curve that were solved."""
+        forces = curve.force[curve.converged].tolist()
+        return replace(self, forces=forces, depths=[], n_loads=None)
+
+    def press(
+        self, body: Body, fields: list[int], progress: LoadProgress | None
+    ) -> tuple[Curve, bool]:
+        """Press a body; loads that fail are marked. Says whether Ctrl-C came as well."""
+        if self.levelled:
+            body = body.detrended()
+        try:
+            curve = press(
+                body,
+                E_star=self.E_star,
+                n_loads=self.n_loads,
+                forces=self.forces or None,
+                depths=self.depths or None,
+                periodic=self.periodic,
+                fields=fields if isinstance(body, Surface) else False,
+                grid_error=self.grid_error,
+                throw=False,
+                progress=progress,
+            )
+        except Interrupted as stop:
+            return stop.curve, True
+        return curve, False
+
+
+def nominal_area(body: Body) -> float:
+    """Nominal area of a body; of a line, the square of its length. [m²]"""
+    return body.area if isinstance(body, Surface) else body.length**2
+
+
+def asked_loads(question: Question, body: Body, case: LoadCase, count: int) -> Indices:
+    """Which loads of the curve were asked for, in the order asked; all if none was named."""
+    asked = question.forces(nominal_area(body)) or question.heights()
+    levels = case.forces or case.depths
+    return np.array([levels.index(load) for load in asked]) if asked else np.arange(count)
+
+
+def load_with_fields(question: Question, body: Body, case: LoadCase) -> int:
+    """The load whose fields are kept: the largest asked for, or one at three quarters of them."""
+    asked = question.forces(nominal_area(body))
+    return case.forces.index(max(asked)) if asked else 3 * case.count // 4
+
+
+def _with_curve(asked: list[float]) -> list[float]:
+    """Loads for a whole curve up to the largest, those asked for among them, rising."""
+    curve = np.geomspace(_LIGHTEST * max(asked), max(asked), _CURVE_LOADS)
+    apart = [f for f in curve if not np.isclose(f, asked, rtol=0.02).any()]
+    return sorted({*asked, *apart})
+
+
+def _forces_of_a_scan(line: Line, E_star: float, count: int) -> list[float]:
+    """Forces for a line scan, from light contact to nearly saturated. [N]"""
+    scale = E_star * line.rms_height * line.length
+    return (scale * np.geomspace(1e-3, 3, count)).tolist()

@@ -1,0 +1,107 @@
+"""Solving the load case of a question: the body, filled otherwise, and made periodic."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from roughline.assessment.larger_surface import stiffness_of_the_larger_surface
+from roughline.assessment.loads import LoadCase, LoadProgress
+from roughline.assessment.source import Topography, pressed_body
+from roughline.assessment.uncertainty import Solution, change
+from roughline.engineering.answer import Answer
+from roughline.topography.body import Body, Surface
+from roughline.topography.missing import Missing
+
+_SMALL = 0.001  # changes below this are not told from none [%]
+
+
+def solved(
+    case: LoadCase, body: Body, fields: list[int], progress: LoadProgress | None
+) -> Solution:
+    """Press a body; what its grid leaves open is known if the case asks for it."""
+    return Solution.of(*case.press(body, fields, progress))
+
+
+def with_other_filling(
+    solution: Solution,
+    case: LoadCase,
+    body: Surface,
+    topographies: Sequence[Topography],
+    progress: LoadProgress | None,
+) -> Solution:
+    """Press the body with its missing points filled otherwise; the change adds to the errors."""
+    curve = solution.curve
+    method = Missing(topographies[0].reading.missing).other
+    other = pressed_body([each.filled_by(method) for each in topographies])
+    assert isinstance(other, Surface)
+    if np.array_equal(other.heights, body.heights):
+        return replace(solution, note=_why_filling_changes_nothing(topographies))
+    again = replace(case, grid_error=False)
+    if case.n_loads is not None and curve.converged.all():
+        again = again.under_forces_of(curve)  # not spaced anew
+    moved, interrupted = again.press(other, [], progress)
+    stiffness, share = change(curve.stiffness, moved.stiffness)
+    area, area_share = change(curve.area_fraction_corrected, moved.area_fraction_corrected)
+    note = (
+        f"filled by {method} instead: stiffness moves by {_at_most(share)}, "
+        f"area by {_at_most(area_share)}"
+    )
+    return Solution.of(curve, interrupted, stiffness, area, note)
+
+
+def interface_of_the_larger_surface(
+    solution: Solution,
+    case: LoadCase,
+    body: Surface,
+    filled: Sequence[Topography],
+    progress: LoadProgress | None,
+) -> tuple[Answer, bool]:
+    """Stiffness of the interface of the larger surface that a body was cut out of.
+
+    The body is pressed again, into a periodic half-space, unless that was asked for to begin with.
+    The second result says whether Ctrl-C came.
+
+    Parameters
+    ----------
+    solution : Solution
+        The curve as asked for.
+    case : LoadCase
+        How it was made.
+    body : Surface
+        What was pressed.
+    filled : sequence of Topography
+        To fill missing points otherwise; empty if none were missing.
+    progress : callable, optional
+        As for :func:`roughline.press`.
+    """
+    curve, converged = solution.curve, solution.curve.converged
+    periodic = solution
+    if not case.periodic and (solution.interrupted or not converged.any()):
+        unknown = replace(curve, stiffness=np.full(converged.size, np.nan))
+        periodic = replace(solution, curve=unknown)
+    elif not case.periodic:
+        case = replace(case.under_forces_of(curve), periodic=True, levelled=True)
+        periodic = solved(case, body, [], progress)
+        if filled and not periodic.interrupted:
+            periodic = with_other_filling(periodic, case, body, filled, progress)
+    answer = stiffness_of_the_larger_surface(body, periodic.curve, periodic.stiffness_interval)
+    if answer.values.size < converged.size:  # loads that failed before have no force
+        rows = np.full((3, converged.size), np.nan)
+        rows[:, converged] = answer.values, answer.low, answer.high
+        answer = replace(answer, values=rows[0], low=rows[1], high=rows[2])
+    return answer, solution.interrupted or periodic.interrupted
+
+
+def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:
+    """Say why the other filling gives the same body."""
+    if all(each.measurement is not None for each in topographies if each.is_filled):
+        return "no filled point is left in what is pressed"
+    before = "before the file was written" if topographies[0].file else "before"
+    return f"the points were filled {before}: what that changes is not known"
+
+
+def _at_most(per_cent: float) -> str:
+    return f"up to {per_cent:.2g}%" if per_cent >= _SMALL else f"less than {_SMALL}%"

@@ -1,0 +1,27 @@
+"""The flags of the command line in messages that speak of arguments."""
+
+from __future__ import annotations
+
+import re
+
+_FLAGS = {
+    "E_star": "--modulus",
+    "materials": "--materials",
+    "loads": "--load",
+    "depths": "--depth",
+    "n_loads": "--loads",
+    "grid_error": "--grid-error",
+    "unit": "--unit",
+    "channel": "--channel",
+    "sizes": "--size",
+    "missing": "--fill",
+    "most_missing": "--max-missing",
+    "trend": "--trend",
+    "crop": "--crop",
+}
+_ARGUMENT = re.compile(rf"\b({'|'.join(_FLAGS)})=(?:True|\.\.\.)?")
+
+
+def in_flags(message: str) -> str:
+    """Return a message with flags in the places of arguments, which end in an equals sign."""
+    return _ARGUMENT.sub(lambda match: _FLAGS[match[1]], message)

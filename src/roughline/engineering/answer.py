@@ -1,0 +1,77 @@
+"""One answer: a quantity over the loads, with its interval, formula, validity and source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Real
+from roughline.engineering.declared import DECLARED
+
+Ends = tuple[Real, Real]
+"""Both ends of an interval, each of shape (loads,)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """One quantity over the loads.
+
+    Attributes
+    ----------
+    key : str
+        By which it is found, such as "contact_stiffness".
+    name, symbol, unit : str
+        What it is called in tables and formulas; the unit is SI.
+    values : ndarray, shape (loads,)
+        NaN where a load was not solved. [unit]
+    low, high : ndarray, shape (loads,), or None
+        Ends of the interval that is known; what else is uncertain is not in it. [unit]
+    formula : str
+        How it follows.
+    validity : str
+        Where it holds.
+    source : str
+        Where it is from.
+    """
+
+    key: str
+    name: str
+    symbol: str
+    unit: str
+    values: Real
+    low: Real | None
+    high: Real | None
+    formula: str
+    validity: str = ""
+    source: str = ""
+
+    @property
+    def rows(self) -> Real:
+        """Values, and both ends where they are known, (1 or 3, loads). [unit]"""
+        ends = () if self.low is None or self.high is None else (self.low, self.high)
+        return np.stack([self.values, *ends])
+
+    def at(self, loads: Indices) -> Answer:
+        """The same at some of the loads, by their numbers."""
+        values, *ends = self.rows[:, loads]
+        low, high = ends or (None, None)
+        return replace(self, values=values, low=low, high=high)
+
+
+def answer(key: str, rows: Real, **differing: str) -> Answer:
+    """Make an answer of those that are declared.
+
+    Parameters
+    ----------
+    key : str
+        Of the declaration.
+    rows : ndarray, shape (loads,), (1, loads) or (3, loads)
+        Values, or values and both ends of their interval in either order. [unit]
+    **differing : str
+        What is said otherwise than in the declaration: name, formula or validity.
+    """
+    values, *ends = np.atleast_2d(rows)
+    low, high = (np.minimum(*ends), np.maximum(*ends)) if ends else (None, None)
+    declared = vars(DECLARED[key]) | differing
+    return Answer(key=key, values=values, low=low, high=high, **declared)

@@ -1,0 +1,138 @@
+"""The answers that there are: how each is called, its unit, formula, validity and source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roughline.engineering.formulas import ELASTIC_UP_TO
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """One answer, before its values are known.
+
+    Attributes
+    ----------
+    name, symbol, unit : str
+        What it is called in tables and formulas; the unit is SI.
+    formula : str
+        How it follows.
+    validity : str
+        Where it holds.
+    source : str
+        Where it is from.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    formula: str
+    validity: str = ""
+    source: str = ""
+
+
+DECLARED = {
+    "normal_force": Declaration("normal force", "F", "N", "given, or F(d)"),
+    "mean_pressure": Declaration("mean pressure", "p", "Pa", "F / A_0, A_0 the nominal area"),
+    "depth": Declaration("approach since touch", "d", "m", "of remote points"),
+    "contact_stiffness": Declaration(
+        "contact stiffness",
+        "k",
+        "N/m",
+        "dF/dd at frozen contact, exact",
+        "elastic, without friction or adhesion",
+    ),
+    "stiffness_per_area": Declaration("stiffness per area", "k/A_0", "N/m³", "k / A_0"),
+    "interface_stiffness": Declaration(
+        "interface stiffness", "k_i", "N/m", "1/k_i = 1/k - 1/k_s, k_s of the flat punch"
+    ),
+    "contact_area": Declaration(
+        "real contact area",
+        "A",
+        "m²",
+        "cells in contact, corrected for the outline's steps",
+        "falls with every finer wave; the grid's shortest is the last here",
+        "Yastrebov, Anciaux and Molinari 2017",
+    ),
+    "contact_area_fraction": Declaration("contact area fraction", "A/A_0", "1", "A / A_0"),
+    "contact_pressure": Declaration(
+        "mean contact pressure",
+        "p_c",
+        "Pa",
+        "F / A",
+        "elastic; no body bears more than its hardness",
+    ),
+    "contact_pressure_over_hardness": Declaration(
+        "contact pressure over hardness",
+        "p_c/H",
+        "1",
+        "F / (A H), H of the softer body",
+        f"elastic below {ELASTIC_UP_TO:g}, plastic near 1",
+    ),
+    "constriction_resistance": Declaration(
+        "constriction resistance",
+        "R",
+        "ohm",
+        "E* (rho1 + rho2) / (2 k)",
+        "clean metal; films add to it",
+        "Barber 2003",
+    ),
+    "holm_resistance": Declaration(
+        "Holm's single-spot estimate",
+        "R_Holm",
+        "ohm",
+        "(rho1 + rho2) / (4 a), pi a² = F / H",
+        "for comparison: all of the load on one plastic spot; spots apart resist less, and "
+        "elastic ones, which are smaller, more",
+        "Holm 1967",
+    ),
+    "thermal_conductance": Declaration(
+        "thermal conductance",
+        "G",
+        "W/K",
+        "kappa_s k / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
+        "solid spots alone, in vacuum",
+        "Barber 2003",
+    ),
+    "thermal_conductance_per_area": Declaration(
+        "thermal conductance per area",
+        "h_c",
+        "W/(m² K)",
+        "kappa_s k_i / (E* A_0)",
+        "the same without the bodies' constriction to A_0, as k_i is",
+        "Barber 2003",
+    ),
+    "mikic_conductance": Declaration(
+        "Mikic's elastic estimate",
+        "h_Mikic",
+        "W/(m² K)",
+        "1.55 kappa_s m/sigma (sqrt(2) p/(E* m))^0.94",
+        "Gaussian heights, light loads, no large waves",
+        "Mikic 1974",
+    ),
+    "plastic_conductance": Declaration(
+        "plastic estimate",
+        "h_CMY",
+        "W/(m² K)",
+        "1.25 kappa_s m/sigma (p/H)^0.95",
+        "Gaussian heights, all contact plastic",
+        "Yovanovich 2005",
+    ),
+    "tangential_stiffness": Declaration(
+        "tangential stiffness",
+        "k_t",
+        "N/m",
+        "k G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
+        "before any slip; normal and tangential problems uncoupled",
+        "Popov 2017, ch. 8",
+    ),
+    "reflection": Declaration(
+        "reflection",
+        "|R|",
+        "1",
+        "|z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|, K = k_i / A_0",
+        "longitudinal plane waves much longer than the distances of contact spots",
+        "Tattersall 1973",
+    ),
+}
+"""By key."""

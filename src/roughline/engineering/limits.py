@@ -1,0 +1,69 @@
+"""Where the elastic answers end: summits that yield, and materials that lack a value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from roughline.engineering import formulas
+from roughline.engineering.answer import Answer
+from roughline.engineering.materials import Interface
+from roughline.units import decimal
+
+
+def elastic_warnings(answers: Mapping[str, Answer], plasticity: float | None) -> list[str]:
+    """Say where the elastic assumption breaks.
+
+    Parameters
+    ----------
+    answers : mapping of str to Answer
+        By their keys, of one curve.
+    plasticity : float or None
+        Greenwood and Williamson's index.
+    """
+    warnings = []
+    over_hardness = answers.get("contact_pressure_over_hardness")
+    if over_hardness is not None and np.isfinite(over_hardness.values).any():
+        worst = float(np.nanmax(over_hardness.values))
+        if worst > formulas.ELASTIC_UP_TO:
+            warnings.append(
+                f"the mean contact pressure reaches {decimal(worst, 2)} of the softer body's "
+                f"hardness; beyond {formulas.ELASTIC_UP_TO:g} the summits yield: area and "
+                "conductance are then larger than these elastic ones, towards the plastic estimates"
+            )
+    if plasticity is not None and plasticity > 1:
+        warnings.append(
+            f"the plasticity index is {decimal(plasticity, 2)}, over 1: summits yield at first "
+            "touch; under repeated loads they deform elastically about their flattened shape"
+        )
+    return warnings
+
+
+def left_out(pair: Interface, frequency: float | None) -> list[str]:
+    """Say which answers :func:`answers` leaves out because a material lacks a value.
+
+    Parameters
+    ----------
+    pair : Interface
+        The materials.
+    frequency : float or None
+        Of an ultrasonic wave, if its reflection is wanted. [Hz]
+    """
+    needed = {
+        "hardness": "no contact pressure over hardness, and no estimates with it",
+        "resistivity": "no constriction resistance",
+        "conductivity": "no thermal conductance",
+    }
+    notes = []
+    if frequency is not None and not all(each.carries_sound for each in (pair.first, pair.second)):
+        notes.append("no reflection: a rigid or an incompressible body carries no such wave")
+    elif frequency is not None:
+        needed["density"] = "no reflection"
+    for quantity, answer in needed.items():
+        if lacking := pair.lacking(quantity):
+            notes.append(
+                f"{answer}: the {quantity} of {' and of '.join(lacking)} is not known; give it "
+                f'with the material, as "{quantity}=..."'
+            )
+    return notes

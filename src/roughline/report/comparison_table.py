@@ -1,0 +1,53 @@
+"""The comparison of both models as a table, and its verdict in words."""
+
+from __future__ import annotations
+
+from roughline.assessment.comparison import ModelComparison
+from roughline.statistics.verdict import Verdict
+
+
+def comparison_table(compared: ModelComparison) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows; a star marks loads that the grid decides."""
+    result = compared.comparison
+    within = f"within {compared.tolerance:.0%}"
+    header = ["F / (E* h L)", "k 1D", "k 3D", "3D over 1D, less 1", within]
+    shows_map = any(entry is not None for entry in compared.from_map)
+    rows = []
+    for i, difference in enumerate(result.differences()):
+        sure = "" if difference.resolved else " *"
+        interval = f"{difference.value:+.1%} ({difference.low:+.1%} to {difference.high:+.1%})"
+        row = [
+            f"{result.force_bar[i]:.3g}",
+            f"{result.reduced.mean[i]:.4f}",
+            f"{result.full.mean[i]:.4f}",
+            interval + sure,
+            difference.verdict(compared.tolerance),
+        ]
+        entry = compared.from_map[i]
+        rows.append([*row, str(entry) if entry else "-"] if shows_map else row)
+    return ([*header, "the map says"] if shows_map else header), rows
+
+
+def verdict_in_words(compared: ModelComparison) -> str:
+    """Say in a few sentences where the reduced model may be trusted, and of what this is true."""
+    result, share = compared.comparison, f"{compared.tolerance:.0%}"
+    window = result.trusted(compared.tolerance)
+    verdicts = compared.verdicts
+    undecided = verdicts.count(Verdict.UNDECIDED)
+    text = f"agreement within {share} is confirmed "
+    text += (
+        f"from F / (E* h L) = {window[0]:.3g} to {window[1]:.3g}"
+        if window
+        else "at no load that the grid resolves"
+    )
+    text += (
+        f", refuted at {verdicts.count(Verdict.REFUTED)} and undecided at {undecided} of "
+        f"{len(verdicts)} loads"
+    )
+    if result.surfaces == 1:
+        return (
+            f"{text}. This is about the models for surfaces of this spectrum, of which this is "
+            f"one: single surfaces scatter by {result.scatter.max():.0%} or less, and the interval "
+            "includes it"
+        )
+    return f"{text}; more surfaces decide more" if undecided else text

@@ -1,0 +1,137 @@
+"""The description of a topography as a table, and a coarse map of what is missing."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.assessment.description import Description
+from roughline.spectra.roughness import Roughness
+from roughline.topography.body import Surface
+from roughline.units import engineering, metres_per
+
+_MAPPED_FROM = 0.01  # share of missing points from which on a coarse map shows more than words
+_SHADES = ".+#"
+
+
+def description_table(description: Description) -> list[tuple[str, str]]:
+    """Return names and values of what is known, in SI units where the file states its unit."""
+    rows = _rows_of_file(description)
+    body = description.body
+    if body is not None:
+        letter = "S" if isinstance(body, Surface) else "R"
+        rows += [
+            (f"{letter}q, rms height", engineering(body.rms_height, "m")),
+            (f"{letter}dq, rms slope", f"{body.rms_slope:.4g}"),
+        ]
+        if description.roughness is not None:
+            rows += _rows_of_roughness(description.roughness, letter)
+    return rows
+
+
+def missing_map(description: Description) -> list[str]:
+    """Return a coarse map of the missing points in characters; empty if there are few."""
+    missing = description.missing
+    if missing.share < _MAPPED_FROM:
+        return []
+    rows = np.atleast_2d(missing.cells.T)[::-1]
+    shades = np.where(rows == 0, 0, np.where(rows <= 0.5, 1, 2))
+    return [
+        "missing points, x to the right" + (" and y upwards:" if missing.cells.ndim == 2 else ":"),
+        *("  " + "".join(_SHADES[shade] for shade in row) for row in shades),
+        f"  {_SHADES[0]} none, {_SHADES[1]} up to half, {_SHADES[2]} more than half of a piece",
+    ]
+
+
+def _rows_of_file(description: Description) -> list[tuple[str, str]]:
+    """What the file holds, and of the body its points and sizes."""
+    found, body, missing = description.measurement, description.body, description.missing
+    channel = "own format" if found.is_own else found.channel
+    rows = [("file", ", ".join(filter(None, (description.file.name, channel))))]
+    if len(found.channels) > 1:
+        rows.append(("channels", ", ".join(found.channels)))
+    points = found.heights.shape if body is None else body.heights.shape
+    stated = found.unit or "none stated"
+    if not found.unit and description.unit:
+        stated += f"; {description.unit} is given"
+    rows += [("points", _times(points)), ("unit in the file", stated), *_rows_of_sizes(description)]
+    if points != found.heights.shape:
+        rows.append(("points in the file", _times(found.heights.shape)))
+    where = f", {missing}" if missing.count else ""
+    return [*rows, ("missing points", f"{missing.count} ({missing.share:.2%}){where}")]
+
+
+def _rows_of_sizes(description: Description) -> list[tuple[str, str]]:
+    """Sides and the distance of points: of the body, or else as far as the file says."""
+    found, body = description.measurement, description.body
+    names = ("sizes", "pixel") if found.kind == "surface" else ("length", "spacing")
+    sizes: tuple[float, ...]
+    spacings: tuple[float, ...]
+    if isinstance(body, Surface):
+        sizes, spacings = body.sizes, body.spacing
+    elif body is not None:
+        sizes, spacings = (body.length,), (body.spacing,)
+    elif found.sizes is None:
+        return [(names[0], "none stated")]
+    else:
+        metres = metres_per(found.unit) if found.unit else 1.0
+        sizes = tuple(metres * size for size in found.sizes)
+        spacings = tuple(
+            size / points for size, points in zip(sizes, found.heights.shape, strict=True)
+        )
+    if body is None and not found.unit:
+        return [
+            (name, f"{' x '.join(f'{length:.4g}' for length in lengths)}, unit not stated")
+            for name, lengths in zip(names, (sizes, spacings), strict=True)
+        ]
+    return [
+        (name, " x ".join(engineering(length, "m") for length in lengths))
+        for name, lengths in zip(names, (sizes, spacings), strict=True)
+    ]
+
+
+def _rows_of_roughness(parameters: Roughness, letter: str) -> list[tuple[str, str]]:
+    fit = parameters.fit
+    rows = [
+        (f"{letter}sk, skewness", _number(parameters.skewness)),
+        (f"{letter}ku, kurtosis", _number(parameters.kurtosis)),
+        (
+            "summits",
+            f"{parameters.summits}, skewness of heights {_number(parameters.summit_skewness)}",
+        ),
+    ]
+    if parameters.isotropy is not None:
+        rows.append(
+            ("slope, least over most", f"{_number(parameters.isotropy)} over all directions")
+        )
+    if fit is not None:
+        low, high = fit.rms_interval
+        rows += [
+            ("Sq of such surfaces", f"{engineering(low, 'm')} to {engineering(high, 'm')}"),
+            ("Hurst exponent", f"{fit.hurst:.2f} ({_span(fit.hurst_interval)})"),
+            ("fractal dimension", f"{3 - fit.hurst:.2f}"),
+            ("roll-off wavelength", _wavelength(fit.q_roll, fit.q_roll_interval, "none")),
+            ("cutoff wavelength", _wavelength(fit.q_high, fit.q_high_interval, "the grid's")),
+            (
+                "self-affine",
+                "yes" if not fit.objections else f"no: {'; '.join(fit.objections)}",
+            ),
+        ]
+    return rows
+
+
+def _wavelength(q: float | None, interval: tuple[float, float], otherwise: str) -> str:
+    longest, shortest = (engineering(2 * np.pi / end, "m", 3) if end else "" for end in interval)
+    shown = otherwise if q is None else engineering(2 * np.pi / q, "m", 3)
+    return f"{shown} ({shortest} {f'to {longest}' if longest else 'or longer'})"
+
+
+def _span(interval: tuple[float, float]) -> str:
+    return f"{interval[0]:.2f} to {interval[1]:.2f}"
+
+
+def _times(points: tuple[int, ...]) -> str:
+    return " x ".join(map(str, points))
+
+
+def _number(value: float) -> str:
+    return "-" if np.isnan(value) else f"{value:.3g}"

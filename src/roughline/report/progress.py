@@ -1,0 +1,83 @@
+"""Progress on the terminal, with time left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Protocol
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TaskID,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+from rich.text import Text
+
+
+class _Rate(ProgressColumn):
+    """Steps a second, or a minute where they are slow."""
+
+    def render(self, task: Task) -> Text:
+        """Show the speed of the last while."""
+        speed = task.speed or 0.0
+        shown = f"{speed:.1f}/s" if speed >= 1 else f"{60 * speed:.1f}/min"
+        return Text(shown if speed else "", style="progress.data.speed")
+
+
+@contextmanager
+def campaign_progress() -> Iterator[Callable[[str, int, int, int], None]]:
+    """Show a bar for each ensemble of a campaign; gives the callback."""
+    with _bars() as show:
+
+        def progress(name: str, done: int, failed: int, total: int) -> None:
+            show(f"{name}, {failed} failed" if failed else name, done, total, key=name)
+
+        yield progress
+
+
+@contextmanager
+def load_progress() -> Iterator[Callable[[int, int], None]]:
+    """Show a bar over the loads of one body; gives the callback."""
+    with _bars() as show:
+        yield lambda done, total: show("loads", done, total, key="loads")
+
+
+class _Show(Protocol):
+    def __call__(self, name: str, done: int, total: int, *, key: str) -> None: ...
+
+
+@contextmanager
+def _bars() -> Iterator[_Show]:
+    """Bars by name, on standard error; nothing is drawn before the first is told of."""
+    progress = Progress(
+        TextColumn("{task.description:<22}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        _Rate(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+    )
+    tasks: dict[str, TaskID] = {}
+
+    def show(name: str, done: int, total: int, *, key: str) -> None:
+        if not tasks:
+            progress.start()
+        if key not in tasks:
+            # a bar that starts half full tells its time from what is added
+            tasks[key] = progress.add_task(name, total=total, completed=done)
+        progress.update(tasks[key], completed=done, description=name)
+
+    try:
+        yield show
+    finally:
+        if tasks:
+            progress.stop()

@@ -1,0 +1,44 @@
+"""How values and their intervals are written."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from roughline.units import decimal, prefix
+
+_NARROW = 0.1  # half width of an interval up to which it is written as ±
+_LEAST = 1e-4  # half width below which an interval says nothing
+_INTERVAL = re.compile(r" (?=[(±])")
+
+
+def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> str:
+    """Write a value, and its interval as ± where that is narrow, else by both ends in its unit."""
+    if not np.isfinite(value):
+        return "not solved" if np.isnan(value) else "infinite"
+    factor, sign = _scale(value, unit)
+    shown = f"{decimal(value * factor, 4)}{sign}"
+    if ends is None or np.isnan(ends).any() or not value:
+        return shown
+    low, high = ends
+    half_width = max(value - low, high - value) / value
+    if half_width < _NARROW:
+        return f"{shown} ± {100 * max(half_width, _LEAST):.2g}%"
+    first, last = (decimal(end * factor, 3) if np.isfinite(end) else "infinite" for end in ends)
+    return f"{shown} ({first} to {last})"
+
+
+def _scale(value: float, unit: str) -> tuple[float, str]:
+    """What a value is multiplied with, and what then stands behind it."""
+    if unit == "1":
+        return 1.0, ""
+    if unit == "%":
+        return 100.0, "%"
+    factor, prefixed = prefix(value, unit)
+    return factor, f" {prefixed}"
+
+
+def value_and_interval(cell: str) -> list[str]:
+    """Where a number may be broken in two lines: before its interval."""
+    return _INTERVAL.split(cell, maxsplit=1)
