@@ -1,8 +1,13 @@
 """What several test folders share."""
 
+import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+import roughline as rl
+from roughline import cli
 
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
@@ -13,3 +18,35 @@ def topographies() -> Path:
     if not _TOPOGRAPHIES.is_dir():
         pytest.skip("no measured files beside the repository")
     return _TOPOGRAPHIES
+
+
+@pytest.fixture
+def rough(tmp_path):
+    """A surface of 64 x 64 points of which all are known."""
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+    path = tmp_path / "rough.nc"
+    rl.write(rl.Surface(surface.heights, surface.sizes, "m"), path)
+    return path
+
+
+@pytest.fixture
+def holed(tmp_path):
+    """An array of 64 x 64 points, 3 x 5 of which are missing."""
+    heights = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3).heights.copy()
+    heights[10:13, 20:25] = np.nan
+    np.save(tmp_path / "holed.npy", heights)
+    return tmp_path / "holed.npy", "--unit", "m", "--size", "1 mm"
+
+
+@pytest.fixture
+def invoke(monkeypatch, capsys):
+    """Run the command line in this process; returns exit code, output and errors."""
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["roughline", *map(str, arguments)])
+        with pytest.raises(SystemExit) as caught:
+            cli.main()
+        captured = capsys.readouterr()
+        return caught.value.code, captured.out, captured.err
+
+    return run

@@ -6,40 +6,13 @@ from datetime import date
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 
 import roughline as rl
 from roughline.assessment import grid
 from roughline.assessment import loads as load_cases
-from roughline.report.contact_figures import draw_contact, draw_filled
-from roughline.report.contact_tables import answer_table, quantity, star_is_shown
-from roughline.report.terminal import print_assessment
 
 PAIR = ("--materials", "steel,copper")
 INTERVAL = re.compile(r"± \S+%|\S+ to \S+")
-
-
-@pytest.fixture
-def rough(tmp_path):
-    """A surface of 64 x 64 points of which all are known."""
-    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
-    path = tmp_path / "rough.nc"
-    rl.write(rl.Surface(surface.heights, surface.sizes, "m"), path)
-    return path
-
-
-@pytest.fixture
-def holed(tmp_path):
-    """An array of 64 x 64 points, 3 x 5 of which are missing."""
-    heights = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3).heights.copy()
-    heights[10:13, 20:25] = np.nan
-    np.save(tmp_path / "holed.npy", heights)
-    return tmp_path / "holed.npy", "--unit", "m", "--size", "1 mm"
-
-
-def solution(file, *loads, **named):
-    """Assess a file for steel on copper without the command line."""
-    return rl.assess(rl.Question(file, ("steel", "copper"), loads=loads, **named))
 
 
 def table_lines(out):
@@ -168,14 +141,6 @@ def test_a_star_stands_at_the_load_that_the_grid_decides(rough, invoke):
     assert "* fewer than ten points in contact" in out
 
 
-def test_no_star_is_explained_that_is_not_shown(rough, capsys):
-    pressed = solution(rough, "10 N", whole_curve=True)
-    assert not pressed.curve.resolved.all()  # lighter loads of a report's figure
-    print_assessment(pressed)
-    assert "fewer than ten points in contact" not in capsys.readouterr().out
-    assert not star_is_shown(pressed)
-
-
 def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     loads = ("--load", "10 N", "--load", "2 MPa", "--load", "0.1 N")
@@ -223,38 +188,6 @@ def test_a_report_speaks_to_a_client(holed, invoke, tmp_path):
     assert "all of the load on one plastic spot" in page  # why Holm's resistance differs
 
 
-def test_one_area_is_told_everywhere(rough):
-    pressed = solution(rough, "1 N", "10 N", whole_curve=True)
-    axes = Figure().subplots()
-    draw_contact(axes, pressed.body, pressed.curve)
-    area = pressed.answers["contact_area_fraction"]
-    told = quantity(area, 1).split("%")[0]
-    assert axes.get_title() == f"corrected area {told}% at 10 N"
-    assert area.values[1] == pressed.curve_as_asked.area_fraction_corrected[1]
-
-
-def test_filled_points_are_marked_where_they_were(holed):
-    file, *_ = holed
-    missing = np.isnan(np.load(file))
-    question = rl.Question(
-        file,
-        E_star=1e11,
-        loads="1 N",
-        reading=rl.Reading(unit="m", sizes=(1e-3,)),
-        preparation=rl.Preparation(crop=(1.5625e-4, 1e-3, 0, 1e-3)),
-    )
-    pressed = rl.assess(question)
-    (part,) = pressed.topographies
-    assert (part.filled_region.heights == missing[10:]).all()
-    axes = Figure().subplots()
-    draw_filled(axes, pressed)
-    outline = np.concatenate([path.vertices for path in axes.collections[-1].get_paths()])
-    low, high = outline.min(axis=0), outline.max(axis=0)
-    pixel = 1 / 64  # mm
-    assert low == pytest.approx([0, 20 * pixel], abs=pixel)
-    assert high == pytest.approx([3 * pixel, 25 * pixel], abs=pixel)
-
-
 def test_what_is_left_out_is_named_with_the_reason(rough, invoke):
     code, out, errors = invoke(
         *("press", rough, "--materials", "E=70 GPa nu=0.33, glass", "--load", "1 N"),
@@ -280,23 +213,6 @@ def test_what_is_left_out_is_named_with_the_reason(rough, invoke):
     notes = json.loads(out)["notes"]
     assert not [note for note in notes if "hardness of" in note]  # a rigid body needs none
     assert [note for note in notes if note.startswith("no reflection: a rigid")]
-
-
-def test_messages_are_of_the_loads_that_are_shown(rough):
-    """The lighter loads of a report's curve have other contact pressures."""
-    alone, whole = (solution(rough, "10 N", whole_curve=whole) for whole in (False, True))
-    warnings = [
-        [note for note in pressed.remarks if "of the softer body's hardness" in note]
-        for pressed in (alone, whole)
-    ]
-    assert warnings[0] == warnings[1] != []
-
-
-def test_a_table_has_the_loads_that_are_wanted(rough):
-    pressed = solution(rough, "30 N", "10 N", "20 N")
-    header, rows = answer_table(pressed, slice(1, 3))
-    assert header == ["", "10 N", "20 N"]
-    assert rows[0] == ["normal force F", "10 N", "20 N"]
 
 
 @pytest.mark.parametrize(

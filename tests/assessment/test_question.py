@@ -1,0 +1,71 @@
+"""A question is checked at birth: before any file is read, in terms of its arguments."""
+
+import re
+
+import numpy as np
+import pytest
+
+import roughline as rl
+
+NOWHERE = "no/such/file.x3p"
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({}, "give either a contact modulus (E_star=) or two materials (materials=)"),
+        ({"E_star": 1e9, "materials": ("steel", "copper")}, "give either a contact modulus"),
+        ({"E_star": "110"}, 'modulus is "110", without a unit'),
+        ({"E_star": -1.0}, "E_star is -1.0; a positive, finite contact modulus is needed"),
+        ({"materials": "steel"}, "give two with a comma between"),
+        ({"materials": ("steel", "rigit")}, 'did you mean "rigid"'),
+        ({"materials": ("rigid", "rigid")}, "both materials are rigid"),
+        ({"E_star": 1.0, "loads": ["1 N"], "n_loads": 5}, "give one of loads=, depths= and"),
+        ({"E_star": 1.0, "loads": ["1 N"], "depths": ["1 um"]}, "give one of loads="),
+        ({"E_star": 1.0, "n_loads": 1}, "n_loads is 1; a whole number of at least 2 is needed"),
+        ({"E_star": 1.0, "loads": ["10 m"]}, "give a total force"),
+        ({"E_star": 1.0, "loads": [-1.0]}, 'load is "-1.0"; give positive ones'),
+        ({"E_star": 1.0, "loads": ["1,5 N"]}, "numbers take a decimal point"),
+        ({"E_star": 1.0, "depths": ["5 N"]}, "depth is"),
+        ({"E_star": 1.0, "theories": ["hertz"]}, "no theory is called 'hertz'"),
+        ({"E_star": 1.0, "frequency": "5 MHz"}, "reflection and partial slip need two materials"),
+        ({"E_star": 1.0, "friction": 0.1}, "reflection and partial slip need two materials"),
+        (
+            {"materials": "steel,copper", "frequency": "-5 MHz"},
+            'frequency is "-5 MHz"; a positive one is needed',
+        ),
+        (
+            {"materials": "steel,copper", "friction": 0.0},
+            "the coefficient of friction is 0.0; a positive one is needed",
+        ),
+    ],
+)
+def test_what_does_not_fit_together_is_refused_before_the_file(asked, message):
+    with pytest.raises(rl.InputError, match=re.escape(message)) as refused:
+        rl.Question(NOWHERE, **asked)
+    assert "--" not in str(refused.value)
+
+
+def test_bodies_in_memory():
+    line = rl.Line(np.sin(np.arange(64.0)), length=1.0, kind="profile")
+    with pytest.raises(rl.InputError, match="belong to a surface"):
+        rl.Question(line, E_star=1.0, periodic=True)
+    surface = rl.Surface(np.zeros((8, 8)), sizes=(1.0, 1.0), unit="um")
+    with pytest.raises(rl.InputError, match='body is in "um"; give it in metres'):
+        rl.Question(surface, E_star=1.0)
+    with pytest.raises(rl.InputError, match="body is a ndarray; give a Surface"):
+        rl.Question(np.zeros((8, 8)), E_star=1.0)
+
+
+def test_reading_is_checked_too():
+    with pytest.raises(rl.InputError, match="most_missing is 2"):
+        rl.Reading(most_missing=2)
+
+
+def test_a_question_is_a_value():
+    first, second = (rl.Question(NOWHERE, "steel,copper", loads="10 N") for _ in range(2))
+    assert first == second
+    assert first.materials == (rl.material("steel"), rl.material("copper"))
+    assert rl.Question(NOWHERE, E_star=1.0).n_loads == 20
+    with pytest.raises(AttributeError):
+        first.loads = ()

@@ -1,0 +1,43 @@
+"""Figures of an assessment show what its tables say, where it is."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import roughline as rl
+from roughline.report.contact_figures import draw_contact, draw_filled
+from roughline.report.contact_tables import quantity
+
+
+def test_one_area_is_told_everywhere(rough):
+    pressed = rl.assess(
+        rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"], whole_curve=True)
+    )
+    axes = Figure().subplots()
+    draw_contact(axes, pressed.body, pressed.curve)
+    area = pressed.answers["contact_area_fraction"]
+    told = quantity(area, 1).split("%")[0]
+    assert axes.get_title() == f"corrected area {told}% at 10 N"
+    assert area.values[1] == pressed.curve_as_asked.area_fraction_corrected[1]
+
+
+def test_filled_points_are_marked_where_they_were(holed):
+    file, *_ = holed
+    missing = np.isnan(np.load(file))
+    question = rl.Question(
+        file,
+        E_star=1e11,
+        loads="1 N",
+        reading=rl.Reading(unit="m", sizes=(1e-3,)),
+        preparation=rl.Preparation(crop=(1.5625e-4, 1e-3, 0, 1e-3)),
+    )
+    pressed = rl.assess(question)
+    (part,) = pressed.topographies
+    assert (part.filled_region.heights == missing[10:]).all()
+    axes = Figure().subplots()
+    draw_filled(axes, pressed)
+    outline = np.concatenate([path.vertices for path in axes.collections[-1].get_paths()])
+    low, high = outline.min(axis=0), outline.max(axis=0)
+    pixel = 1 / 64  # mm
+    assert low == pytest.approx([0, 20 * pixel], abs=pixel)
+    assert high == pytest.approx([3 * pixel, 25 * pixel], abs=pixel)
