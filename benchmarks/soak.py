@@ -1,4 +1,4 @@
-"""Kill a campaign a hundred times at random moments; it must end in the bytes of a calm run.
+"""Kill a campaign a hundred times at random; it must end in the bytes of an undisturbed run.
 
     python benchmarks/soak.py [kills] [seed]
 
@@ -133,7 +133,8 @@ def main(kills: int, seed: int) -> None:
     }
     rows = "\n".join(f"| {names[kind]} | {soak.kills[kind]} |" for kind in KINDS)
     (ROOT / "docs" / "soak-table.md").write_text(
-        f"# Campaigns under disturbances\n\nWritten by `make soak`, seed {seed}: {sum(soak.kills.values())} "
+        "# Campaigns under disturbances\n\n"
+        f"Written by `make soak`, seed {seed}: {sum(soak.kills.values())} "
         f"kills in {soak.runs} runs of {soak.campaigns} campaigns of 630 cases, {minutes:.0f} "
         "minutes. Every campaign ended with the same bytes as one that was not disturbed.\n\n"
         f"| disturbance | times |\n|---|---|\n{rows}\n"
