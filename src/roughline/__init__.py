@@ -9,10 +9,6 @@ from typing import TYPE_CHECKING, Any
 from roughline._version import __version__
 
 if TYPE_CHECKING:
-    from roughline.assessment.larger_surface import (
-        stiffness_of_the_larger_surface as stiffness_of_the_larger_surface,
-    )
-    from roughline.assessment.larger_surface import stiffness_of_the_piece as stiffness_of_the_piece
     from roughline.assessment.line_scan import press_scan as press_scan
     from roughline.comparison.models import Comparison as Comparison
     from roughline.comparison.models import compare as compare
@@ -26,8 +22,6 @@ if TYPE_CHECKING:
     from roughline.contact.press import press as press
     from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
     from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
-    from roughline.engineering.answers import answers as answers
-    from roughline.engineering.materials import Interface as Interface
     from roughline.engineering.materials import Material as Material
     from roughline.engineering.materials import contact_modulus as contact_modulus
     from roughline.engineering.materials import material as material
@@ -62,10 +56,6 @@ _HOMES = {
     "facing": "topography.two_bodies",
     "theory": "theories.theory",
     "press_scan": "assessment.line_scan",
-    "stiffness_of_the_larger_surface": "assessment.larger_surface",
-    "stiffness_of_the_piece": "assessment.larger_surface",
-    "answers": "engineering.answers",
-    "Interface": "engineering.materials",
     "fit_self_affine": "spectra.fit",
     "profile_spectrum": "spectra.profile",
     "isotropic_spectrum": "spectra.isotropic",
