@@ -53,7 +53,7 @@ soak: $(VENV)/installed
 	$(BIN)/python benchmarks/soak.py 100 1
 
 fuzz: $(VENV)/installed
-	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/laws/test_fuzz.py
+	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
