@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak fuzz study published clean
+.PHONY: paper paper-full test check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak fuzz study published architecture clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -53,7 +53,7 @@ soak: $(VENV)/installed
 	$(BIN)/python benchmarks/soak.py 100 1
 
 fuzz: $(VENV)/installed
-	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/laws/test_fuzz.py
+	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
@@ -62,6 +62,9 @@ study: $(VENV)/installed
 
 published: $(VENV)/installed
 	$(BIN)/python studies/paper/publish.py
+
+architecture: $(VENV)/installed
+	$(BIN)/python docs/draw_architecture.py
 
 $(VENV)/installed: pyproject.toml requirements.lock
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "roughline needs Python 3.11 or newer; set PYTHON=...")'

@@ -52,7 +52,7 @@ def main():
         "energy of the tangent's error as its measure (1e-12 instead)": without(
             tangent, "_MARGIN", 1e-6
         ),
-        "half belief in the tangent's overlaps": without(path, "_BELIEVED", 1.0),
+        "half of the rise for predicting new contact": without(path, "_BELIEVED", 1.0),
         "prediction along the tangent (coarse grids every time)": without(path, "_FARTHEST", 0.0),
         "coarse grids (rigid shift for the first load)": without(cascade, "_COARSEST", 10**6),
     }

@@ -1,10 +1,10 @@
-"""Kill a campaign a hundred times at random moments; it must end in the bytes of a calm run.
+"""Kill a campaign a hundred times at random; it must end in the bytes of an undisturbed run.
 
     python benchmarks/soak.py [kills] [seed]
 
 Kills are kill -9 of the client, of a worker, or of the scheduler of a cluster of its own, an
 interrupt, and kill -9 of the client with a chunk cut off afterwards. A campaign that ends is
-compared with the calm one, and the next begins. Writes ``docs/soak-table.md``.
+compared with an undisturbed one, and the next begins. Writes ``docs/soak-table.md``.
 """
 
 import collections
@@ -53,7 +53,7 @@ class Soak:
             while not self._run(store, calm=sum(self.kills.values()) >= kills):
                 print(dict(self.kills), flush=True)
             if tree(store) != self.calm:
-                sys.exit(f"after {dict(self.kills)}: the store differs from the calm one")
+                sys.exit(f"after {dict(self.kills)}: the store differs from an undisturbed one")
             self.campaigns += 1
             print(f"{sum(self.kills.values())} kills, {self.campaigns} campaigns", flush=True)
 
@@ -133,9 +133,10 @@ def main(kills: int, seed: int) -> None:
     }
     rows = "\n".join(f"| {names[kind]} | {soak.kills[kind]} |" for kind in KINDS)
     (ROOT / "docs" / "soak-table.md").write_text(
-        f"# Kills, counted\n\nWritten by `make soak`, seed {seed}: {sum(soak.kills.values())} "
+        "# Campaigns under disturbances\n\n"
+        f"Written by `make soak`, seed {seed}: {sum(soak.kills.values())} "
         f"kills in {soak.runs} runs of {soak.campaigns} campaigns of 630 cases, {minutes:.0f} "
-        "minutes. Every campaign ended in the bytes of the calm one.\n\n"
+        "minutes. Every campaign ended with the same bytes as one that was not disturbed.\n\n"
         f"| disturbance | times |\n|---|---|\n{rows}\n"
     )
 

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from roughline.spectra.roughness import roughness as roughness
     from roughline.spectra.self_affine import SelfAffine as SelfAffine
     from roughline.statistics.averages import average as average
+    from roughline.statistics.averages import relative_difference as relative_difference
     from roughline.statistics.power_law import PowerLaw as PowerLaw
     from roughline.statistics.power_law import find_window as find_window
     from roughline.statistics.power_law import fit_power_law as fit_power_law
@@ -78,6 +79,7 @@ _HOMES = {
     "Comparison": "comparison.models",
     "compare": "comparison.models",
     "average": "statistics.averages",
+    "relative_difference": "statistics.averages",
     "ClusterError": "errors",
     "ContinuumWarning": "errors",
     "ConvergenceError": "errors",
