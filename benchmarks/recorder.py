@@ -57,7 +57,10 @@ def record(out, kinds, topographies):
     """Record classes of answers in a folder; what it held of them is replaced."""
     if not topographies.is_dir():
         sys.exit(f"{topographies} is no folder; give one with measured files: --topographies")
-    print(f"roughline {rl.__version__} from {Path(rl.__file__).parent}")
+    source = f"roughline {rl.__version__} from {Path(rl.__file__).parent}"
+    print(source)
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "source.txt").write_text(f"{source}\n", encoding="utf-8")
     threads = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     paths = ((topographies, "TOPOGRAPHIES"), (ROOT, "REPOSITORY"))
     for kind in kinds:
