@@ -1,0 +1,211 @@
+"""Bodies that the recorder presses from Python, and how."""
+
+import math
+
+import numpy as np
+
+import roughline as rl
+
+
+def spectrum(*, hurst=0.8, roll=1.0, cut=None, length=1.0, height=1.0):
+    """A self-affine spectrum; roll-off and cutoff over the longest wave's wavenumber."""
+    q_low = math.tau / length
+    return rl.SelfAffine(
+        hurst=hurst,
+        length=length,
+        rms_height=height,
+        q_roll=roll * q_low,
+        q_high=None if cut is None else cut * q_low,
+    )
+
+
+def rough(n, seed, amplitudes="fixed", **law):
+    """A random square surface."""
+    return spectrum(**law).surface(n, seed, amplitudes)
+
+
+def line(n, seed, amplitudes="fixed", **law):
+    """A random reduced line."""
+    return spectrum(**law).line(n, seed, amplitudes)
+
+
+def strip(shape, sizes, seed):
+    """A piece of a random surface on a rectangle of any sides."""
+    nx, ny = shape
+    return rl.Surface(rough(max(*shape, 3), seed).heights[:nx, :ny], sizes)
+
+
+def scan(n, seed, length=1.0, **law):
+    """A straight cut through a random surface."""
+    heights = rough(n, seed, length=length, **law).heights[:, n // 3]
+    return rl.Line(heights, length, kind="profile")
+
+
+def tilted(n, seed):
+    """A piece of a larger surface, with its tilt."""
+    piece = rough(2 * n, seed).cropped((0, n), (0, n))
+    heights = piece.heights + 2.0 * np.arange(n)[:, np.newaxis] / n
+    return rl.Surface(heights, piece.sizes, settings=piece.settings)
+
+
+def shape(name, n):
+    """A smooth or stepped body of a known shape, n points along a side."""
+    x = (np.arange(n) + 0.5) / n - 0.5
+    r = np.hypot(x[:, np.newaxis], x)
+    heights = {
+        "parabola": -(r**2) / 2,
+        "parabola beside the middle": -((x[:, np.newaxis] - 0.13) ** 2 + (x + 0.2) ** 2) / 2,
+        "cone": -r,
+        "sphere": np.sqrt(1 - r**2) - 1,
+        "flat": np.full((n, n), 3.0),
+        "round punch": np.where(r < 0.3, 0.0, -1.0),
+        "two plateaus": np.where(x[:, np.newaxis] < 0, 0.0, -0.01) + np.zeros(n),
+        "wave": np.cos(math.tau * x)[:, np.newaxis] + np.zeros(n),
+        "waves": np.cos(math.tau * x)[:, np.newaxis] * np.cos(2 * math.tau * x),
+        "four peaks": -np.abs(np.abs(x)[:, np.newaxis] - 0.25) - np.abs(np.abs(x) - 0.25),
+        "noise": np.random.default_rng(5).standard_normal((n, n)),
+    }[name]
+    return rl.Surface(heights, (1.0, 1.0))
+
+
+LOADS = [0.003, 0.03, 0.3, 3.0]
+_DEEP = [0.01, 0.1, 0.5, 1.0]
+_MANY = np.geomspace(1e-3, 5, 9)
+_STEEL = {"E_star": 1.1e11}
+
+PRESSED = {
+    # name: (how the body is made, its arguments, settings of the body, options of rl.press)
+    "free 16": (rough, (16, 1), {}, {"n_loads": 8}),
+    "free 17, odd": (rough, (17, 2), {}, {"forces": LOADS}),
+    "free 32": (rough, (32, 7), {}, {"n_loads": 12, "fields": True}),
+    "free 48": (rough, (48, 3), {"hurst": 0.3}, {"forces": LOADS, "fields": [0, 2]}),
+    "free 64": (rough, (64, 3), {"hurst": 0.7}, {"n_loads": 10, "grid_error": True}),
+    "free 96": (rough, (96, 4), {"hurst": 1.0}, {"forces": _MANY}),
+    "free 128": (rough, (128, 5), {"hurst": 0.5, "roll": 4}, {"forces": LOADS}),
+    "free 192": (rough, (192, 6), {"cut": 24}, {"forces": LOADS}),
+    "free 256": (rough, (256, 8), {"hurst": 0.6, "roll": 2, "cut": 64}, {"forces": LOADS}),
+    "free 256 depths": (rough, (256, 9), {"hurst": 0.9}, {"depths": _DEEP}),
+    "free very rough": (rough, (64, 10), {"hurst": 0.0}, {"n_loads": 8}),
+    "free Gaussian": (rough, (64, 11, "gaussian"), {}, {"forces": LOADS}),
+    "free depths": (rough, (64, 12), {}, {"depths": _DEEP, "fields": [1]}),
+    "free light": (rough, (64, 13), {}, {"forces": [1e-30, 1e-12, 1e-5]}),
+    "free heavy": (rough, (32, 14), {}, {"forces": [10.0, 1e3, 1e8]}),
+    "free one load": (rough, (64, 15), {}, {"forces": [0.2]}),
+    "free in metres": (rough, (64, 16), {"length": 1e-3, "height": 1e-6}, {"n_loads": 8, **_STEEL}),
+    "free small numbers": (
+        *(rough, (32, 17), {"length": 3e-8, "height": 2e-10}),
+        {"depths": [1e-11, 1e-10], "E_star": 7e9},
+    ),
+    "free double": (rough, (64, 18), {}, {"forces": LOADS, "precision": "float64"}),
+    "free single": (rough, (64, 18), {}, {"forces": LOADS, "precision": "float32", "rtol": 1e-3}),
+    "free mixed": (rough, (64, 18), {}, {"forces": LOADS, "precision": "mixed"}),
+    "free loose": (rough, (64, 19), {}, {"forces": LOADS, "rtol": 1e-2}),
+    "free tight": (rough, (64, 20), {}, {"forces": LOADS, "rtol": 1e-10}),
+    "free grid error, odd": (rough, (51, 21), {}, {"forces": LOADS, "grid_error": True}),
+    "periodic 16": (rough, (16, 31), {}, {"n_loads": 8, "periodic": True}),
+    "periodic 32": (rough, (32, 32), {}, {"n_loads": 12, "periodic": True, "fields": True}),
+    "periodic 63, odd": (rough, (63, 33), {"hurst": 0.4}, {"forces": LOADS, "periodic": True}),
+    "periodic 64": (
+        *(rough, (64, 34), {"hurst": 0.7, "roll": 4}),
+        {"n_loads": 10, "grid_error": True, "periodic": True, "E_star": 2.5},
+    ),
+    "periodic 128": (rough, (128, 35), {"cut": 16}, {"forces": _MANY, "periodic": True}),
+    "periodic 256": (rough, (256, 36), {"roll": 8}, {"forces": LOADS, "periodic": True}),
+    "periodic depths": (rough, (64, 37), {}, {"depths": _DEEP, "periodic": True, "fields": [3]}),
+    "periodic too deep": (rough, (32, 37), {}, {"depths": [0.1, 50.0], "periodic": True}),
+    "periodic double": (
+        *(rough, (64, 38), {}),
+        {"forces": LOADS, "periodic": True, "precision": "float64"},
+    ),
+    "periodic single": (
+        *(rough, (64, 38), {}),
+        {"forces": LOADS, "periodic": True, "precision": "float32", "rtol": 1e-3},
+    ),
+    "periodic full": (rough, (32, 39), {}, {"forces": [5.0, 20.0, 100.0], "periodic": True}),
+    "strip 16 x 64": (strip, ((16, 64), (0.25, 1.0), 41), {}, {"n_loads": 8}),
+    "strip 128 x 8": (strip, ((128, 8), (4.0, 0.25), 42), {}, {"forces": LOADS, "fields": True}),
+    "strip 48 x 32, cells not square": (
+        *(strip, ((48, 32), (1.0, 3.0), 43), {}),
+        {"forces": LOADS, "grid_error": True},
+    ),
+    "strip 1 x 64": (strip, ((1, 64), (0.1, 1.0), 44), {}, {"forces": LOADS, "fields": True}),
+    "strip 64 x 1": (strip, ((64, 1), (1.0, 0.1), 45), {}, {"n_loads": 6}),
+    "strip 1 x 2": (strip, ((1, 2), (1.0, 1.0), 46), {}, {"forces": [0.1, 1.0]}),
+    "strip periodic 64 x 16": (
+        *(strip, ((64, 16), (2.0, 1.0), 47), {}),
+        {"forces": LOADS, "periodic": True, "fields": True},
+    ),
+    "strip periodic 1 x 32": (
+        *(strip, ((1, 32), (0.2, 1.0), 48), {}),
+        {"forces": LOADS, "periodic": True},
+    ),
+    "parabola": (shape, ("parabola", 64), {}, {"depths": [0.003, 0.02], "fields": True}),
+    "parabola aside": (shape, ("parabola beside the middle", 48), {}, {"n_loads": 8}),
+    "parabola grid error": (
+        *(shape, ("parabola", 64), {}),
+        {"n_loads": 8, "grid_error": True, "E_star": 3.0},
+    ),
+    "cone": (shape, ("cone", 65), {}, {"forces": [1e-4, 1e-2], "fields": [1]}),
+    "sphere": (shape, ("sphere", 64), {}, {"n_loads": 6, "E_star": 7.0}),
+    "flat": (shape, ("flat", 32), {}, {"forces": [1e-3, 1.0], "fields": True}),
+    "flat periodic": (shape, ("flat", 16), {}, {"forces": [1e-3, 1.0], "periodic": True}),
+    "flat, number of loads": (shape, ("flat", 16), {}, {"n_loads": 5}),
+    "round punch": (shape, ("round punch", 64), {}, {"depths": [0.01, 0.5, 1.5], "fields": [0]}),
+    "two plateaus": (shape, ("two plateaus", 32), {}, {"depths": [0.001, 0.1], "grid_error": True}),
+    "wave": (shape, ("wave", 64), {}, {"n_loads": 8, "periodic": True, "fields": [4]}),
+    "waves": (shape, ("waves", 64), {}, {"n_loads": 8, "periodic": True}),
+    "four peaks": (shape, ("four peaks", 32), {}, {"n_loads": 6}),
+    "noise": (shape, ("noise", 32), {}, {"n_loads": 6, "grid_error": True}),
+    "noise periodic": (shape, ("noise", 32), {}, {"n_loads": 6, "periodic": True}),
+    "tilted piece": (tilted, (32, 51), {}, {"forces": LOADS}),
+    "tilted piece periodic": (tilted, (32, 52), {}, {"forces": LOADS, "periodic": True}),
+    "line 1024": (line, (1024, 61), {}, {"n_loads": 12}),
+    "line 65536": (line, (65536, 62), {"hurst": 0.5}, {"forces": np.geomspace(1e-5, 10, 25)}),
+    "line depths": (line, (4096, 63, "gaussian"), {}, {"depths": _DEEP, "E_star": 0.7}),
+    "line in metres": (
+        *(line, (4096, 64), {"length": 1e-3, "height": 1e-6, "roll": 3}),
+        {"n_loads": 10, **_STEEL},
+    ),
+    "line of three": (line, (3, 65), {}, {"forces": [0.1, 1.0]}),
+    "line, periodic": (line, (64, 66), {}, {"n_loads": 3, "periodic": True}),
+    "profile": (scan, (64, 67), {}, {"n_loads": 3}),
+    "failing": (rough, (32, 71), {}, {"forces": _MANY, "max_iterations": 8, "throw": False}),
+    "failing periodic": (
+        *(rough, (32, 72), {}),
+        {"forces": _MANY, "max_iterations": 25, "throw": False, "periodic": True},
+    ),
+    "failing depths": (
+        *(rough, (32, 73), {}),
+        {"depths": _DEEP, "max_iterations": 15, "throw": False, "fields": True},
+    ),
+    "failing grid error": (
+        *(rough, (64, 74), {}),
+        {"forces": LOADS, "max_iterations": 20, "throw": False, "grid_error": True},
+    ),
+    "failing at once": (rough, (32, 75), {}, {"forces": LOADS, "max_iterations": 1}),
+    "failing loudly": (rough, (32, 76), {}, {"n_loads": 6, "max_iterations": 12}),
+    "refused: no loads": (rough, (16, 1), {}, {}),
+    "refused: both": (rough, (16, 1), {}, {"forces": [1.0], "depths": [1.0]}),
+    "refused: falling": (rough, (16, 1), {}, {"forces": [1.0, 0.5]}),
+    "refused: zero": (line, (16, 1), {}, {"depths": [0.0, 0.5]}),
+    "refused: one load": (line, (16, 1), {}, {"n_loads": 1}),
+    "refused: not finite": (rough, (16, 1), {}, {"forces": [math.nan]}),
+    "refused: too light": (rough, (16, 1), {}, {"forces": [1e-300]}),
+    "refused: too heavy": (rough, (16, 1), {}, {"forces": [1e300]}),
+    "refused: single, tight": (rough, (16, 1), {}, {"forces": [1.0], "precision": "float32"}),
+    "refused: precision": (rough, (16, 1), {}, {"forces": [1.0], "precision": "half"}),
+    "refused: modulus": (rough, (16, 1), {}, {"forces": [1.0], "E_star": -1.0}),
+    "refused: tolerance": (rough, (16, 1), {}, {"forces": [1.0], "rtol": 0.5}),
+    "refused: iterations": (rough, (16, 1), {}, {"forces": [1.0], "max_iterations": 0}),
+    "refused: fields": (rough, (16, 1), {}, {"forces": [1.0], "fields": [4]}),
+    "refused: few points": (rough, (12, 1), {}, {"forces": [1.0], "grid_error": True}),
+    "refused: array": (np.ones, ((4, 4),), {}, {"forces": [1.0]}),
+}
+
+
+def press(make, arguments, settings, options):
+    """Press a problem; the curve, what it writes of itself, and what it told on the way."""
+    body, told = make(*arguments, **settings), []
+    options = {"E_star": 1.0, **options}
+    curve = rl.press(body, progress=lambda *counts: told.append(list(counts)), **options)
+    return {"body": body, "curve": curve, "dataset": curve.to_dataset(), "told": told}
