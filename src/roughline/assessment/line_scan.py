@@ -18,7 +18,7 @@ from roughline.spectra.profile import profile_spectrum
 from roughline.spectra.scan_bins import ScanBins
 from roughline.topography.body import Line
 
-LINES = 200
+SCAN_LINES = 200
 _SPRINGS_A_WAVE = 8
 _LEAST_SPRINGS = 2**12
 
@@ -74,7 +74,9 @@ def press_scan(
     springs = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE * scan.heights.size)
     bins = [ScanBins.of(profile_spectrum(each)) for each in scans]
     surfaces = [
-        _surfaces(bins[which], each.length, np.random.SeedSequence(rng, spawn_key=(LINES, which)))
+        _surfaces(
+            bins[which], each.length, np.random.SeedSequence(rng, spawn_key=(SCAN_LINES, which))
+        )
         for which, each in enumerate(scans)
     ]
     curves = []
@@ -96,7 +98,7 @@ def press_scan(
             "roughline_version": first.settings["roughline_version"],
             "model": "reduced",
             "control": "forces",
-            "lines": LINES,
+            "lines": SCAN_LINES,
             "seed": rng,
             "spectrum": "of surfaces that the line scan may be cut from",
             **scan.settings_as_body(),
@@ -115,7 +117,7 @@ def _surfaces(
 ) -> Iterator[IsotropicSpectrum]:
     """Draw the spectra of surfaces that a scan may be cut from, one for each line."""
     q_low = 2 * math.pi / length
-    for power in bins.surfaces(LINES, np.random.default_rng(rng)):
+    for power in bins.surfaces(SCAN_LINES, np.random.default_rng(rng)):
         m = np.arange(1.0, power.size + 1)
         yield IsotropicSpectrum(
             q=q_low * m,
@@ -138,6 +140,8 @@ def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real]:
     dimension = float(np.clip(3 - hurst, *table.fractal_dimensions[[0, -1]]))
     roll_off = float(np.clip(roll, *table.roll_off_ratios[[0, -1]]))
     loads = np.clip(curve.force_bar, *table.force_bars[[0, -1]])
-    found = [table.at(dimension, load, roll_off) for load in loads]
-    low, high = (np.array([1 + getattr(each, end) for each in found]) for end in ("low", "high"))
+    differences = [table.at(dimension, load, roll_off) for load in loads]
+    low, high = (
+        np.array([1 + getattr(each, end) for each in differences]) for end in ("low", "high")
+    )
     return np.minimum(low, 1.0), np.maximum(high, 1.0)

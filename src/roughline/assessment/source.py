@@ -57,11 +57,11 @@ class Topography:
         """
         if isinstance(given, Surface | Line):
             return cls(prepared(given, preparation), None, None, reading, preparation)
-        found = measurement(given, reading.channel)
+        content = measurement(given, reading.channel)
         kept = None
-        if not found.is_own and found.unknown.any():
-            kept = replace(found, heights=np.ma.array(found.heights, copy=True))
-        body = measured_body(found, reading, preparation)
+        if not content.is_own and content.unknown.any():
+            kept = replace(content, heights=np.ma.array(content.heights, copy=True))
+        body = measured_body(content, reading, preparation)
         return cls(prepared(body, preparation), given, kept, reading, preparation)
 
     @property
@@ -74,9 +74,9 @@ class Topography:
         if self.measurement is None:
             return self.body
         heights = np.ma.array(self.measurement.heights, copy=True)
-        found = replace(self.measurement, heights=heights)
+        content = replace(self.measurement, heights=heights)
         reading = replace(self.reading, missing=method)
-        return prepared(measured_body(found, reading, self.preparation), self.preparation)
+        return prepared(measured_body(content, reading, self.preparation), self.preparation)
 
     @cached_property
     def filled_region(self) -> Surface | None:
@@ -94,11 +94,11 @@ class Topography:
         return replace(cropped, heights=np.sign(cropped.heights))
 
 
-def measured_body(found: Measurement, reading: Reading, preparation: Preparation | None) -> Body:
+def measured_body(content: Measurement, reading: Reading, preparation: Preparation | None) -> Body:
     """The body that a file holds; its trend is left to the preparation if that names one."""
     trend: Trend = "none" if preparation and preparation.trend else "tilt"
     filling = Missing(reading.missing, reading.most_missing)
-    return found.body(reading.unit, reading.sizes, filling, trend)
+    return content.body(reading.unit, reading.sizes, filling, trend)
 
 
 def topographies(question: Question) -> list[Topography]:

@@ -119,11 +119,11 @@ def status_of_campaign(store: StoreArgument, json: Json = False) -> None:
     from roughline.campaign import Store
     from roughline.report.campaign_output import of_status, print_status
 
-    found = Store(_store_of(store))
+    results = Store(_store_of(store))
     if json:
-        print_json(of_status(found))
+        print_json(of_status(results))
     else:
-        print_status(found)
+        print_status(results)
 
 
 @app.command("export")

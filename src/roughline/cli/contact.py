@@ -199,7 +199,12 @@ def press(
     if json:
         print_json(of_assessment(result, files))
     else:
-        print_assessment(result, files)
+        print_assessment(
+            result,
+            files,
+            long_curves_by="--out DIR or --json",
+            many_answers_by="--json and --report",
+        )
     if result.interrupted:
         end_interrupted("the loads solved before are above")
     if not result.curve.converged.all():

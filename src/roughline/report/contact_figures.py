@@ -77,12 +77,12 @@ def contact_figure(surface: Surface, assessment: Assessment) -> Figure:
     return figure
 
 
-def roughness_figure(body: Body, found: Roughness) -> Figure:
+def roughness_figure(body: Body, parameters: Roughness) -> Figure:
     """Heights, and the spectrum with the law that is nearest to it."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
     draw_heights(left, body)
-    draw_spectrum(right, found)
+    draw_spectrum(right, parameters)
     return figure
 
 
@@ -174,11 +174,11 @@ def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
     """Real contact area at the last load whose fields are there."""
     _label_sides(axes, surface)
     for i in range(len(curve.fields) - 1, -1, -1):
-        found = curve.fields[i]
-        if found is None:
+        fields = curve.fields[i]
+        if fields is None:
             continue
         axes.imshow(
-            found.contact.T,
+            fields.contact.T,
             origin="lower",
             extent=_extent(surface),
             cmap="binary",
@@ -191,9 +191,9 @@ def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
         return
 
 
-def draw_spectrum(axes: Axes, found: Roughness) -> None:
+def draw_spectrum(axes: Axes, parameters: Roughness) -> None:
     """Spectrum C_2d of a surface or C_profile of a line, and the self-affine law."""
-    spectrum, fit = found.spectrum, found.fit
+    spectrum, fit = parameters.spectrum, parameters.fit
     if spectrum is None:
         axes.text(0.5, 0.5, "no spectrum", ha="center", transform=axes.transAxes)
         return

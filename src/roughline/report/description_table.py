@@ -44,41 +44,41 @@ def missing_map(description: Description) -> list[str]:
 
 def _rows_of_file(description: Description) -> list[tuple[str, str]]:
     """What the file holds, and of the body its points and sizes."""
-    found, body, missing = description.measurement, description.body, description.missing
-    channel = "own format" if found.is_own else found.channel
+    content, body, missing = description.measurement, description.body, description.missing
+    channel = "own format" if content.is_own else content.channel
     rows = [("file", ", ".join(filter(None, (description.file.name, channel))))]
-    if len(found.channels) > 1:
-        rows.append(("channels", ", ".join(found.channels)))
-    points = found.heights.shape if body is None else body.heights.shape
-    stated = found.unit or "none stated"
-    if not found.unit and description.unit:
+    if len(content.channels) > 1:
+        rows.append(("channels", ", ".join(content.channels)))
+    points = content.heights.shape if body is None else body.heights.shape
+    stated = content.unit or "none stated"
+    if not content.unit and description.unit:
         stated += f"; {description.unit} is given"
     rows += [("points", _times(points)), ("unit in the file", stated), *_rows_of_sizes(description)]
-    if points != found.heights.shape:
-        rows.append(("points in the file", _times(found.heights.shape)))
+    if points != content.heights.shape:
+        rows.append(("points in the file", _times(content.heights.shape)))
     where = f", {missing}" if missing.count else ""
     return [*rows, ("missing points", f"{missing.count} ({missing.share:.2%}){where}")]
 
 
 def _rows_of_sizes(description: Description) -> list[tuple[str, str]]:
     """Sides and the distance of points: of the body, or else as far as the file says."""
-    found, body = description.measurement, description.body
-    names = ("sizes", "pixel") if found.kind == "surface" else ("length", "spacing")
+    content, body = description.measurement, description.body
+    names = ("sizes", "pixel") if content.kind == "surface" else ("length", "spacing")
     sizes: tuple[float, ...]
     spacings: tuple[float, ...]
     if isinstance(body, Surface):
         sizes, spacings = body.sizes, body.spacing
     elif body is not None:
         sizes, spacings = (body.length,), (body.spacing,)
-    elif found.sizes is None:
+    elif content.sizes is None:
         return [(names[0], "none stated")]
     else:
-        metres = metres_per(found.unit) if found.unit else 1.0
-        sizes = tuple(metres * size for size in found.sizes)
+        metres = metres_per(content.unit) if content.unit else 1.0
+        sizes = tuple(metres * size for size in content.sizes)
         spacings = tuple(
-            size / points for size, points in zip(sizes, found.heights.shape, strict=True)
+            size / points for size, points in zip(sizes, content.heights.shape, strict=True)
         )
-    if body is None and not found.unit:
+    if body is None and not content.unit:
         return [
             (name, f"{' x '.join(f'{length:.4g}' for length in lengths)}, unit not stated")
             for name, lengths in zip(names, (sizes, spacings), strict=True)

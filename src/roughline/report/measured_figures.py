@@ -18,17 +18,17 @@ _MISSING = "tab:red"
 _MOST_PIXELS = 600  # along a side; a picture shows no more
 
 
-def measured_figure(found: Measurement, missing: MissingPattern) -> Figure:
+def measured_figure(content: Measurement, missing: MissingPattern) -> Figure:
     """Heights, and where points are missing; with units if the file states one."""
     figure = new_figure(PAGE, 3.2)
-    metres = metres_per(found.unit) if found.unit else 1.0
-    unknown = found.unknown
-    heights = np.ma.MaskedArray(np.ma.getdata(found.heights) * metres, unknown)
-    sides = tuple(metres * side for side in found.sizes or ())
+    metres = metres_per(content.unit) if content.unit else 1.0
+    unknown = content.unknown
+    heights = np.ma.MaskedArray(np.ma.getdata(content.heights) * metres, unknown)
+    sides = tuple(metres * side for side in content.sizes or ())
     share = f"{missing.count} of {unknown.size} points are missing ({missing.share:.2%})"
     if heights.ndim == 1:
         axes = figure.subplots()
-        _draw_line(axes, found, heights, sides)
+        _draw_line(axes, content, heights, sides)
         if missing.count:
             axes.set_title(share, fontsize=9)
         return figure
@@ -39,12 +39,12 @@ def measured_figure(found: Measurement, missing: MissingPattern) -> Figure:
     steps = tuple(max(1, n // _MOST_PIXELS) for n in heights.shape)
     thinned = heights[:: steps[0], :: steps[1]]
     shown = left.imshow(thinned.T, origin="lower", extent=extent, cmap="cividis")
-    ticks = _ticks(found.unit is not None)
+    ticks = _ticks(content.unit is not None)
     bar = figure.colorbar(
         shown, ax=(left, right), orientation="horizontal", format=ticks, shrink=0.6, aspect=40
     )
     bar.ax.locator_params(nbins=5)
-    bar.set_label("height" + _of(found))
+    bar.set_label("height" + _of(content))
     right.imshow(
         _any_of(unknown, steps).T,
         origin="lower",
@@ -56,36 +56,36 @@ def measured_figure(found: Measurement, missing: MissingPattern) -> Figure:
     )
     right.set_title(share, fontsize=9)
     for axes in (left, right):
-        _label(axes, found)
+        _label(axes, content)
         axes.locator_params(nbins=5)
-        axes.yaxis.set_major_formatter(_ticks(found.unit is not None and bool(sides)))
+        axes.yaxis.set_major_formatter(_ticks(content.unit is not None and bool(sides)))
         axes.set_ylabel(axes.get_xlabel().replace("x", "y", 1))
     return figure
 
 
 def _draw_line(
-    axes: Axes, found: Measurement, heights: NDArray[np.float64], sides: tuple[float, ...]
+    axes: Axes, content: Measurement, heights: NDArray[np.float64], sides: tuple[float, ...]
 ) -> None:
     """Heights of a line scan; red where they are missing."""
     step = sides[0] / heights.size if sides else 1.0
     x = (np.arange(heights.size) + 0.5) * step
-    if found.positions is not None and found.sizes is not None:
-        x = found.positions * sides[0] / found.sizes[0]
+    if content.positions is not None and content.sizes is not None:
+        x = content.positions * sides[0] / content.sizes[0]
     axes.plot(x, heights, color="k", linewidth=0.6)
     for point in np.flatnonzero(np.ma.getmaskarray(heights)):
         axes.axvspan(x[point] - step / 2, x[point] + step / 2, color=_MISSING, linewidth=1)
-    _label(axes, found)
-    axes.yaxis.set_major_formatter(_ticks(found.unit is not None))
-    axes.set_ylabel("height" + _of(found))
+    _label(axes, content)
+    axes.yaxis.set_major_formatter(_ticks(content.unit is not None))
+    axes.set_ylabel("height" + _of(content))
 
 
-def _label(axes: Axes, found: Measurement) -> None:
-    axes.set_xlabel("x" + _of(found) if found.sizes is not None else "x [points]")
-    axes.xaxis.set_major_formatter(_ticks(found.unit is not None and found.sizes is not None))
+def _label(axes: Axes, content: Measurement) -> None:
+    axes.set_xlabel("x" + _of(content) if content.sizes is not None else "x [points]")
+    axes.xaxis.set_major_formatter(_ticks(content.unit is not None and content.sizes is not None))
 
 
-def _of(found: Measurement) -> str:
-    return "" if found.unit else " [the file states no unit]"
+def _of(content: Measurement) -> str:
+    return "" if content.unit else " [the file states no unit]"
 
 
 def _ticks(has_unit: bool) -> Formatter:

@@ -32,8 +32,24 @@ _MOST_ANSWERED = 3  # loads whose answers fit on a screen
 _SHORTEST_NAME = 20  # columns that the name of an answer needs at least
 
 
-def print_assessment(assessment: Assessment, files: Iterable[Path] = ()) -> None:
-    """Print what was pressed, its curve or its answers, and the files written."""
+def print_assessment(
+    assessment: Assessment,
+    files: Iterable[Path] = (),
+    *,
+    long_curves_by: str,
+    many_answers_by: str,
+) -> None:
+    """Print what was pressed, its curve or its answers, and the files written.
+
+    Parameters
+    ----------
+    assessment : Assessment
+        What is shown.
+    files : iterable of Path
+        What was written.
+    long_curves_by, many_answers_by : str
+        How the caller gives what is too long for a screen.
+    """
     console = Console()
     console.print(_described(assessment.body), highlight=False, soft_wrap=True)
     curve, pair = assessment.curve, assessment.question.pair
@@ -45,7 +61,7 @@ def print_assessment(assessment: Assessment, files: Iterable[Path] = ()) -> None
     many = assessment.asked.size > _MOST_SHOWN
     answered = pair is not None and assessment.asked.size <= _MOST_ANSWERED
     if many:
-        console.print(_in_one_line(assessment), highlight=False, soft_wrap=True)
+        console.print(_in_one_line(assessment, long_curves_by), highlight=False, soft_wrap=True)
     elif answered:
         _print_table(console, *answer_table(assessment, slice(None)))  # formulas are for the report
     else:
@@ -53,7 +69,7 @@ def print_assessment(assessment: Assessment, files: Iterable[Path] = ()) -> None
     if star_is_shown(assessment) and not many:
         console.print(f"* {UNRESOLVED}", highlight=False)
     if pair is not None and not answered:
-        console.print(f"answers at more than {_MOST_ANSWERED} loads are for --json and --report")
+        console.print(f"answers at more than {_MOST_ANSWERED} loads are for {many_answers_by}")
     for failure in _failures(assessment) if not many else ():
         console.print(failure, highlight=False)
     for theory in assessment.theories:
@@ -63,7 +79,7 @@ def print_assessment(assessment: Assessment, files: Iterable[Path] = ()) -> None
     print_files(files)
 
 
-def _in_one_line(assessment: Assessment) -> str:
+def _in_one_line(assessment: Assessment, long_curves_by: str) -> str:
     """Both ends of a curve that is too long for a screen."""
     curve, solved = assessment.curve, assessment.curve.converged
     text = f"{solved.size} loads"
@@ -75,7 +91,7 @@ def _in_one_line(assessment: Assessment) -> str:
         text += " from {}: depth {}, stiffness {}".format(*ends)
     for status, count in Counter(curve.status[~solved].tolist()).items():
         text += f"; {count} not solved ({Status(status).reason})"
-    return f"{text}; each of them: --out DIR or --json"
+    return f"{text}; each of them: {long_curves_by}"
 
 
 def _failures(assessment: Assessment) -> list[str]:
