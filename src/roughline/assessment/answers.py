@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.larger_surface import stiffness_of_the_piece
+from roughline.assessment.question import has_spectrum
 from roughline.engineering.answer import Answer
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
@@ -13,11 +14,6 @@ from roughline.engineering.limits import elastic_warnings
 from roughline.spectra.moments import Moments, moments
 from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.topography.body import Body, Surface
-
-
-def has_spectrum(body: Body) -> bool:
-    """Whether it is a surface with enough points and some roughness."""
-    return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
 
 
 def surface_moments(body: Body) -> Moments | None:

@@ -8,7 +8,6 @@ from dataclasses import replace
 from roughline.assessment import notes as say
 from roughline.assessment.answers import (
     broken_assumptions,
-    has_spectrum,
     surface_moments,
     with_answers,
 )
@@ -30,7 +29,6 @@ from roughline.contact.estimates import estimate, memory_for
 from roughline.engineering.answer import Answer
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.limits import left_out
-from roughline.errors import InputError
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
 from roughline.theories.theory import TheoryCurve, theory
@@ -51,8 +49,8 @@ def assess(
 ) -> Assessment:
     """Answer a question: read, prepare, press, and work out what follows.
 
-    A load that fails is marked in the curve's status and its values are NaN. On Ctrl-C the loads
-    that were solved before are kept, and the result says that it was interrupted.
+    A load that fails is marked in the curve's status. On Ctrl-C the loads that were solved before
+    are kept, and the result says that it was interrupted.
 
     Parameters
     ----------
@@ -76,13 +74,11 @@ def assess(
     parts = topographies(question)
     body = pressed_body([each.body for each in parts])
     question.refuse_misfit(body)
-    if question.theories and not has_spectrum(body):
-        raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
     case = LoadCase.of(question, body)
+    case = replace(case, grid_error=grid_error_is_estimated(question, body, case))
     if isinstance(body, Line) and body.kind == "profile":
         solution, larger = _solved_scan(body, parts, case), None
     else:
-        case = replace(case, grid_error=grid_error_is_estimated(question, body, case))
         _tell_cost(question, body, case, announce)
         solution, larger = _solved_body(question, body, parts, case, progress)
     result = Assessment(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -84,6 +84,13 @@ def press_scan(
         both = drawn[0] if against is None else drawn[0] + drawn[1]
         line = both.line(springs, np.random.SeedSequence(rng, spawn_key=(i,)))
         curves.append(press(replace(line, unit=scan.unit), E_star=E_star, forces=forces))
+    median, low, high = _median(curves, scan, rng)
+    less, more = _full_over_reduced(median, bins[0])
+    return PressedScan(median, low * less, high * more)
+
+
+def _median(curves: Sequence[Curve], scan: Line, seed: int) -> tuple[Curve, Real, Real]:
+    """Medians over the lines, and both ends of the stiffness of one more."""
     stiffness = np.array([curve.stiffness for curve in curves])
     # of so many draws, ranks by Weibull's rule hold another in 95 of 100 cases
     low, high = np.percentile(stiffness, [2.5, 97.5], axis=0, method="weibull")
@@ -99,7 +106,7 @@ def press_scan(
             "model": "reduced",
             "control": "forces",
             "lines": SCAN_LINES,
-            "seed": rng,
+            "seed": seed,
             "spectrum": "of surfaces that the line scan may be cut from",
             **scan.settings_as_body(),
         },
@@ -108,8 +115,7 @@ def press_scan(
             "the square of the scan's length, is assumed",
         ),
     )
-    less, more = _full_over_reduced(median, bins[0])
-    return PressedScan(median, low * less, high * more)
+    return median, low, high
 
 
 def _surfaces(

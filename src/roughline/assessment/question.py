@@ -192,6 +192,8 @@ class Question:
                 "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
                 "loads, through its spectrum"
             )
+        if self.theories and not has_spectrum(body):
+            raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
 
     def _check_loads(self) -> None:
         given = (self.n_loads, self.loads or None, self.depths or None)
@@ -230,6 +232,11 @@ class Question:
             raise InputError(
                 f"the coefficient of friction is {self.friction}; a positive one is needed"
             )
+
+
+def has_spectrum(body: Body) -> bool:
+    """Whether it is a surface with enough points and some roughness."""
+    return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
 
 
 def _several(given: Any) -> tuple[Any, ...]:

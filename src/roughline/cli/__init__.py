@@ -11,7 +11,8 @@ import typer
 from roughline._version import __version__
 from roughline.cli.campaign import app as campaign_app
 from roughline.cli.campaign import paper
-from roughline.cli.contact import compare, press
+from roughline.cli.comparison import compare
+from roughline.cli.contact import press
 from roughline.cli.flags import in_flags
 from roughline.cli.help import PanelsFirst
 from roughline.cli.topography import generate, info

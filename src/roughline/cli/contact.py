@@ -1,4 +1,4 @@
-"""Commands on contact: press a topography, compare the models."""
+"""The command that presses a topography."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import typer
 
 from roughline.cli import options
 from roughline.cli.flags import in_flags
-from roughline.cli.options import end_interrupted, interruptible, print_json
+from roughline.cli.options import end_interrupted, interruptible, make_folders, print_json
 from roughline.errors import InputError
 
 if TYPE_CHECKING:
@@ -188,7 +188,7 @@ def press(
         fields=report is not None or out is not None,
     )
     with interruptible("there is no result"), load_progress() as progress:
-        _make_folders(report, out)  # one that cannot be written is told before the work
+        make_folders(report, out)  # one that cannot be written is told before the work
         result = assess(question, announce=announce, progress=progress)
         result = replace(
             result,
@@ -227,15 +227,6 @@ def _refuse_incomplete_report(
         raise InputError("partial slip is drawn in a report: give --report too")
 
 
-def _make_folders(*folders: Path | None) -> None:
-    """Make the folders that results will be written to."""
-    from roughline.report.folder import make_folder
-
-    for folder in folders:
-        if folder is not None:
-            make_folder(folder)
-
-
 def _written(result: Assessment, report: Path | None, out: Path | None) -> list[Path]:
     """Write what is wanted; interrupted, a report gets the curve alone."""
     files: list[Path] = []
@@ -258,66 +249,3 @@ def _without_folders(argument: str) -> str:
     """An argument as others may see it: of an absolute path, the last name alone."""
     option, sign, value = argument.rpartition("=")
     return f"{option}{sign}{Path(value).name}" if Path(value).is_absolute() else argument
-
-
-def compare(
-    file: Annotated[Path | None, typer.Argument(help="A surface, instead of a spectrum.")] = None,
-    hurst: options.Hurst = None,
-    fractal_dimension: options.FractalDimension = None,
-    length: Annotated[
-        str | None, typer.Option(help='Side of the surface, such as "1 mm"; needed with cutoffs.')
-    ] = None,
-    roll_off: options.RollOff = None,
-    cutoff: options.Cutoff = None,
-    n: options.Points = 256,
-    surfaces: Annotated[int, typer.Option(help="Surfaces of the spectrum.")] = 20,
-    force_bar: Annotated[
-        list[float] | None,
-        typer.Option(help="A dimensionless force F / (E* h L); may be repeated."),
-    ] = None,
-    tolerance: Annotated[
-        float, typer.Option(help="Relative difference that counts as agreement.")
-    ] = 0.1,
-    seed: options.Seed = 0,
-    unit: options.Unit = None,
-    channel: options.Channel = None,
-    size: options.Size = None,
-    fill: options.Fill = options.Filling.harmonic,
-    max_missing: options.MaxMissing = 0.1,
-    out: Annotated[Path | None, typer.Option(help="Folder for a table (CSV) and a figure.")] = None,
-    json: options.Json = False,
-) -> None:
-    """Say how far the reduced model is from the full one, for your own roughness.
-
-    For a spectrum, random surfaces and random lines are pressed, and the map that comes with the
-    package is read; for a surface in a file, that surface and lines of its spectrum.
-    """
-    from roughline.assessment.comparison import compare_models
-    from roughline.report.json_output import of_comparison
-    from roughline.report.progress import load_progress
-    from roughline.report.terminal import print_comparison
-
-    roughness = file or options.spectrum_of(
-        hurst, fractal_dimension, length, "1 m", roll_off, cutoff
-    )
-    with interruptible("nothing is written"), load_progress() as progress:
-        _make_folders(out)
-        result = compare_models(
-            roughness,
-            reading=options.reading_of(unit, channel, size, fill, max_missing),
-            n=n,
-            surfaces=surfaces,
-            force_bars=force_bar,
-            tolerance=tolerance,
-            seed=seed,
-            progress=progress,
-        )
-        files: list[Path] = []
-        if out is not None:
-            from roughline.report.comparison_figures import write_comparison
-
-            files = write_comparison(result, out)
-    if json:
-        print_json(of_comparison(result, files))
-    else:
-        print_comparison(result, files)

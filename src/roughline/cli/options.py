@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from enum import StrEnum
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
@@ -212,3 +213,12 @@ def end_interrupted(kept: str) -> NoReturn:
     """End with exit code 130 and a word on what is kept."""
     typer.echo(f"interrupted; {kept}", err=True)
     raise typer.Exit(130) from None
+
+
+def make_folders(*folders: Path | None) -> None:
+    """Make the folders that results will be written to, so that none is refused after the work."""
+    from roughline.report.folder import make_folder
+
+    for folder in folders:
+        if folder is not None:
+            make_folder(folder)

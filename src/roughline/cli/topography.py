@@ -10,7 +10,7 @@ import typer
 
 from roughline.cli import options
 from roughline.cli.flags import in_flags
-from roughline.cli.options import print_json
+from roughline.cli.options import make_folders, print_json
 
 
 def info(
@@ -39,10 +39,7 @@ def info(
     from roughline.report.json_output import of_description
     from roughline.report.terminal import print_description
 
-    if out is not None:
-        from roughline.report.folder import make_folder
-
-        make_folder(out)
+    make_folders(out)
     reading = options.reading_of(unit, channel, size, fill, max_missing)
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     result = describe(file, reading, steps)

@@ -78,12 +78,7 @@ def answers(
     given += _thermal(k, k_i / area, of_what, pair)
     given += _thermal_estimates(pressure, pair, amplitudes)
     given.append(answer("tangential_stiffness", pair.G_star / pair.E_star * k))
-    impedances = pair.both("impedance")
-    if frequency is not None and impedances is not None:
-        reflected = formulas.reflection(k_i / area, frequency, impedances)
-        name = f"{DECLARED['reflection'].name} at {frequency / 1e6:g} MHz"
-        validity = DECLARED["reflection"].validity + of_what
-        given.append(answer("reflection", reflected, name=name, validity=validity))
+    given += _reflection(k_i / area, of_what, pair, frequency)
     return given
 
 
@@ -144,3 +139,16 @@ def _thermal_estimates(
         plastic = formulas.yovanovich_conductance(pressure, pair.hardness, *shape)
         given.append(answer("plastic_conductance", plastic))
     return given
+
+
+def _reflection(
+    k_i_per_area: Real, of_what: str, pair: Interface, frequency: float | None
+) -> list[Answer]:
+    """Reflection of an ultrasonic wave by the interface."""
+    impedances = pair.both("impedance")
+    if frequency is None or impedances is None:
+        return []
+    reflected = formulas.reflection(k_i_per_area, frequency, impedances)
+    name = f"{DECLARED['reflection'].name} at {frequency / 1e6:g} MHz"
+    validity = DECLARED["reflection"].validity + of_what
+    return [answer("reflection", reflected, name=name, validity=validity)]

@@ -36,14 +36,37 @@ def write_pdf(
         If the file cannot be written.
     """
     from reportlab.lib.pagesizes import A4
-    from reportlab.lib.utils import ImageReader
     from reportlab.pdfbase import pdfmetrics
     from reportlab.pdfbase.ttfonts import TTFont
-    from reportlab.platypus import Image, KeepInFrame, Paragraph, SimpleDocTemplate, Spacer
+    from reportlab.platypus import KeepInFrame, SimpleDocTemplate
 
     folder = Path(get_data_path()) / "fonts" / "ttf"
     for name, file in (("Sans", "DejaVuSans"), ("Sans-Bold", "DejaVuSans-Bold")):
         pdfmetrics.registerFont(TTFont(name, folder / f"{file}.ttf"))
+    document = SimpleDocTemplate(
+        str(path),
+        pagesize=A4,
+        leftMargin=_MARGIN,
+        rightMargin=_MARGIN,
+        topMargin=_MARGIN,
+        bottomMargin=_MARGIN,
+        title=title,
+        author="roughline",
+        invariant=True,
+    )
+    room = (A4[0] - 2 * _MARGIN, A4[1] - 2 * _MARGIN - 12)  # frames have a padding of 6
+    try:
+        document.build([KeepInFrame(*room, _flow(title, lead, sections, made), mode="shrink")])
+    except OSError as error:
+        raise StoreError(f"cannot write {path} ({error}): choose another folder") from error
+
+
+def _flow(title: str, lead: str, sections: Sequence[Section], made: str) -> list[Any]:
+    """What stands on the sheet, from the title down."""
+    from reportlab.lib.pagesizes import A4
+    from reportlab.lib.utils import ImageReader
+    from reportlab.platypus import Image, Paragraph, Spacer
+
     width = A4[0] - 2 * _MARGIN
     text, heading = _style(_SIZE, bold=False), _style(1.25 * _SIZE, bold=True)
     item = text.clone("item", leftIndent=1.5 * _SIZE, bulletIndent=0.4 * _SIZE)
@@ -63,22 +86,7 @@ def write_pdf(
             share = min(1.0, 265 * wide / (high * width))
             flow.append(Image(str(picture.path), width * share, width * share * high / wide))
             flow.append(Paragraph(escape(f"{picture.name}. {picture.caption}"), text))
-    document = SimpleDocTemplate(
-        str(path),
-        pagesize=A4,
-        leftMargin=_MARGIN,
-        rightMargin=_MARGIN,
-        topMargin=_MARGIN,
-        bottomMargin=_MARGIN,
-        title=title,
-        author="roughline",
-        invariant=True,
-    )
-    room = (A4[0] - 2 * _MARGIN, A4[1] - 2 * _MARGIN - 12)  # frames have a padding of 6
-    try:
-        document.build([KeepInFrame(*room, flow, mode="shrink")])
-    except OSError as error:
-        raise StoreError(f"cannot write {path} ({error}): choose another folder") from error
+    return flow
 
 
 def _style(size: float, bold: bool) -> Any:

@@ -1,0 +1,74 @@
+"""The command that compares the models."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from roughline.cli import options
+from roughline.cli.options import interruptible, make_folders, print_json
+
+
+def compare(
+    file: Annotated[Path | None, typer.Argument(help="A surface, instead of a spectrum.")] = None,
+    hurst: options.Hurst = None,
+    fractal_dimension: options.FractalDimension = None,
+    length: Annotated[
+        str | None, typer.Option(help='Side of the surface, such as "1 mm"; needed with cutoffs.')
+    ] = None,
+    roll_off: options.RollOff = None,
+    cutoff: options.Cutoff = None,
+    n: options.Points = 256,
+    surfaces: Annotated[int, typer.Option(help="Surfaces of the spectrum.")] = 20,
+    force_bar: Annotated[
+        list[float] | None,
+        typer.Option(help="A dimensionless force F / (E* h L); may be repeated."),
+    ] = None,
+    tolerance: Annotated[
+        float, typer.Option(help="Relative difference that counts as agreement.")
+    ] = 0.1,
+    seed: options.Seed = 0,
+    unit: options.Unit = None,
+    channel: options.Channel = None,
+    size: options.Size = None,
+    fill: options.Fill = options.Filling.harmonic,
+    max_missing: options.MaxMissing = 0.1,
+    out: Annotated[Path | None, typer.Option(help="Folder for a table (CSV) and a figure.")] = None,
+    json: options.Json = False,
+) -> None:
+    """Say how far the reduced model is from the full one, for your own roughness.
+
+    For a spectrum, random surfaces and random lines are pressed, and the map that comes with the
+    package is read; for a surface in a file, that surface and lines of its spectrum.
+    """
+    from roughline.assessment.comparison import compare_models
+    from roughline.report.json_output import of_comparison
+    from roughline.report.progress import load_progress
+    from roughline.report.terminal import print_comparison
+
+    roughness = file or options.spectrum_of(
+        hurst, fractal_dimension, length, "1 m", roll_off, cutoff
+    )
+    with interruptible("nothing is written"), load_progress() as progress:
+        make_folders(out)
+        result = compare_models(
+            roughness,
+            reading=options.reading_of(unit, channel, size, fill, max_missing),
+            n=n,
+            surfaces=surfaces,
+            force_bars=force_bar,
+            tolerance=tolerance,
+            seed=seed,
+            progress=progress,
+        )
+        files: list[Path] = []
+        if out is not None:
+            from roughline.report.comparison_figures import write_comparison
+
+            files = write_comparison(result, out)
+    if json:
+        print_json(of_comparison(result, files))
+    else:
+        print_comparison(result, files)
