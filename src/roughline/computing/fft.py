@@ -13,12 +13,9 @@ from functools import cache
 
 import ducc0.fft
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Complex, ComplexFloats, Real
 from roughline.errors import InputError
-
-Complex = NDArray[np.complexfloating]
 
 
 def available_cores() -> int:
@@ -84,12 +81,12 @@ def good_size(n: int) -> int:
     return 2 * ducc0.fft.good_size((n + 1) // 2)
 
 
-def fft_rows(rows: Complex, *, forward: bool) -> None:
+def fft_rows(rows: ComplexFloats, *, forward: bool) -> None:
     """Transform each row in place."""
     ducc0.fft.c2c(rows, axes=(1,), forward=forward, out=rows, nthreads=1)
 
 
-def fft_columns(columns: Complex, *, forward: bool) -> None:
+def fft_columns(columns: ComplexFloats, *, forward: bool) -> None:
     """Transform each column in place."""
     ducc0.fft.c2c(columns, axes=(0,), forward=forward, out=columns, nthreads=1)
 

@@ -63,16 +63,17 @@ def estimate(
     Estimate
         Memory [bytes] and time [s].
     """
-    from roughline.halfspace import operator as operators
+    # compiled loops load slowly, so only here
+    from roughline.halfspace.half_space import HalfSpace
+    from roughline.halfspace.operator import displacement_field
 
-    make_operator = operators.periodic if periodic else operators.free
-    operator = make_operator((_PROBE, _PROBE), (1.0, 1.0), 1.0)
+    operator = HalfSpace(1.0, periodic).operator((_PROBE, _PROBE), (1.0, 1.0))
     pressure = np.ones(operator.shape)
-    operator.displacement(pressure)  # compiles
+    displacement_field(operator, pressure)  # compiles
     probes = []
     for _ in range(3):
         start = time.perf_counter()
-        operator.displacement(pressure)
+        displacement_field(operator, pressure)
         probes.append(time.perf_counter() - start)
     points = shape[0] * shape[1]
     growth = points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
