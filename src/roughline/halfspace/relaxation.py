@@ -19,9 +19,9 @@ _AIM = 0.3
 _STEPS = 200
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Relaxation:
-    """What conjugate gradients on a trial contact set came to.
+    """Where conjugate gradients on a trial contact set ended.
 
     Attributes
     ----------
