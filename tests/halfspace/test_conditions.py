@@ -1,9 +1,17 @@
 """The conditions of unilateral contact: p >= 0, gap >= 0 and p gap = 0."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
+from roughline.halfspace.active_set import solve
+from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import UnilateralContact
+from roughline.halfspace.half_space import HalfSpace
+from roughline.halfspace.kernel import love
+from roughline.halfspace.state import Load, Method, Problem
+from roughline.halfspace.tangent import tangent
 
 CONDITIONS = UnilateralContact()
 
@@ -52,3 +60,31 @@ def test_a_pull_is_compared_with_the_mean_pressure():
         np.zeros((2, 2)), np.arange(4), np.array([5.0, 5.0, 3.0, -1.0]), 1.0, 0.0
     )
     assert residuals.tension == pytest.approx(1 / 3)
+
+
+@dataclasses.dataclass(frozen=True)
+class LimitedPressure(UnilateralContact):
+    """Nodes at the limit bear no more: their pressures do not follow a change of the load."""
+
+    limit: float
+
+    def elastic(self, pressure):
+        return pressure < self.limit
+
+
+def test_the_stiffness_is_that_of_the_elastic_nodes():
+    n, load, method = 12, Load(depth=1.0), Method(rtol=1e-6, max_iterations=100)
+    x, y = np.indices((n, n)) - (n - 1) / 2
+    half_space = HalfSpace(1.0)
+    operator = half_space.operator((n, n), (1.0, 1.0))
+    problem = Problem.of(half_space, operator, (x**2 + y**2) / 20, 1.0, CONDITIONS)
+    contact = solve(problem, load, first_guess(problem, load), method)
+    conditions = LimitedPressure(float(np.median(contact.pressure)))
+    response = tangent(dataclasses.replace(problem, conditions=conditions), contact, None, method)
+    elastic = contact.pressure < conditions.limit
+    x, y = (axis.flat[contact.nodes[elastic]] for axis in (x, y))
+    pressure = np.linalg.solve(love(x[:, None] - x, y[:, None] - y, 1.0, 1.0), np.ones(x.size))
+    assert response.converged
+    assert response.stiffness == pytest.approx(pressure.sum(), rel=1e-8)
+    assert (response.pressure_per_force[~elastic] == 0).all()
+    assert response.pressure_per_force.sum() == pytest.approx(1.0)

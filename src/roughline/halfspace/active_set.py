@@ -3,15 +3,15 @@
 Each round has four steps.
 
 1. The gap that the trial pressures leave is computed on the whole grid, and with it the residuals.
-2. The search ends where the residuals are certified, or where they fall no more.
+2. The search ends where the residuals are within the tolerance, or where they fall no more.
 3. Conjugate gradients lead the pressures towards those that close the gap on the trial nodes,
-   until what is wrong with the set of nodes outweighs what is wrong with the pressures [4]_.
+   until what is wrong with the set of nodes outweighs what is wrong with the pressures [3]_.
 4. Nodes that pull are dropped and nodes that overlap are added, both chosen from the same
    pressures [1]_.
 
-Polonsky and Keer's method [2]_ does step 4 after every conjugate gradient, here it is done after as
-many as pay. What is returned carries residuals recomputed from it, in double precision unless all
-of the computation is asked for in single.
+Polonsky and Keer's method [2]_ corrects the set after every step of conjugate gradients; here as
+many steps are done as pay. The residuals of what is returned are recomputed from it, in double
+precision unless single precision is asked for throughout.
 
 References
 ----------
@@ -19,9 +19,7 @@ References
    Newton method", SIAM J. Optim. 13, 865-888 (2003).
 .. [2] I. A. Polonsky and L. M. Keer, "A numerical method for solving rough contact problems based
    on the multi-level multi-summation and conjugate gradient techniques", Wear 231, 206-219 (1999).
-.. [3] J. J. Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale strictly
-   monotone linear complementarity problems", Comput. Oper. Res. 21, 587-596 (1994).
-.. [4] Z. Dostál and J. Schöberl, "Minimizing quadratic functions subject to bound constraints with
+.. [3] Z. Dostál and J. Schöberl, "Minimizing quadratic functions subject to bound constraints with
    the rate of convergence and finite termination", Comput. Optim. Appl. 30, 23-43 (2005): there,
    too, a set is changed when the violations outweigh the residual (proportioning).
 """
@@ -60,18 +58,19 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         trial = Trial.of(
             problem, load, contact_set, stopping.residuals, gap, rescale=not convolutions
         )
+        contact_set = trial.contact_set
         convolutions += 1
         spent = convolutions >= method.max_iterations
         if spent and stopping.residuals != method.certificate:
             stopping.residuals = method.certificate
-            trial = Trial.of(problem, load, trial.contact_set, stopping.residuals, gap)
+            trial = Trial.of(problem, load, contact_set, stopping.residuals, gap)
             convolutions += 1
         # 2. The end of the search.
         outcome = stopping.outcome(trial, exchange, spent=spent)
         if outcome is not None:
             return trial.contact(problem, outcome, convolutions)
         # 3. Conjugate gradients on the trial nodes.
-        watched = watched_nodes(gap, trial.contact_set.nodes, every=exchange.one_by_one)
+        watched = watched_nodes(gap, contact_set.nodes, every=exchange.one_by_one)
         try:
             relaxation = relaxed(
                 problem,
@@ -81,7 +80,7 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
                 method.rtol,
                 stopping.steps,
                 most_steps=method.max_iterations - convolutions,
-                sharp=exchange.sharp,
+                to_tolerance=exchange.to_tolerance,
             )
         except np.linalg.LinAlgError:  # an elastic half-space is positive definite
             return trial.contact(problem, Outcome.STALLED, convolutions)
@@ -89,6 +88,6 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         stopping.choose_precision(relaxation, trial.length_scale)
         # 4. The exchange of wrong nodes.
         contact_set = exchange.applied(
-            trial.contact_set, watched, relaxation.violations, problem.separation
+            contact_set, watched, relaxation.violations, problem.separation
         )
         del trial, relaxation, watched  # the next gap needs their memory

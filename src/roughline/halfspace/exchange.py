@@ -14,8 +14,8 @@ from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.conditions import Violations
 from roughline.halfspace.contact_set import ContactSet
 
-# Rounds with no fewer wrong nodes than ever before, after which the equations are solved sharply
-# before nodes are exchanged; after twice as many, nodes are exchanged one by one.
+# After more rounds than this without a new minimum of wrong nodes, the equations are solved to the
+# tolerance before nodes are exchanged. After twice as many, nodes are exchanged one by one.
 _PATIENCE = 8
 # Nodes whose gap is below so many times the error on contact may come into contact.
 _WATCHED = 2.0
@@ -24,8 +24,8 @@ _WATCHED = 2.0
 class ExchangeRule:
     """How many of the wrong nodes are exchanged at a time.
 
-    All of them are, as long as their number falls. Where it does not fall for many rounds, only the
-    wrong node of highest index is, which cannot cycle [1]_.
+    As long as their number falls, all of them are exchanged. Where it has not fallen for many
+    rounds, only the wrong node of highest index is, which cannot cycle [1]_.
 
     Parameters
     ----------
@@ -41,10 +41,10 @@ class ExchangeRule:
     def __init__(self, points: int) -> None:
         self.wrong = points
         self._fewest = points + 1
-        self._rounds = 0  # since there were fewer wrong nodes than ever before
+        self._rounds = 0  # since the last new minimum of wrong nodes
 
     @property
-    def sharp(self) -> bool:
+    def to_tolerance(self) -> bool:
         """Whether the equations are solved to the tolerance before nodes are exchanged."""
         return self._rounds > _PATIENCE
 

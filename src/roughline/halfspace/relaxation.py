@@ -51,7 +51,7 @@ def relaxed(
     precision: Precision,
     *,
     most_steps: int,
-    sharp: bool,
+    to_tolerance: bool,
 ) -> Relaxation:
     """Lead the pressures of a trial towards those that close the gap; they are overwritten.
 
@@ -69,8 +69,8 @@ def relaxed(
         Precision of the convolutions.
     most_steps : int
         Bound on the steps.
-    sharp : bool
-        Whether to go on to the tolerance whatever is wrong with the set.
+    to_tolerance : bool
+        Whether to go on to the tolerance, whatever is wrong with the set of nodes.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def relaxed(
         if error <= tolerance or gradients.steps >= most_steps:
             break
         outweighed = violations.squared(diagonal) > gradients.error @ gradients.error
-        if outweighed and gradients.steps and not sharp:
+        if outweighed and gradients.steps and not to_tolerance:
             break
         if not gradients.advance():
             break

@@ -58,7 +58,7 @@ class StoppingRule:
         worst = trial.residuals.worst
         certified = worst <= self._method.rtol
         # the stiffness hangs on single nodes: go on for those that overlap more than others err
-        if certified and (trial.residuals.penetration == 0 or exchange.sharp):
+        if certified and (trial.residuals.penetration == 0 or exchange.to_tolerance):
             return Outcome.CONVERGED
         if not np.isfinite(worst):
             return Outcome.STALLED
