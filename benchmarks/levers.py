@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import numpy as np
 
 import roughline as rl
-from roughline.halfspace import cascade, path, preconditioner, tangent
+from roughline.halfspace import cascade, loops, path, preconditioner, tangent
 
 
 @contextmanager
@@ -24,10 +24,10 @@ def without(module, name, value):
 def stencil_only(self, residual):
     """Apply the stencil to the residual itself, with no lattices."""
     result, sums = np.empty_like(residual), np.empty_like(self._per_node)
-    preconditioner.loops.undo_details(
-        residual, self._places, self._block, 0 * sums, self._grid, self._offsets, self._taps,
-        result, sums,
-    )  # fmt: skip
+    loops.scatter_details(residual, self._block, 0 * sums, self._places, self._grid)
+    loops.apply_stencil(
+        self._grid, self._places, self._offsets, self._taps, self._block, result, sums
+    )
     return result
 
 
@@ -44,16 +44,18 @@ def main():
     surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7)
     rl.press(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7), E_star=1.0, n_loads=3)
     levers = {
-        "nothing": without(path, "_BELIEVED", path._BELIEVED),
+        "nothing": without(path, "_PART_OF_RISE", path._PART_OF_RISE),
         "lattices of the preconditioner": without(
             preconditioner._Multilevel, "__call__", stencil_only
         ),
-        "direct solution of few nodes": without(preconditioner, "_FEW", 0),
+        "direct solution of few nodes": without(preconditioner, "_DIRECT", 0),
         "energy of the tangent's error as its measure (1e-12 instead)": without(
-            tangent, "_MARGIN", 1e-6
+            tangent, "_ENERGY_MARGIN", 1e-6
         ),
-        "half of the rise for predicting new contact": without(path, "_BELIEVED", 1.0),
-        "prediction along the tangent (coarse grids every time)": without(path, "_FARTHEST", 0.0),
+        "half of the rise for predicting new contact": without(path, "_PART_OF_RISE", 1.0),
+        "prediction along the tangent (coarse grids every time)": without(
+            path, "_LARGEST_RISE", 0.0
+        ),
         "coarse grids (rigid shift for the first load)": without(cascade, "_COARSEST", 10**6),
     }
     print(f"{n}², H = 0.8, {n_loads} loads\n\n| without | per load | convolutions |\n|---|---|---|")

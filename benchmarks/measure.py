@@ -20,7 +20,8 @@ import numpy as np
 
 import roughline as rl
 from roughline.computing import fft
-from roughline.halfspace import operator as operators
+from roughline.halfspace.half_space import HalfSpace
+from roughline.halfspace.operator import GridNodes
 
 TABLE = Path(__file__).parents[1] / "docs" / "speed-table.md"
 CORES = fft.available_cores()
@@ -59,10 +60,10 @@ def plain_convolution(n):
 
 def our_convolution(n, precision):
     """Time our convolution, a tenth of the nodes in contact."""
-    operator = operators.free((n, n), (1 / n, 1 / n), 1.0)
+    operator = HalfSpace(E_star=1.0).operator((n, n), (1 / n, 1 / n))
     nodes = np.flatnonzero(np.random.default_rng(0).random((n, n)) < 0.1)
-    places, pressure = operators.Places.of(nodes, (n, n)), np.ones(nodes.size)
-    return seconds(lambda: operator.convolve(pressure, places, places, precision))
+    loaded, pressure = GridNodes.of(nodes, (n, n)), np.ones(nodes.size)
+    return seconds(lambda: operator.displacement(pressure, loaded, loaded, precision))
 
 
 def convolutions(say):

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace import active_set
-from roughline.halfspace import operator as operators
+from roughline.halfspace import convolution, exchange
+from roughline.halfspace.convolution import Convolution
 from roughline.halfspace.kernel import love
-from roughline.halfspace.operator import Operator
 
 SURFACE = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(24, 3)
 FORCES = [0.05, 0.5, 3.0]
@@ -48,13 +47,13 @@ def test_the_sound_solver_is_certified():
 
 
 def test_a_kernel_of_the_wrong_sign_is_refused(monkeypatch):
-    sound = operators.free
+    sound = convolution.free
 
     def wrong(*arguments):
         operator = sound(*arguments)
         return dataclasses.replace(operator, spectrum=-operator.spectrum)
 
-    monkeypatch.setattr(operators, "free", wrong)
+    monkeypatch.setattr(convolution, "free", wrong)
     curve = pressed()
     assert not curve.converged.any()
     assert np.isnan(curve.stiffness).all()
@@ -65,7 +64,7 @@ def test_a_kernel_of_the_wrong_sign_is_refused(monkeypatch):
 @pytest.mark.parametrize("skipped", range(12))
 def test_a_skipped_convolution_never_certifies_a_wrong_contact(monkeypatch, skipped):
     """The certificate is recomputed: it repairs a wrong step, or refuses."""
-    sound, calls = Operator.convolve, []
+    sound, calls = Convolution.displacement, []
 
     def skipping(self, pressure, sources, targets=None, *options, **others):
         calls.append(targets)
@@ -74,35 +73,35 @@ def test_a_skipped_convolution_never_certifies_a_wrong_contact(monkeypatch, skip
         skip = targets is not None and len(calls) % 12 == skipped
         return np.zeros_like(result) if skip else result
 
-    monkeypatch.setattr(Operator, "convolve", skipping)
+    monkeypatch.setattr(Convolution, "displacement", skipping)
     assert_true_where_certified(pressed())
 
 
 def test_steps_that_are_all_wrong_are_refused(monkeypatch):
-    sound = Operator.convolve
+    sound = Convolution.displacement
 
     def wrong(self, pressure, sources, targets=None, *options, **others):
         result = sound(self, pressure, sources, targets, *options, **others)
         return result if targets is None else 3 * result[::-1]
 
-    monkeypatch.setattr(Operator, "convolve", wrong)
+    monkeypatch.setattr(Convolution, "displacement", wrong)
     assert_true_where_certified(pressed())
 
 
 def test_a_stale_contact_set_is_refused(monkeypatch):
-    monkeypatch.setattr(active_set._Search, "_exchange", lambda self, pulling, added: None)
+    monkeypatch.setattr(exchange, "exchanged", lambda contact_set, *wrong: contact_set)
     curve = pressed()
     assert not curve.converged.any()
     assert (curve.residual > 1e-6).all()
 
 
 def test_a_contact_set_that_only_grows_is_refused(monkeypatch):
-    sound = active_set._Search._exchange
-    monkeypatch.setattr(
-        active_set._Search,
-        "_exchange",
-        lambda self, pulling, added: sound(self, np.zeros_like(pulling), added),
-    )
+    sound = exchange.exchanged
+
+    def growing(contact_set, leaving, *others):
+        return sound(contact_set, np.zeros_like(leaving), *others)
+
+    monkeypatch.setattr(exchange, "exchanged", growing)
     curve = pressed()
     assert_true_where_certified(curve)
     assert not curve.converged.all()
@@ -111,7 +110,7 @@ def test_a_contact_set_that_only_grows_is_refused(monkeypatch):
 def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
     from roughline.halfspace import patch
 
-    monkeypatch.setattr(patch, "preconditioner", lambda approximation, places: np.copy)
+    monkeypatch.setattr(patch, "preconditioner", lambda inverse, nodes: np.copy)
     curve = pressed()
     assert curve.converged.all()
     assert_true_where_certified(curve)
@@ -122,7 +121,7 @@ def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
 def test_nodes_exchanged_one_by_one_reach_the_same_contact(monkeypatch, load):
     surface = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(12, 3)
     together = rl.press(surface, E_star=1.0, **load)
-    monkeypatch.setattr(active_set, "_PATIENCE", -1)
+    monkeypatch.setattr(exchange, "_PATIENCE", -1)
     alone = rl.press(surface, E_star=1.0, **load)
     assert alone.converged.all()
     assert alone.convolutions[0] > together.convolutions[0]

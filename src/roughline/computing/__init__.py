@@ -1,1 +1,1 @@
-"""Transforms, compiled loops, memory: what every computation rests on."""
+"""What every computation rests on: transforms, compiled loops, threads and memory."""

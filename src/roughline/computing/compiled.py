@@ -1,4 +1,4 @@
-"""Compiled loops: how they are compiled, and where the result is kept."""
+"""How loops are compiled, and where the machine code is kept."""
 
 from __future__ import annotations
 

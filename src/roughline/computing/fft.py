@@ -1,4 +1,4 @@
-"""The one door to the FFT library, and the number of threads at work.
+"""Fourier transforms, all by one library, and the number of threads.
 
 All transforms are unnormalised in both directions. Each is done by one thread, so its last bits do
 not depend on how many there are; the threads share out the blocks of a large transform instead.
@@ -13,12 +13,9 @@ from functools import cache
 
 import ducc0.fft
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Complex, ComplexFloats, Real
 from roughline.errors import InputError
-
-Complex = NDArray[np.complexfloating]
 
 
 def available_cores() -> int:
@@ -84,12 +81,12 @@ def good_size(n: int) -> int:
     return 2 * ducc0.fft.good_size((n + 1) // 2)
 
 
-def fft_rows(rows: Complex, *, forward: bool) -> None:
+def fft_rows(rows: ComplexFloats, *, forward: bool) -> None:
     """Transform each row in place."""
     ducc0.fft.c2c(rows, axes=(1,), forward=forward, out=rows, nthreads=1)
 
 
-def fft_columns(columns: Complex, *, forward: bool) -> None:
+def fft_columns(columns: ComplexFloats, *, forward: bool) -> None:
     """Transform each column in place."""
     ducc0.fft.c2c(columns, axes=(0,), forward=forward, out=columns, nthreads=1)
 
@@ -105,13 +102,13 @@ def analyse(values: Real) -> Complex:
 
 
 def synthesise(half_spectrum: Complex, n: int) -> Real:
-    """Sum a Hermitian spectrum, stored for q >= 0 on the last axis, to real values."""
+    """Return the real values of a Hermitian spectrum that is stored for q >= 0 on the last axis."""
     axes = tuple(range(half_spectrum.ndim))
     return ducc0.fft.c2r(half_spectrum, axes=axes, lastsize=n, forward=False, nthreads=1)
 
 
 def synthesise_line(line: Real) -> None:
-    """Sum a Hermitian spectrum, stored as mean, real, imaginary, ..., to real values in place."""
+    """Turn a Hermitian spectrum (mean, real, imaginary, ...) into its real values in place."""
     ducc0.fft.r2r_fftpack(
         line, axes=(0,), real2hermitian=False, forward=False, out=line, nthreads=1
     )

@@ -6,7 +6,7 @@ import psutil
 
 from roughline.errors import InputError
 
-_SPARE = 0.95  # of the memory that is free
+_USABLE = 0.95  # of the memory that is free
 
 
 def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
@@ -25,7 +25,7 @@ def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
         If that is more than is free.
     """
     free = psutil.virtual_memory().available
-    if needed > _SPARE * free:
+    if needed > _USABLE * free:
         raise InputError(
             f"{what} needs about {needed / 1e9:.3g} GB of memory, and {free / 1e9:.3g} GB is free: "
             f"{advice}"

@@ -8,16 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Measured (see docs/speed.md): the most that a path of loads held at any time, and what fields keep
-# for each load. Periodic surfaces reach nearly full contact, where all nodes have vectors; free
-# ones are taken up to saturation, and near full contact hold a quarter more. [bytes per point]
+# Most memory that a path of loads held at any time, and the fields of one load, as measured (see
+# docs/speed.md). Periodic surfaces were pressed nearly to full contact, where all nodes have
+# vectors; free ones up to saturation. Near full contact these take a quarter more.
+# [bytes per point]
 _BYTES = 96
 _BYTES_PERIODIC = 170
 _BYTES_OF_FIELDS = 25
-# Convolutions of whole fields that a load is worth, its stiffness included, on average over a path:
-# it takes some 35, of which most are in single precision and leave rows out.
+# A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
+# path. It does some 35, most of them in single precision and on a part of the rows.
 _CONVOLUTIONS = 20
-_LEAST = 1e-3  # that a load takes on any grid [s]
+_SECONDS_AT_LEAST = 1e-3  # of a load, on any grid [s]
 _PROBE = 512  # points along a side of the grid that is timed
 
 
@@ -30,14 +31,14 @@ class Estimate:
     memory : int
         Largest memory beside the surface and the interpreter. [bytes]
     seconds : float
-        Time on this machine; within a factor of two or three. [s]
+        Time on this machine, known to a factor of two or three. [s]
     """
 
     memory: int
     seconds: float
 
     def __str__(self) -> str:
-        return f"about {self.memory / 1e9:.2g} GB and {_spoken(self.seconds)}"
+        return f"about {self.memory / 1e9:.2g} GB and {_duration(self.seconds)}"
 
 
 def estimate(
@@ -63,22 +64,23 @@ def estimate(
     Estimate
         Memory [bytes] and time [s].
     """
-    from roughline.halfspace import operator as operators
+    # compiled loops load slowly, so only here
+    from roughline.halfspace.half_space import HalfSpace
+    from roughline.halfspace.operator import displacement_field
 
-    make_operator = operators.periodic if periodic else operators.free
-    operator = make_operator((_PROBE, _PROBE), (1.0, 1.0), 1.0)
+    operator = HalfSpace(1.0, periodic).operator((_PROBE, _PROBE), (1.0, 1.0))
     pressure = np.ones(operator.shape)
-    operator.displacement(pressure)  # compiles
+    displacement_field(operator, pressure)  # compiles
     probes = []
     for _ in range(3):
         start = time.perf_counter()
-        operator.displacement(pressure)
+        displacement_field(operator, pressure)
         probes.append(time.perf_counter() - start)
     points = shape[0] * shape[1]
     growth = points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
     return Estimate(
         memory_for(shape, periodic, n_loads if fields else 0),
-        n_loads * (_LEAST + _CONVOLUTIONS * growth * min(probes)),
+        n_loads * (_SECONDS_AT_LEAST + _CONVOLUTIONS * growth * min(probes)),
     )
 
 
@@ -88,7 +90,7 @@ def memory_for(shape: tuple[int, int], periodic: bool, kept_fields: int) -> int:
     return shape[0] * shape[1] * (bytes_ + _BYTES_OF_FIELDS * kept_fields)
 
 
-def _spoken(seconds: float) -> str:
+def _duration(seconds: float) -> str:
     for size, unit in ((3600, "h"), (60, "min")):
         if seconds >= size:
             return f"{seconds / size:.1f} {unit}"

@@ -13,10 +13,11 @@ from roughline._version import __version__
 from roughline.contact.curve import RESOLVED_FROM, Curve, Fields, Status
 from roughline.contact.loads import Loads
 from roughline.errors import Interrupted
-from roughline.halfspace import operator as operators
+from roughline.halfspace.conditions import UnilateralContact
+from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.outline import overstated_cells
-from roughline.halfspace.path import follow
-from roughline.halfspace.state import Contact, Method
+from roughline.halfspace.path import solve_path
+from roughline.halfspace.state import Contact, Load, Method, Problem
 from roughline.topography.body import Surface
 from roughline.topography.preparation import tilt_warnings
 
@@ -61,20 +62,15 @@ def press_surface(
         On Ctrl-C.
     """
     units = _Units.of(surface, E_star, loads)
-    make_operator = operators.periodic if periodic else operators.free
+    half_space = HalfSpace(E_star, periodic).scaled(units.E_star, units.length)
     dx, dy = surface.spacing
     spacing = dx / units.length, dy / units.length
-    operator = make_operator(surface.shape, spacing, 1.0)
+    operator = half_space.operator(surface.shape, spacing)
     separation = np.subtract(surface.heights.max(), surface.heights, order="C")
     separation /= units.height
-    path = follow(
-        operator,
-        separation,
-        surface.rms_height / units.height,
-        loads.control,
-        loads.values / (units.force if loads.control == "forces" else units.height),
-        method,
-    )
+    rms_height = surface.rms_height / units.height
+    scaled = loads.values / (units.force if loads.control == "forces" else units.height)
+    prescribed_loads = [Load.of(loads.control, value) for value in scaled.tolist()]
     count = loads.values.size
     values = np.full((8, count), np.nan)
     status = np.full(count, Status.INTERRUPTED, dtype=np.int8)
@@ -85,7 +81,8 @@ def press_surface(
     try:
         # the threads belong to the transforms: those of the linear algebra would spin beside them
         with threadpool_limits(limits=1, user_api="blas"):
-            for i, (contact, tangent) in enumerate(path):
+            problem = Problem.of(half_space, operator, separation, rms_height, UnilateralContact())
+            for i, (contact, tangent) in enumerate(solve_path(problem, prescribed_loads, method)):
                 outcome = Status[contact.outcome.name]
                 if tangent is not None and not tangent.converged:
                     outcome = Status.NO_TANGENT
@@ -105,7 +102,7 @@ def press_surface(
                     )
                     resolved[i] = cells >= RESOLVED_FROM
                     if i in kept:
-                        all_fields[i] = _fields(contact, separation, units)
+                        all_fields[i] = _fields(contact, units)
                 status[i] = outcome
                 del contact, tangent  # so that the next load finds their memory free
                 if progress is not None:
@@ -205,10 +202,10 @@ def _edge_warnings(surface: Surface, force: Field, edge: Field) -> tuple[str, ..
     )
 
 
-def _fields(contact: Contact, separation: Field, units: _Units) -> Fields:
+def _fields(contact: Contact, units: _Units) -> Fields:
     pressure = np.zeros(contact.gap.shape)
     pressure.flat[contact.nodes] = contact.pressure * units.pressure
-    displacement = contact.gap - separation
+    displacement = contact.gap - contact.separation
     displacement += contact.depth
     displacement *= units.height
     return Fields(

@@ -13,13 +13,13 @@ from roughline.errors import InputError
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
 
-# Times the last difference between grids; chosen to cover grids four times finer
-# (benchmarks/grid_error.py). An area at the scale of its cells hides some of its differences.
+# Factors on the difference between the last two grids, chosen so that the errors cover grids four
+# times finer (benchmarks/grid_error.py). Areas at the scale of the cells differ less than they err.
 _SAFETY_STIFFNESS = 2.0
 _SAFETY_AREA = 3.0
-_FASTEST = 0.5  # first order at contact edges: differences halve at best from grid to grid
-_GROWING = 2.0  # and double at worst, where noise of the pixels takes over
-_FEWEST = 4  # points along a side of the coarsest grid
+_FASTEST_DECAY = 0.5  # at contact edges the order is one: differences halve at best grid by grid
+_FASTEST_GROWTH = 2.0  # and double at worst, where noise of the pixels prevails
+_FEWEST_POINTS = 4  # along a side of the coarsest grid
 
 
 def with_grid_error(
@@ -28,12 +28,12 @@ def with_grid_error(
     """Add to a curve the discretisation errors estimated from grids of n / 2 and n / 4 points.
 
     The coarse grids see the means of two by two points, or of equal pieces where a side has an odd
-    number of points. The larger of the last difference and half
-    of the one before, as a difference of logarithms, times a safety factor, and times the growth of
+    number of points. Differences between grids are those of logarithms. The error is the larger of
+    the last difference and half of the one before, times a safety factor, and times the growth of
     the differences where they grow over all loads: a grid convergence index [1]_ for quantities
-    that go on as powers of the spacing. An area is at least as uncertain as its perimeter
-    correction, also where plateaus go without it. Covered are grids four times finer of a surface
-    as rough as this one; noise that only begins at the spacing is not foreseen.
+    that vary as powers of the spacing. An area is at least as uncertain as its perimeter
+    correction, also on plateaus, where none is made. The errors cover grids four times finer of a
+    surface that goes on as rough as it is; they do not foresee noise that begins at the spacing.
 
     Parameters
     ----------
@@ -69,34 +69,36 @@ def with_grid_error(
 
 def refuse_few_points(surface: Surface) -> None:
     """Refuse a surface that has too few points to be halved twice."""
-    if min(surface.shape) < 4 * _FEWEST:
+    if min(surface.shape) < 4 * _FEWEST_POINTS:
         raise InputError(
             f"grid_error needs grids of n / 2 and n / 4 points, and the surface has "
-            f"{surface.shape[0]} x {surface.shape[1]}: give at least {4 * _FEWEST} a side"
+            f"{surface.shape[0]} x {surface.shape[1]}: give at least {4 * _FEWEST_POINTS} a side"
         )
 
 
 def _halved(surface: Surface) -> Surface:
-    """The surface on half as many points a side, over the same sides."""
+    """Return the surface on half as many points a side, over the same sides."""
     nx, ny = surface.shape
     if nx % 2 == 0 and ny % 2 == 0:
         return surface.coarsened()
-    # below the highest point, so that rounding leaves a flat punch flat
+    # heights count from the highest point, so that rounding leaves a flat punch flat
     return resampled(
         with_heights(surface, surface.heights - surface.heights.max()), (nx // 2, ny // 2)
     )
 
 
 def _area(curve: Curve) -> Real:
+    """Return the corrected area of a surface's curve, which has one."""
     assert curve.area_fraction_corrected is not None
     return curve.area_fraction_corrected
 
 
 def _error(values: Sequence[Real], safety: float) -> Real:
+    """Return the error of the last of three grids, each twice as fine as the one before."""
     quarter, half, full = values
     with np.errstate(invalid="ignore", divide="ignore"):  # stiffness is infinite in full contact
         first, second = np.abs(np.log(half / quarter)), np.abs(np.log(full / half))
-        # over all loads: at one of them a ratio is small or large by chance
+        # over all loads, for at a single load the ratio is small or large by chance
         growth = np.sqrt(np.nansum(second**2) / np.nansum(first**2))
-    change = np.maximum(second, _FASTEST * first)
-    return full * np.expm1(safety * change * np.clip(np.nan_to_num(growth), 1.0, _GROWING))
+    change = np.maximum(second, _FASTEST_DECAY * first)
+    return full * np.expm1(safety * change * np.clip(np.nan_to_num(growth), 1.0, _FASTEST_GROWTH))

@@ -10,7 +10,9 @@ References
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from roughline.computing.arrays import Real
 
 # Love's closed form loses digits with the distance (its four terms grow like r, their sum decays
 # like 1/r), quadrature of 1/r over the cell gains them: from each distance on, in cell sides, so
@@ -18,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 _GAUSS_FROM_DISTANCE = ((3.0, 8), (16.0, 5), (64.0, 3))
 
 
-def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> NDArray[np.float64]:
+def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> Real:
     """Displacement per unit pressure on one cell, for E* = 1.
 
     Parameters
@@ -45,16 +47,14 @@ def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> NDArray[np.float64
     return result / np.pi
 
 
-def _closed_form(
-    x: NDArray[np.float64], y: NDArray[np.float64], dx: float, dy: float
-) -> NDArray[np.float64]:
+def _closed_form(x: Real, y: Real, dx: float, dy: float) -> Real:
     """Integrate 1/r over the cell as four corner terms, each odd in both offsets."""
     left, right = x - dx / 2, x + dx / 2
     low, high = y - dy / 2, y + dy / 2
     return _corner(right, high) - _corner(left, high) - _corner(right, low) + _corner(left, low)
 
 
-def _corner(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+def _corner(x: Real, y: Real) -> Real:
     """Integral of 1/r over the rectangle between the origin and (x, y), with the sign of x y."""
     a, b = np.abs(x), np.abs(y)
     positive = (a > 0) & (b > 0)
@@ -63,9 +63,7 @@ def _corner(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float6
     return area * (a * np.arcsinh(b / a) + b * np.arcsinh(a / b))
 
 
-def _quadrature(
-    x: NDArray[np.float64], y: NDArray[np.float64], dx: float, dy: float, points: int
-) -> NDArray[np.float64]:
+def _quadrature(x: Real, y: Real, dx: float, dy: float, points: int) -> Real:
     nodes, weights = np.polynomial.legendre.leggauss(points)
     total = np.zeros_like(x)
     for node_x, weight_x in zip(nodes, weights, strict=True):

@@ -1,42 +1,50 @@
-"""Equations for what is even over blocks of contact nodes, on ever coarser lattices of blocks."""
+"""Equations for pressures that are even over blocks of nodes, on ever coarser lattices."""
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
-Field = NDArray[np.float64]
+from roughline.computing.arrays import Real
 
 GROUP = 4
-"""Blocks along a side of a group, which makes one block of the next lattice."""
+"""Blocks along a side of a group; a group is one block of the next lattice."""
 
-_RIDGE = 1 + 1e-9  # on diagonals, against rounding
+_RIDGE = 1 + 1e-9  # factor on diagonals, against rounding
 
 
 class Lattices:
     """Equations for even pressures on blocks, on a lattice of blocks and ever coarser ones.
 
-    The energies are those of the averaged kernel, and at least these on the diagonal, so all
-    matrices are positive definite.
+    The energies of two blocks are those of the kernel averaged over them. The energy of a block by
+    itself is given, and is never taken below that, so all matrices are positive definite.
+
+    Parameters
+    ----------
+    kernels : tuple of ndarray
+        For each lattice, the averaged kernel by the distance of two blocks. [length / pressure]
+    count : ndarray
+        Nodes in each block of the finest lattice.
+    energy : ndarray
+        Energy of unit pressure on the nodes of each block. [length / pressure]
     """
 
-    def __init__(self, between: tuple[Field, ...], count: Field, energy: Field) -> None:
+    def __init__(self, kernels: tuple[Real, ...], count: Real, energy: Real) -> None:
         self._groups: list[_Groups] = []
-        for kernel in between[:-1]:
+        for kernel in kernels[:-1]:
             self._groups.append(_Groups(kernel, count, energy))
             count, energy = self._groups[-1].count, self._groups[-1].energy
         self._occupied = np.flatnonzero(count)
         x, y = np.divmod(self._occupied, count.shape[1])
-        matrix = between[-1][abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
+        matrix = kernels[-1][abs(x[:, np.newaxis] - x), abs(y[:, np.newaxis] - y)]
         weights = count.ravel()[self._occupied]
         matrix *= weights[:, np.newaxis] * weights
         set_diagonal(matrix, energy.ravel()[self._occupied])
         self._factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
         self._shape = count.shape
 
-    def __call__(self, sums: Field) -> Field:
-        """Return the pressure on the nodes of each block from the sum of their residuals."""
+    def __call__(self, sums: Real) -> Real:
+        """Return the pressure on the nodes of each block, from the sums of their residuals."""
         levels = []
         for groups in self._groups:
             levels.append(groups.details(sums))
@@ -55,7 +63,7 @@ class Lattices:
 class _Groups:
     """Groups of the blocks of a lattice, in each of which pressures sum to zero."""
 
-    def __init__(self, kernel: Field, count: Field, energy: Field) -> None:
+    def __init__(self, kernel: Real, count: Real, energy: Real) -> None:
         self._shape = count.shape
         self._lattice = tuple(-(-n // GROUP) for n in count.shape)
         counts, energies = self._grouped(count), self._grouped(energy)
@@ -67,25 +75,25 @@ class _Groups:
         set_diagonal(matrices, energies)
         self.count = counts.sum(axis=1).reshape(self._lattice)
         self.energy = matrices.sum(axis=(1, 2)).reshape(self._lattice)
-        set_diagonal(matrices, np.where(counts == 0, 1.0, energies))  # any number will do
+        set_diagonal(matrices, np.where(counts == 0, 1.0, energies))  # no node: any number
         self._inverses = np.linalg.inv(matrices)
         even = np.einsum("gij,gj->gi", self._inverses, counts)
         total = np.maximum(np.einsum("gi,gi->g", even, counts), 1e-300)
         even /= np.sqrt(total)[:, np.newaxis]
         self._inverses -= even[:, :, np.newaxis] * even[:, np.newaxis, :]
 
-    def _grouped(self, values: Field) -> Field:
+    def _grouped(self, values: Real) -> Real:
         """Rearrange a lattice to groups, zero where they reach beyond it."""
         padding = [(0, m * GROUP - n) for m, n in zip(self._lattice, self._shape, strict=True)]
         padded = np.pad(values, padding)
         split = padded.reshape(self._lattice[0], GROUP, self._lattice[1], GROUP)
         return split.transpose(0, 2, 1, 3).reshape(-1, GROUP**2)
 
-    def sums(self, values: Field) -> Field:
+    def sums(self, values: Real) -> Real:
         """Sum over each group."""
         return self._grouped(values).sum(axis=1).reshape(self._lattice)
 
-    def details(self, sums: Field) -> Field:
+    def details(self, sums: Real) -> Real:
         """Return the pressures that sum to zero in each group."""
         pressure = np.einsum("gij,gj->gi", self._inverses, self._grouped(sums))
         (mx, my), (nx, ny) = self._lattice, self._shape
@@ -93,7 +101,7 @@ class _Groups:
         return split.reshape(mx * GROUP, my * GROUP)[:nx, :ny]
 
 
-def set_diagonal(matrices: Field, energies: Field) -> None:
+def set_diagonal(matrices: Real, energies: Real) -> None:
     """Set the last two axes' diagonal to the energies, or to what is there where that is more."""
     diagonal = np.arange(matrices.shape[-1])
     matrices[..., diagonal, diagonal] = _RIDGE * np.maximum(

@@ -1,19 +1,14 @@
-"""Compiled loops; they know arrays only."""
+"""Compiled loops over arrays."""
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
+from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
-
-Real = NDArray[np.floating]
-Indices = NDArray[np.integer]
 
 
 @compiled
 def scatter_pairs(
-    values: Real, starts: Indices, columns: Indices, first: int, last: int, pairs: Real
+    values: Floats, starts: Integers, columns: Integers, first: int, last: int, pairs: Floats
 ) -> None:
     """Write the values of two rows each into the real and imaginary parts of one complex row.
 
@@ -39,24 +34,24 @@ def scatter_pairs(
 
 @compiled
 def gather_pairs(
-    pairs: Real, starts: Indices, columns: Indices, first: int, last: int, values: Real
+    pairs: Floats, starts: Integers, columns: Integers, first: int, last: int, values: Floats
 ) -> None:
-    """Read the values back that belong to the places of some rows; undoes scatter_pairs."""
+    """Read back the values that scatter_pairs wrote."""
     for row in range(2 * first, min(2 * last, starts.size - 1)):
         for i in range(starts[row], starts[row + 1]):
             values[i] = pairs[row // 2, columns[i], row % 2]
 
 
 @compiled
-def gather_rows(pairs: Real, first: int, last: int, field: Real) -> None:
-    """Read whole rows back, cropped to the field."""
+def gather_rows(pairs: Floats, first: int, last: int, field: Floats) -> None:
+    """Read back whole rows, cropped to the field."""
     for row in range(2 * first, min(2 * last, field.shape[0])):
         for column in range(field.shape[1]):
             field[row, column] = pairs[row // 2, column, row % 2]
 
 
 @compiled
-def load_columns(pairs: Real, rows: Indices, first: int, columns: Real) -> None:
+def load_columns(pairs: Floats, rows: Integers, first: int, columns: Floats) -> None:
     """Separate two real rows from each complex one, for a block of modes, and pad with zeros.
 
     A = (Z(k) + Z(-k)*) / 2 and B = (Z(k) - Z(-k)*) / 2i are the spectra of the real and imaginary
@@ -92,7 +87,7 @@ def load_columns(pairs: Real, rows: Indices, first: int, columns: Real) -> None:
 
 
 @compiled
-def weigh_columns(columns: Real, quarter: Real, first: int) -> None:
+def weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
     """Multiply a block of modes by an even spectrum of which a quarter is given."""
     period = columns.shape[0]
     for i in range(period):
@@ -104,8 +99,8 @@ def weigh_columns(columns: Real, quarter: Real, first: int) -> None:
 
 
 @compiled
-def store_columns(columns: Real, rows: Indices, first: int, pairs: Real) -> None:
-    """Join two rows into each complex one; undoes load_columns, for the rows wanted."""
+def store_columns(columns: Floats, rows: Integers, first: int, pairs: Floats) -> None:
+    """Join two real rows into each complex one: the inverse of load_columns, for some rows."""
     period = pairs.shape[1]
     for pair in range((rows.size + 1) // 2):
         z = pairs[pair]
@@ -128,7 +123,7 @@ def store_columns(columns: Real, rows: Indices, first: int, pairs: Real) -> None
 
 
 @compiled
-def sum_blocks(values: Real, block: Indices, sums: Real) -> None:
+def sum_blocks(values: Floats, block: Integers, sums: Floats) -> None:
     """Sum the values of the nodes of each block."""
     sums[:] = 0
     for i in range(values.size):
@@ -136,36 +131,37 @@ def sum_blocks(values: Real, block: Indices, sums: Real) -> None:
 
 
 @compiled
-def undo_details(
-    residual: Real,
-    places: Indices,
-    block: Indices,
-    means: Real,
-    grid: Real,
-    offsets: Indices,
-    taps: Real,
-    result: Real,
-    sums: Real,
+def scatter_details(
+    values: Floats, block: Integers, means: Floats, places: Integers, grid: Floats
 ) -> None:
-    """Apply a stencil to what is left of a residual without its means over blocks.
+    """Write values without their means over blocks to their places in a flat grid."""
+    for i in range(places.size):
+        grid[places[i]] = values[i] - means[block[i]]
+
+
+@compiled
+def apply_stencil(
+    grid: Floats,
+    places: Integers,
+    offsets: Integers,
+    taps: Floats,
+    block: Integers,
+    result: Floats,
+    sums: Floats,
+) -> None:
+    """Apply a stencil at some places of a flat grid, and set these to zero again.
 
     Parameters
     ----------
-    residual : ndarray, shape (nodes,)
-        Values on the contact nodes.
-    places, block : ndarray of int, shape (nodes,)
-        Where each node lies in `grid`, and the block to which it belongs.
-    means : ndarray, shape (blocks,)
-        Mean of the residual over each block's nodes.
     grid : ndarray
-        A flat grid with a margin as wide as the stencil; zero on entry and again on return.
+        With a margin as wide as the stencil, and zero but at the places.
+    places, block : ndarray of int, shape (nodes,)
+        Where each contact node lies in `grid`, and the block to which it belongs.
     offsets, taps : ndarray, shape (taps,)
         Flat offsets of the stencil and its coefficients.
     result, sums : ndarray, shape (nodes,) and (blocks,)
         Overwritten: the pressures and their sums over blocks.
     """
-    for i in range(places.size):
-        grid[places[i]] = residual[i] - means[block[i]]
     sums[:] = 0
     for i in range(places.size):
         total = 0.0
@@ -178,7 +174,7 @@ def undo_details(
 
 
 @compiled
-def add_blocks(values: Real, block: Indices, result: Real) -> None:
+def add_blocks(values: Floats, block: Integers, result: Floats) -> None:
     """Add to each node the value of its block."""
     for i in range(block.size):
         result[i] += values[block[i]]

@@ -5,20 +5,18 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Indices, Mask
 from roughline.halfspace.state import Contact
 
-Field = NDArray[np.float64]
-Nodes = NDArray[np.intp]
-
-_A_PAIR = (math.pi - 1 + math.log(2)) / 24  # cells for a pair of neighbours, one of them in contact
+# Cells by which the area is overstated, for each pair of neighbours of which one is in contact.
+_PER_PAIR = (math.pi - 1 + math.log(2)) / 24
 
 # Gap beyond the outline over (pressure within it times spacing over E*). On a summit it is of order
-# one, 4/3 s^(3/2) / (1 - s)^(1/2) for an edge at the share s of the way. On a plateau, where the
-# body falls away and not the contact, it has no bound.
+# one: 4/3 s^(3/2) / (1 - s)^(1/2) if the edge of the contact is at the share s of the way between
+# the two nodes. At the edge of a plateau, where the body itself falls away, it has no bound.
 _STEEP = 2.0
-_STEEP_ALONE = 20.0  # where the contact is one cell wide and no inner pressure tells
+_STEEP_ALONE = 20.0  # where the contact is one cell wide, so that there is no inner pressure
 
 
 def overstated_cells(
@@ -28,9 +26,9 @@ def overstated_cells(
 
     Under a summit a cell on the outline counts as a whole where it touches in part, which
     overstates the area by (pi - 1 + ln 2) / 24 cells for each pair of neighbours of which one
-    touches [1]_. On a plateau the outline is that of the body: points hit as much of it as they
-    miss, and the count is right. There the pressure rises towards the outline, and the gap beyond
-    is steep. A pair of which both hold counts with 2 p spacing / (E* gap) of the correction.
+    touches [1]_. On a plateau the outline is that of the body. Cells overstate it as often as they
+    understate it, and the count is right. There the pressure rises towards the outline, and the gap
+    beyond it is steep. Where both are so, a pair has 2 p spacing / (E* gap) of the correction.
 
     Parameters
     ----------
@@ -44,7 +42,7 @@ def overstated_cells(
     Returns
     -------
     most, estimate : float
-        With all of the outline under summits, and with plateaus told apart. [1]
+        As if all of the outline were under summits, and with plateaus told apart. [1]
 
     References
     ----------
@@ -52,36 +50,36 @@ def overstated_cells(
        contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
        (2017).
     """
-    pressing = contact.pressure > 0
-    nodes, pressure = contact.nodes[pressing], contact.pressure[pressing]
+    loaded = contact.pressure > 0
+    nodes, pressure = contact.nodes[loaded], contact.pressure[loaded]
     touching = np.zeros(contact.gap.size, dtype=bool)
     touching[nodes] = True
     pairs, summits = 0, 0.0
     for axis in (0, 1):
         for step in (1, -1):
-            beyond, there = _neighbours(nodes, contact.gap.shape, axis, step, periodic)
-            outer = there & ~touching[beyond]
+            beyond, exist = _neighbours(nodes, contact.gap.shape, axis, step, periodic)
+            outer = exist & ~touching[beyond]
             edge, gap = pressure[outer], contact.gap.flat[beyond[outer]]
-            within, there = _neighbours(nodes[outer], contact.gap.shape, axis, -step, periodic)
-            there &= touching[within]
+            within, loaded_too = _neighbours(nodes[outer], contact.gap.shape, axis, -step, periodic)
+            loaded_too &= touching[within]
             rising = np.zeros(edge.size, dtype=bool)
-            inner = np.searchsorted(nodes, within[there])
-            rising[there] = edge[there] > pressure[inner]
-            smooth = edge * spacing[axis] * np.where(there, _STEEP, _STEEP_ALONE)
-            steep = (rising | ~there) & (gap > smooth)
+            inner = np.searchsorted(nodes, within[loaded_too])
+            rising[loaded_too] = edge[loaded_too] > pressure[inner]
+            smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP, _STEEP_ALONE)
+            steep = (rising | ~loaded_too) & (gap > smooth)
             pairs += edge.size
             summits += edge.size - float((1 - smooth[steep] / gap[steep]).sum())
-    return _A_PAIR * pairs, _A_PAIR * summits
+    return _PER_PAIR * pairs, _PER_PAIR * summits
 
 
 def _neighbours(
-    nodes: Nodes, shape: tuple[int, ...], axis: int, step: int, periodic: bool
-) -> tuple[Nodes, NDArray[np.bool_]]:
+    nodes: Indices, shape: tuple[int, ...], axis: int, step: int, periodic: bool
+) -> tuple[Indices, Mask]:
     """Flat indices of the neighbours along an axis, and whether there are any."""
-    at = list(np.divmod(nodes, shape[1]))
-    at[axis] = at[axis] + step
-    there = np.ones(nodes.size, dtype=bool)
+    position = list(np.divmod(nodes, shape[1]))
+    position[axis] = position[axis] + step
+    exist = np.ones(nodes.size, dtype=bool)
     if not periodic:
-        there = (at[axis] >= 0) & (at[axis] < shape[axis])
-    at[axis] %= shape[axis]
-    return at[0] * shape[1] + at[1], there
+        exist = (position[axis] >= 0) & (position[axis] < shape[axis])
+    position[axis] %= shape[axis]
+    return position[0] * shape[1] + position[1], exist

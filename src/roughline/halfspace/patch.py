@@ -3,95 +3,102 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.halfspace.operator import Operator, Places, Precision
-from roughline.halfspace.preconditioner import Approximation, preconditioner
-
-Vector = NDArray[np.float64]
-Nodes = NDArray[np.intp]
+from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.contact_set import merged
+from roughline.halfspace.operator import GridNodes, Operator, Precision
+from roughline.halfspace.preconditioner import ApproximateInverse, preconditioner
 
 
 class Patch:
-    """A set of contact nodes of one operator; all vectors run over these nodes only.
+    """The elastic equations on a set of nodes; all vectors run over these nodes only.
 
     Parameters
     ----------
-    operator, approximation
-        The half-space and what its preconditioner knows of it.
+    operator : Operator
+        Displacement under pressures on the whole grid.
+    inverse : ApproximateInverse
+        Approximate inverse of the operator, for the preconditioner.
     nodes : ndarray of int
         Flat indices in the grid, ascending.
     watched : ndarray of int, optional
-        Nodes off the contact whose displacement is followed as well.
+        Other nodes whose displacement is computed as well.
     """
 
     def __init__(
         self,
         operator: Operator,
-        approximation: Approximation,
-        nodes: Nodes,
-        watched: Nodes | None = None,
+        inverse: ApproximateInverse,
+        nodes: Indices,
+        watched: Indices | None = None,
     ) -> None:
-        self.operator = operator
-        self.nodes = nodes
-        self.places = Places.of(nodes, operator.shape)
-        self.precondition = preconditioner(approximation, self.places)
-        self._targets = self.places
+        self._operator = operator
+        self._nodes = GridNodes.of(nodes, operator.shape)
+        self.precondition = preconditioner(inverse, self._nodes)
+        self._targets = self._nodes
         if watched is not None and watched.size:
             both, order = merged(nodes, watched)
-            self._targets = Places.of(both, operator.shape)
-            self._is_contact = order < nodes.size
+            self._targets = GridNodes.of(both, operator.shape)
+            self._in_patch = order < nodes.size
 
-    def displacement(self, pressure: Vector, precision: Precision) -> tuple[Vector, Vector]:
+    def displacement(self, pressure: Real, precision: Precision) -> tuple[Real, Real]:
         """Displacement of the nodes, and of the watched ones, under pressures on the nodes."""
-        found = self.operator.convolve(pressure, self.places, self._targets, precision)
-        if self._targets is self.places:
-            return found, found[:0]
-        return found[self._is_contact], found[~self._is_contact]
+        displacement = self._operator.displacement(pressure, self._nodes, self._targets, precision)
+        if self._targets is self._nodes:
+            return displacement, displacement[:0]
+        return displacement[self._in_patch], displacement[~self._in_patch]
 
 
 class ConjugateGradients:
     """Steps towards the pressures that displace the nodes of a patch by a target.
 
     With `fixed_total` the sum of the pressures stays as it is, and the nodes are displaced by
-    ``target + level``, the level being found as well: residuals are projected so that no step
-    changes the sum (Polonsky and Keer 1999, here with a preconditioner).
+    ``target + level``. The level is an unknown then, found from the condition that no step changes
+    the sum. These are the conjugate gradients of Polonsky and Keer [1]_ with a preconditioner, and
+    without their corrections of single nodes, which are left to the active set.
 
     Parameters
     ----------
     patch : Patch
         The equations.
     pressure : ndarray, shape (nodes,)
-        Pressures to start from.
+        Pressures to start from; overwritten. [pressure]
     residual : ndarray, shape (nodes,)
-        The target less the displacement that they cause. [length]
+        The target less the displacement that they cause; overwritten. [length]
     watched : ndarray, shape (watched,)
-        Displacement of the watched nodes. [length]
+        Displacement of the watched nodes, from any datum; overwritten. [length]
     fixed_total : bool
         Whether the total load or the level is prescribed.
     precision : {"float64", "float32"}
-        Of the convolutions.
+        Precision of the convolutions.
 
     Attributes
     ----------
     pressure, watched : ndarray
-        After the steps so far.
+        Pressures, and displacements of the watched nodes, after the steps so far.
     level : float
         The uniform displacement that goes with a fixed total; zero where the total is free.
+        [length]
     error : ndarray, shape (nodes,)
         Displacement that is still missing. [length]
     energy : float
         Estimate of the energy norm of the error, squared. [pressure length]
     steps : int
-        Steps, and so convolutions, done.
+        Steps done; each takes one convolution.
+
+    References
+    ----------
+    .. [1] I. A. Polonsky and L. M. Keer, "A numerical method for solving rough contact problems
+       based on the multi-level multi-summation and conjugate gradient techniques", Wear 231,
+       206-219 (1999).
     """
 
     def __init__(
         self,
         patch: Patch,
-        pressure: Vector,
-        residual: Vector,
-        watched: Vector,
+        pressure: Real,
+        residual: Real,
+        watched: Real,
         *,
         fixed_total: bool,
         precision: Precision,
@@ -109,6 +116,7 @@ class ConjugateGradients:
         self._project()
 
     def _project(self) -> None:
+        """Precondition the residual; with a fixed total, so that the sum of the step is zero."""
         self._step = self._patch.precondition(self._residual)
         if self._ones is not None:
             self.level = -float(self._step.sum() / self._ones.sum())
@@ -118,23 +126,20 @@ class ConjugateGradients:
 
     def advance(self) -> bool:
         """Do one step; return False if there is nothing more to gain."""
-        self._direction *= self.energy / self._energy_before  # nothing yet on the first step
+        # 1. The new direction is conjugate to the last one, which is zero before the first step.
+        self._direction *= self.energy / self._energy_before
         self._direction += self._step
+        # 2. The displacement that it causes, by one convolution.
         response, watched = self._patch.displacement(self._direction, self._precision)
         curvature = float(self._direction @ response)
         if not (curvature > 0 and self.energy > 0):
             return False
+        # 3. Go along it to the least energy.
         length = self.energy / curvature
         self.pressure += length * self._direction
         self.watched += length * watched
         self._residual -= length * response
         self.steps += 1
+        # 4. Project and precondition what is left.
         self._project()
         return True
-
-
-def merged(nodes: Nodes, others: Nodes) -> tuple[Nodes, NDArray[np.intp]]:
-    """Merge two ascending, disjoint lists; also return where each entry stood in their chain."""
-    chain = np.concatenate([nodes, others])
-    order = np.argsort(chain, kind="stable")
-    return chain[order], order

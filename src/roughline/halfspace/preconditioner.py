@@ -1,9 +1,10 @@
 """An approximate inverse of the half-space on any set of contact nodes.
 
-Neighbours within two cells are undone by a stencil, the inverse convolution cut short; what is
-smooth over blocks of 16 cells by small dense systems for the mean pressure of each block, block by
-block on ever coarser lattices. The spaces are split by zero means, so each level adds only what
-the coarser ones cannot represent; the splitting is stable for operators of this order [1]_ [2]_.
+Neighbours within two cells are inverted by a stencil, which is the inverse convolution cut short.
+What is smooth over blocks of 16 cells is inverted by small dense systems for the mean pressure of
+each block, on ever coarser lattices of blocks. The spaces are split by zero means, so each level
+adds only what the coarser ones cannot represent; the splitting is stable for operators of this
+order [1]_ [2]_.
 
 References
 ----------
@@ -19,63 +20,61 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
 
+from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
 from roughline.halfspace import loops
 from roughline.halfspace.lattices import GROUP, Lattices, set_diagonal
-from roughline.halfspace.operator import Operator, Places
+from roughline.halfspace.operator import GridNodes, Operator
 
-Field = NDArray[np.float64]
-Indices = NDArray[np.integer] | NDArray[np.floating]
-
-_RADIUS = 2  # of the stencil, in cells where these are square
-_BLOCK = 16  # cells along the side of a block, where they are square
-_FEW = 300  # nodes whose equations are solved directly
-_STRETCH = 4.0  # stencil and blocks follow the shape of oblong cells up to here
-_COARSEST = 32  # blocks along a side of the lattice that is solved directly
-_ROUNDED = 1 + 1e-6  # on the diagonal, where the kernel is in single precision
+_RADIUS = 2  # of the stencil in cells, where these are square
+_BLOCK = 16  # cells along the side of a block, where these are square
+_DIRECT = 300  # nodes or fewer, whose equations are solved directly
+_STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
+_COARSEST = 32  # blocks along a side of the lattice whose equations are solved directly
+_SINGLE_RIDGE = 1 + 1e-6  # factor on diagonals, against the rounding of single precision
 
 
 @dataclass(frozen=True, eq=False)
-class Approximation:
-    """What the preconditioner knows of an operator.
+class ApproximateInverse:
+    """What the approximate inverses of an operator on all sets of nodes have in common.
 
     Attributes
     ----------
     operator : Operator
-        The half-space.
+        Displacement under pressures on the whole grid.
     offsets : ndarray of int, shape (taps, 2)
         Cells from the centre of the stencil.
     taps : ndarray, shape (taps,)
-        Its coefficients. All but the central one are negative and together weigh less than it, so
-        the stencil cut to any set of nodes is positive definite. [pressure / length]
+        Coefficients of the stencil. All but the central one are negative, and together they weigh
+        less than it, so the stencil cut to any set of nodes is positive definite.
+        [pressure / length]
     margins : tuple of int
         Cells that the stencil reaches along x and y.
-    sides : tuple of int
+    block_sides : tuple of int
         Cells along the sides of the smallest blocks.
-    own : float
-        Displacement of a node by its own pressure. [length / pressure]
-    between : tuple of ndarray
-        For each lattice, displacement of a node by the pressure on another, averaged over their
-        blocks, by the distance of these. A positive definite function, as the kernel is.
+    diagonal : float
+        Diagonal of the operator: displacement of a node by the pressure on itself.
         [length / pressure]
+    block_kernels : tuple of ndarray
+        For each lattice, displacement of a node by the pressure on another, averaged over the
+        blocks of the two, by the distance of these blocks. A positive definite function, as the
+        kernel is. [length / pressure]
     """
 
     operator: Operator
-    offsets: NDArray[np.intp]
-    taps: Field
+    offsets: Indices
+    taps: Real
     margins: tuple[int, int]
-    sides: tuple[int, int]
-    own: float
-    between: tuple[Field, ...]
+    block_sides: tuple[int, int]
+    diagonal: float
+    block_kernels: tuple[Real, ...]
 
     @classmethod
-    def of(cls, operator: Operator) -> Approximation:
+    def of(cls, operator: Operator) -> ApproximateInverse:
         """Derive it from the operator's spectrum."""
-        # even pressure displaces nothing in a periodic half-space: let it displace as the rest does
-        raised = float(operator.spectrum.max()) if operator.is_periodic else 0.0
-        own = _even_sum(operator, operator.spectrum, [np.zeros(1)] * 2)[0, 0] + raised
+        raised = _raised(operator)
+        diagonal = _even_sum(operator, operator.spectrum, [np.zeros(1)] * 2)[0, 0] + raised
         dx, dy = operator.spacing
         stretch = float(np.clip(np.sqrt(dy / dx), 1 / _STRETCH, _STRETCH))
         nx, ny = operator.shape
@@ -83,40 +82,47 @@ class Approximation:
             min(max(1, round(_BLOCK * stretch)), nx),
             min(max(1, round(_BLOCK / stretch)), ny),
         )
-        between = []
+        block_kernels = []
         sides = smallest
         while True:
             lags = [
                 side * np.arange(-(-n // side))
                 for side, n in zip(sides, operator.shape, strict=True)
             ]
-            between.append(_even_sum(operator, operator.spectrum, lags, sides) + raised)
-            if max(between[-1].shape) <= _COARSEST:
+            block_kernels.append(_even_sum(operator, operator.spectrum, lags, sides) + raised)
+            if max(block_kernels[-1].shape) <= _COARSEST:
                 break
             sides = GROUP * sides[0], GROUP * sides[1]
         offsets, taps = _stencil(operator, stretch)
         margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
-        return cls(operator, offsets, taps, margins, smallest, own, tuple(between))
+        return cls(operator, offsets, taps, margins, smallest, diagonal, tuple(block_kernels))
 
     @cached_property
-    def kernel(self) -> NDArray[np.float32]:
-        """Displacement by the distance in cells from unit pressure on one node."""
-        pressure = np.ones(1)
-        corner = Places.of(np.zeros(1, dtype=np.intp), self.operator.shape)
-        kernel = self.operator.convolve(pressure, corner, None, "float32")
-        if self.operator.is_periodic:
-            kernel += self.operator.spectrum.max()
+    def kernel(self) -> Single:
+        """Displacement under unit pressure on one node, by the distance from it in cells."""
+        corner = GridNodes.of(np.zeros(1, dtype=np.intp), self.operator.shape)
+        kernel = self.operator.displacement(np.ones(1), corner, None, "float32")
+        kernel += _raised(self.operator)
         return kernel.astype(np.float32)
 
     @cached_property
-    def grid(self) -> NDArray[np.float32]:
-        """Room for the grid and the stencil's margin; zero whenever it is not in use."""
+    def padded_grid(self) -> Single:
+        """Memory for values on the grid and on the stencil's margin; zero when not in use."""
         nx, ny = self.operator.shape
-        room = (nx + 2 * self.margins[0]) * (ny + 2 * self.margins[1])
-        return np.zeros(room, dtype=np.float32)
+        points = (nx + 2 * self.margins[0]) * (ny + 2 * self.margins[1])
+        return np.zeros(points, dtype=np.float32)
 
 
-def _stencil(operator: Operator, stretch: float) -> tuple[NDArray[np.intp], Field]:
+def _raised(operator: Operator) -> float:
+    """Return what is added to the kernel, so that even pressure displaces as other pressures do.
+
+    Nothing, unless even pressure displaces nothing.
+    """
+    return float(operator.spectrum.max()) if operator.zero_mean else 0.0
+
+
+def _stencil(operator: Operator, stretch: float) -> tuple[Indices, Real]:
+    """Return offsets and coefficients of the inverse convolution, cut short."""
     scale = operator.periods[0] * operator.periods[1]
     inverse = np.zeros_like(operator.spectrum)
     np.divide(1 / scale**2, operator.spectrum, out=inverse, where=operator.spectrum > 0)
@@ -137,9 +143,12 @@ def _stencil(operator: Operator, stretch: float) -> tuple[NDArray[np.intp], Fiel
 
 
 def _even_sum(
-    operator: Operator, quarter: Field, lags: Sequence[Indices], sides: Sequence[int] = (1, 1)
-) -> Field:
-    """Transform an even spectrum given by its quarter, at the lags wanted only.
+    operator: Operator,
+    quarter: Real,
+    lags: Sequence[Integers | Floats],
+    sides: Sequence[int] = (1, 1),
+) -> Real:
+    """Transform an even spectrum, given by its quarter, and only at the lags that are wanted.
 
     With `sides`, the result is averaged over all pairs of cells of two blocks at these lags.
     """
@@ -152,26 +161,26 @@ def _even_sum(
             weights[-1] = 1.0
         angle = np.pi / period * modes[1:]
         weights[1:] *= (np.sin(sides[axis] * angle) / (sides[axis] * np.sin(angle))) ** 2
-        # the product modulo the period keeps the angle small and exact
+        # modulo the period, the product and so the angle stay small and exact
         cosines = weights * np.cos(2 * np.pi / period * (np.outer(lags[axis], modes) % period))
         result = np.moveaxis(np.tensordot(cosines, result, axes=(1, axis)), 0, axis)
     return result
 
 
-Preconditioner = Callable[[Field], Field]
-"""Returns the pressure change that would undo a residual, were the inverse exact."""
+Preconditioner = Callable[[Real], Real]
+"""Returns the change of pressure that causes a displacement; exactly so, were the inverse exact."""
 
 
-def preconditioner(approximation: Approximation, places: Places) -> Preconditioner:
+def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> Preconditioner:
     """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
-    if places.nodes.size > _FEW:
-        return _Multilevel(approximation, places)
-    rows = np.repeat(places.rows, np.diff(places.starts))
-    columns = places.columns
-    matrix = approximation.kernel[
+    if nodes.indices.size > _DIRECT:
+        return _Multilevel(inverse, nodes)
+    rows = np.repeat(nodes.rows, np.diff(nodes.starts))
+    columns = nodes.columns
+    matrix = inverse.kernel[
         abs(rows[:, np.newaxis] - rows), abs(columns[:, np.newaxis] - columns)
     ].astype(np.float64)
-    set_diagonal(matrix, matrix.diagonal() * _ROUNDED)
+    set_diagonal(matrix, matrix.diagonal() * _SINGLE_RIDGE)
     factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
     return lambda residual: cho_solve(factor, residual, check_finite=False)
 
@@ -179,49 +188,37 @@ def preconditioner(approximation: Approximation, places: Places) -> Precondition
 class _Multilevel:
     """The approximate inverse on many contact nodes."""
 
-    def __init__(self, approximation: Approximation, places: Places) -> None:
-        margins, sides = approximation.margins, approximation.sides
-        rows = np.repeat(places.rows, np.diff(places.starts))
-        width = approximation.operator.shape[1] + 2 * margins[1]
-        self._taps = approximation.taps
-        self._offsets = approximation.offsets @ np.array([width, 1])
-        self._grid = approximation.grid
+    def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
+        margins, sides = inverse.margins, inverse.block_sides
+        rows = np.repeat(nodes.rows, np.diff(nodes.starts))
+        width = inverse.operator.shape[1] + 2 * margins[1]
+        self._taps = inverse.taps
+        self._offsets = inverse.offsets @ np.array([width, 1])
+        self._grid = inverse.padded_grid
         index: type[np.integer] = np.int32 if self._grid.size < 2**31 else np.int64
-        self._places = ((rows + margins[0]) * width + places.columns + margins[1]).astype(index)
-        lattice = approximation.between[0].shape
-        self._lattice = lattice
-        block = (rows // sides[0]) * lattice[1] + places.columns // sides[1]
+        self._places = ((rows + margins[0]) * width + nodes.columns + margins[1]).astype(index)
+        kernel = inverse.block_kernels[0]
+        self._lattice = kernel.shape
+        block = (rows // sides[0]) * self._lattice[1] + nodes.columns // sides[1]
         self._block = block.astype(np.int32)
-        count = np.bincount(self._block, minlength=lattice[0] * lattice[1]).astype(np.float64)
+        count = np.bincount(self._block, minlength=kernel.size).astype(np.float64)
         self._per_node = 1 / np.maximum(count, 1.0)
-        energy = count**2 * approximation.between[0][0, 0]
-        # nodes at random in a block of so many cells
-        energy += (
-            count
-            * (1 - count / (sides[0] * sides[1]))
-            * (approximation.own - approximation.between[0][0, 0])
-        )
+        energy = count**2 * kernel[0, 0]
+        # as if the nodes of a block lay at random in it
+        energy += count * (1 - count / (sides[0] * sides[1])) * (inverse.diagonal - kernel[0, 0])
         self._coarse = Lattices(
-            approximation.between, count.reshape(lattice), energy.reshape(lattice)
+            inverse.block_kernels, count.reshape(self._lattice), energy.reshape(self._lattice)
         )
 
-    def __call__(self, residual: Field) -> Field:
-        """Return the pressure change that would undo `residual`, were the inverse exact."""
+    def __call__(self, residual: Real) -> Real:
+        """Return the change of pressure that causes the displacement `residual`, about."""
         result = np.empty_like(residual)
         sums, sums_of_result = np.empty((2, self._per_node.size))
-        loops.sum_blocks(residual, self._block, sums)
-        loops.undo_details(
-            residual,
-            self._places,
-            self._block,
-            sums * self._per_node,
-            self._grid,
-            self._offsets,
-            self._taps,
-            result,
-            sums_of_result,
-        )
+        places, block, grid = self._places, self._block, self._grid
+        loops.sum_blocks(residual, block, sums)
+        loops.scatter_details(residual, block, sums * self._per_node, places, grid)
+        loops.apply_stencil(grid, places, self._offsets, self._taps, block, result, sums_of_result)
         means = self._coarse(sums.reshape(self._lattice)).ravel()
         means -= sums_of_result * self._per_node
-        loops.add_blocks(means, self._block, result)
+        loops.add_blocks(means, block, result)
         return result

@@ -6,15 +6,11 @@ import enum
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
+from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.conditions import Residuals, UnilateralContact
+from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import Operator, Precision
-from roughline.halfspace.preconditioner import Approximation
-
-Field = NDArray[np.float64]
-Vector = NDArray[np.float64]
-Nodes = NDArray[np.intp]
+from roughline.halfspace.preconditioner import ApproximateInverse
 
 
 class Outcome(enum.Enum):
@@ -27,30 +23,44 @@ class Outcome(enum.Enum):
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A body over a half-space, before any load.
+    """A rough body over a half-space on a grid, before any load.
 
     Attributes
     ----------
-    operator : Operator
+    half_space : HalfSpace
         The half-space.
-    approximation : Approximation
-        What its preconditioner knows of it.
+    operator : Operator
+        Its displacements under pressures on the grid.
+    inverse : ApproximateInverse
+        Approximate inverse of the operator.
     separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch, zero at the highest point. [length]
     rms_height : float
         Gaps are compared with this, or with the depth where that is smaller; zero for a flat
         punch, where it is the depth. [length]
+    conditions : UnilateralContact
+        What pressures and gaps obey.
     """
 
+    half_space: HalfSpace
     operator: Operator
-    approximation: Approximation
-    separation: Field
+    inverse: ApproximateInverse
+    separation: Real
     rms_height: float
+    conditions: UnilateralContact
 
     @classmethod
-    def of(cls, operator: Operator, separation: Field, rms_height: float) -> Problem:
-        """Put a body over a half-space."""
-        return cls(operator, Approximation.of(operator), separation, rms_height)
+    def of(
+        cls,
+        half_space: HalfSpace,
+        operator: Operator,
+        separation: Real,
+        rms_height: float,
+        conditions: UnilateralContact,
+    ) -> Problem:
+        """Put a rough body over a half-space; the operator is one that the half-space made."""
+        inverse = ApproximateInverse.of(operator)
+        return cls(half_space, operator, inverse, separation, rms_height, conditions)
 
 
 @dataclass(frozen=True)
@@ -64,7 +74,7 @@ class Method:
     max_iterations : int
         Bound on the convolutions of one load.
     precision : {"mixed", "float64", "float32"}
-        Of the convolutions; mixed: steps in single precision, residuals in double.
+        Precision of the convolutions. Mixed: steps in single precision, residuals in double.
     """
 
     rtol: float
@@ -78,7 +88,7 @@ class Method:
 
     @property
     def certificate(self) -> Precision:
-        """Precision of the residuals."""
+        """Precision of the residuals that are returned."""
         return "float32" if self.precision == "float32" else "float64"
 
 
@@ -97,64 +107,14 @@ class Load:
     depth: float | None = None
     force: float | None = None
 
-
-@dataclass(frozen=True, eq=False)
-class Start:
-    """Where a search for the contact starts from.
-
-    Attributes
-    ----------
-    nodes : ndarray of int
-        Nodes in contact, ascending flat indices; at least one.
-    pressure : ndarray, shape (nodes,)
-        Pressures on them, none negative. [pressure]
-    """
-
-    nodes: Nodes
-    pressure: Vector
-
-
-@dataclass(frozen=True)
-class Residuals:
-    """Violations of the contact conditions, recomputed from the returned pressures.
-
-    Attributes
-    ----------
-    gap, penetration : float
-        Largest gap on contact nodes and overlap off them, over the length scale.
-    tension : float
-        Largest pull, over the mean contact pressure.
-    load : float
-        Error of the force, over the force; zero under depth control.
-    """
-
-    gap: float
-    penetration: float
-    tension: float
-    load: float
-
     @classmethod
-    def of(
-        cls, gap: Field, nodes: Nodes, pressure: Vector, force: float, load: Load, scale: float
-    ) -> Residuals:
-        """Compute them; gaps are compared with the length `scale`."""
-        on_contact = gap.flat[nodes]
-        # gaps on contact count as such whatever their sign, so they may stay in the minimum
-        overlap_everywhere = max(0.0, -float(gap.min()))
-        overlap_on_contact = max(0.0, -float(on_contact.min()))
-        penetration = overlap_everywhere if overlap_everywhere > overlap_on_contact else 0.0
-        pull = max(0.0, -float(pressure.min()))
-        return cls(
-            gap=float(np.abs(on_contact).max()) / scale,
-            penetration=penetration / scale,
-            tension=pull / abs(float(pressure.mean())) if pull else 0.0,
-            load=0.0 if load.force is None else abs(force - load.force) / load.force,
-        )
+    def of(cls, control: Literal["depths", "forces"], value: float) -> Load:
+        """Prescribe one value of the quantity under control."""
+        return cls(force=value) if control == "forces" else cls(depth=value)
 
-    @property
-    def worst(self) -> float:
-        """The largest of the four."""
-        return max(self.gap, self.penetration, self.tension, self.load)
+    def error(self, force: float) -> float:
+        """Return how far a force is from the prescribed one, over it; zero under depth control."""
+        return 0.0 if self.force is None else abs(force - self.force) / self.force
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,20 +130,23 @@ class Contact:
     pressure : ndarray, shape (nodes,)
         Pressures on them. [pressure]
     gap : ndarray, shape (nx, ny)
-        On the whole grid. [length]
+        Gap on the whole grid. [length]
+    separation : ndarray, shape (nx, ny)
+        Distance of the bodies at first touch, as this load leaves their surfaces. [length]
     residuals : Residuals
-        Recomputed from the fields above.
+        Violations of the contact conditions by the fields above.
     outcome : Outcome
-        Whether they are within the tolerance.
+        How the search ended.
     convolutions : int
         Convolutions spent on this load.
     """
 
     depth: float
     force: float
-    nodes: Nodes
-    pressure: Vector
-    gap: Field
+    nodes: Indices
+    pressure: Real
+    gap: Real
+    separation: Real
     residuals: Residuals
     outcome: Outcome
     convolutions: int

@@ -15,18 +15,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Indices, Real
 from roughline.computing.compiled import compiled
 
-_MOST_BINS = 2**16  # numbers of a bin have 16 bits; more would not fit into a core's cache
+_MOST_BINS = 2**16  # a bin's number has 16 bits; more bins would not fit into a core's cache
 
 
 @dataclass(frozen=True, eq=False)
 class Springs:
     """A rough line on springs.
 
-    Springs are counted and summed in bins of separation; only the bins in which a load ends are
-    sorted. The result is that of sorting all of them.
+    Springs are counted in bins of their separation, and only the bins in which the contact under a
+    load ends are sorted. The result is the same as if all springs were sorted.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Springs:
 
     @property
     def separations(self) -> Real:
-        """Distance of each spring at first touch; the least is zero. [length]"""
+        """Distance of each spring from the other body at first touch; the least is 0. [length]"""
         return self._highest - self.heights
 
     @property
@@ -73,7 +73,7 @@ class Springs:
         return (self._bin_count - 1) / deepest if deepest > 0 else 0.0
 
     @cached_property
-    def _binned(self) -> tuple[NDArray[np.uint16], NDArray[np.intp], Real]:
+    def _binned(self) -> tuple[NDArray[np.uint16], Indices, Real]:
         """The bin of each spring; number of springs and sum of separations in each bin."""
         bins = np.empty(self.heights.size, dtype=np.uint16)
         counts = np.zeros(self._bin_count, dtype=np.intp)
@@ -82,36 +82,38 @@ class Springs:
         return bins, counts, sums
 
     @cached_property
-    def _below(self) -> tuple[NDArray[np.intp], Real]:
+    def _below(self) -> tuple[Indices, Real]:
         """Number of springs and sum of their separations below each bin, and in all."""
         _, counts, sums = self._binned
         return np.append(0, np.cumsum(counts)), np.append(0.0, np.cumsum(sums))
 
-    def at_depths(self, depths: Real) -> Touching:
+    def at_depths(self, depths: Real) -> SpringsInContact:
         """Springs in contact at each depth."""
         last = self._below[0].size - 2
         bins = np.minimum(depths * self._bins_per_length, last).astype(np.intp)
-        few = self._sorted(bins)
-        return self._touching(bins, few, np.searchsorted(few.separations, depths, side="left"))
+        springs = self._sorted(bins)
+        ends = np.searchsorted(springs.separations, depths, side="left")
+        return self._in_contact(bins, springs, ends)
 
-    def under_forces(self, forces: Real) -> Touching:
+    def under_forces(self, forces: Real) -> SpringsInContact:
         """Springs in contact under each force."""
         counts, sums = self._below
         edges = np.arange(counts.size - 1) / (self._bins_per_length or 1.0)
         edge_forces = self.spring_stiffness * (counts[:-1] * edges - sums[:-1])
         bins = np.searchsorted(np.maximum.accumulate(edge_forces), forces, side="right") - 1
-        few = self._sorted(bins)
-        touch_forces = few.counts * few.separations - few.sums
-        # equal in exact arithmetic where separations repeat: rounding must not unsort them
+        springs = self._sorted(bins)
+        touch_forces = springs.counts * springs.separations - springs.sums
+        # where separations repeat these are equal, and rounding must not make them fall
         touch_forces = self.spring_stiffness * np.maximum.accumulate(touch_forces)
-        return self._touching(bins, few, np.searchsorted(touch_forces, forces, side="left"))
+        ends = np.searchsorted(touch_forces, forces, side="left")
+        return self._in_contact(bins, springs, ends)
 
     def touch_force(self, count: int) -> float:
         """Force at which one more spring than `count` comes into contact. [force]"""
         nearest = np.partition(self.separations, count)[: count + 1]
         return self.spring_stiffness * float((nearest[count] - nearest).sum())
 
-    def _sorted(self, bins: NDArray[np.intp]) -> _Sorted:
+    def _sorted(self, bins: Indices) -> _SortedSprings:
         """Sort the springs of some bins."""
         counts, sums = self._below
         wanted = np.zeros(counts.size - 1, dtype=bool)
@@ -125,36 +127,49 @@ class Springs:
         # within a bin, ranks and sums go on from those of the bins below
         first = np.searchsorted(bin_of, bin_of)
         sums_before = np.append(0.0, np.cumsum(separations))[:-1]
-        return _Sorted(
+        return _SortedSprings(
             bin_of,
             separations,
             counts[bin_of] + np.arange(bin_of.size) - first,
             sums[bin_of] + sums_before - sums_before[first],
         )
 
-    def _touching(self, bins: NDArray[np.intp], few: _Sorted, found: NDArray[np.intp]) -> Touching:
-        """Springs below the found ones, or below the next bin where these are of another."""
+    def _in_contact(
+        self, bins: Indices, springs: _SortedSprings, ends: Indices
+    ) -> SpringsInContact:
+        """Return the springs in contact under each load.
+
+        Parameters
+        ----------
+        bins : ndarray of int, shape (loads,)
+            The bin in which the contact under each load ends.
+        springs : _SortedSprings
+            The springs of these bins.
+        ends : ndarray of int, shape (loads,)
+            Position among them of the first spring that is not in contact. If it belongs to another
+            bin, all springs of its load's bin are in contact.
+        """
         counts, sums = self._below
-        at = np.minimum(found, few.bin.size - 1)
-        inside = (found < few.bin.size) & (few.bin[at] == bins)
-        return Touching(
-            np.where(inside, few.counts[at], counts[bins + 1]),
-            np.where(inside, few.sums[at], sums[bins + 1]),
+        position = np.minimum(ends, springs.bin.size - 1)
+        inside = (ends < springs.bin.size) & (springs.bin[position] == bins)
+        return SpringsInContact(
+            np.where(inside, springs.counts[position], counts[bins + 1]),
+            np.where(inside, springs.sums[position], sums[bins + 1]),
             self.spring_stiffness,
         )
 
 
-class _Sorted(NamedTuple):
-    """Springs of some bins, ascending, with number and sum of all springs below each."""
+class _SortedSprings(NamedTuple):
+    """Springs of some bins by rising separation, with number and sum of all springs below each."""
 
     bin: NDArray[np.uint16]
     separations: Real
-    counts: NDArray[np.intp]
+    counts: Indices
     sums: Real
 
 
 @dataclass(frozen=True, eq=False)
-class Touching:
+class SpringsInContact:
     """Springs in contact at given depths or under given forces.
 
     Attributes
@@ -164,10 +179,10 @@ class Touching:
     sum : ndarray, shape (loads,)
         Sum of their separations. [length]
     spring_stiffness : float
-        Of each. [force / length]
+        Stiffness of each. [force / length]
     """
 
-    count: NDArray[np.intp]
+    count: Indices
     sum: Real
     spring_stiffness: float
 
@@ -191,7 +206,7 @@ def _fill_bins(
     highest: float,
     bins_per_length: float,
     bins: NDArray[np.uint16],
-    counts: NDArray[np.intp],
+    counts: Indices,
     sums: Real,
 ) -> None:
     """Find the bin of each spring; add it to the number and the sum there."""

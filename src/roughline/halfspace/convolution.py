@@ -1,0 +1,179 @@
+"""The elastic half-space on a grid as a fast convolution, free or periodic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from roughline.computing import fft
+from roughline.computing.arrays import Real, Single
+from roughline.halfspace import loops
+from roughline.halfspace.kernel import love
+from roughline.halfspace.operator import GridNodes, Precision
+
+_MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
+_PAIRS_AT_A_TIME = 64  # pairs of rows
+
+
+@dataclass(frozen=True, eq=False)
+class Convolution:
+    """Displacement of the surface under the pressures on a grid, computed by Fourier transforms.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Points of the grid, (nx, ny).
+    spacing : tuple of float
+        Sides of a cell, (dx, dy). [length]
+    periods : tuple of int
+        Points of the transform: twice the grid or more (free), the grid itself (periodic).
+    spectrum : ndarray, shape (periods[0] // 2 + 1, periods[1] // 2 + 1)
+        Eigenvalues of the convolution over ``periods[0] * periods[1]``, the normalisation of the
+        two transforms. The kernel is even in x and y, so the spectrum is real and even, and a
+        quarter of it is stored. [length / pressure]
+    zero_mean : bool
+        Whether displacements count from their mean, so that even pressure displaces nothing.
+    """
+
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+    periods: tuple[int, int]
+    spectrum: Real
+    zero_mean: bool
+
+    @property
+    def cell_area(self) -> float:
+        """Area of one cell. [length²]"""
+        return self.spacing[0] * self.spacing[1]
+
+    @cached_property
+    def _spectrum_float32(self) -> Single:
+        return self.spectrum.astype(np.float32)
+
+    @cached_property
+    def _buffers(self) -> dict[Precision, tuple[Any, Any]]:
+        """Memory of the row transforms, allocated on first use and then kept."""
+        return {}
+
+    def _buffer(self, precision: Precision) -> tuple[Any, Any]:
+        """Complex rows, two rows of the grid in each, and the same memory as real numbers.
+
+        Single precision uses half of the memory of double precision once that is allocated.
+        """
+        if precision not in self._buffers:
+            shape = ((self.shape[0] + 1) // 2, self.periods[1])
+            if precision == "float64":
+                double = np.empty(shape, dtype=np.complex128)
+                self._buffers["float64"] = double, double.view(np.float64).reshape(*shape, 2)
+                single = double.reshape(-1).view(np.complex64)[: double.size].reshape(shape)
+            else:
+                single = np.empty(shape, dtype=np.complex64)
+            self._buffers["float32"] = single, single.view(np.float32).reshape(*shape, 2)
+        return self._buffers[precision]
+
+    def displacement(
+        self,
+        pressure: Real,
+        sources: GridNodes,
+        targets: GridNodes | None = None,
+        precision: Precision = "float64",
+        out: Real | None = None,
+    ) -> Real:
+        """Return the displacement of some nodes, or of all, under the pressure on some nodes.
+
+        Rows without pressure are not transformed, nor are rows without targets. Two real rows make
+        one complex row. Rows are transformed first, then columns block by block (separate, pad,
+        transform, multiply, transform back, crop, join), then rows back.
+
+        Parameters and result are those of
+        :meth:`roughline.halfspace.operator.Operator.displacement`.
+        """
+        (nx, ny), (mx, my) = self.shape, self.periods
+        spectrum = self._spectrum_float32 if precision == "float32" else self.spectrum
+        modes, real_modes = self._buffer(precision)
+        rows_out = np.arange(nx) if targets is None else targets.rows
+        if out is None:
+            out = np.empty((nx, ny) if targets is None else targets.indices.size)
+        result = out
+
+        def transform_rows(first: int, last: int) -> None:
+            loops.scatter_pairs(pressure, sources.starts, sources.columns, first, last, real_modes)
+            fft.fft_rows(modes[first:last], forward=True)
+
+        def convolve_columns(first: int, last: int) -> None:
+            columns = np.empty((mx, last - first), dtype=modes.dtype)
+            real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
+            loops.load_columns(real_modes, sources.rows, first, real_columns)
+            fft.fft_columns(columns, forward=True)
+            loops.weigh_columns(real_columns, spectrum, first)
+            fft.fft_columns(columns, forward=False)
+            loops.store_columns(real_columns, rows_out, first, real_modes)
+
+        def transform_rows_back(first: int, last: int) -> None:
+            fft.fft_rows(modes[first:last], forward=False)
+            if targets is None:
+                loops.gather_rows(real_modes, first, last, result)
+            else:
+                loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
+
+        _in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS_AT_A_TIME)
+        _in_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
+        _in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS_AT_A_TIME)
+        return result
+
+
+def _in_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:
+    fft.share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
+
+
+def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:
+    """Half-space loaded on one rectangle and free around it.
+
+    The convolution over twice the rectangle is exact: equal to the dense matrix of
+    :func:`roughline.halfspace.kernel.love`.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Points of the grid, (nx, ny).
+    spacing : tuple of float
+        Sides of a cell, (dx, dy). [length]
+    E_star : float
+        Contact modulus E*. [pressure]
+    """
+    mx, my = fft.good_size(2 * shape[0]), fft.good_size(2 * shape[1])
+    dx, dy = spacing
+    spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
+    offsets_y = dy * np.arange(my // 2 + 1)
+
+    def fill(first: int, last: int) -> None:
+        offsets_x = dx * np.arange(first, last)[:, np.newaxis]
+        spectrum[first:last] = love(offsets_x, offsets_y, dx, dy)
+
+    _in_blocks(fill, len(spectrum), max(1, 2**16 // len(offsets_y)))
+    fft.cosine_spectrum(spectrum)
+    spectrum /= E_star * mx * my
+    return Convolution(shape, spacing, (mx, my), spectrum, zero_mean=False)
+
+
+def periodic(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:
+    """Half-space loaded periodically; displacements are counted from their mean.
+
+    Each Fourier mode of the pressure displaces the surface by 2 / (E* |q|) times itself
+    (Johnson 1985, §13.2); the mode q = 0 is dropped.
+
+    Parameters
+    ----------
+    shape, spacing, E_star
+        As for :func:`free`.
+    """
+    (nx, ny), (dx, dy) = shape, spacing
+    qx = 2 * np.pi / (nx * dx) * np.arange(nx // 2 + 1)[:, np.newaxis]
+    qy = 2 * np.pi / (ny * dy) * np.arange(ny // 2 + 1)[np.newaxis, :]
+    q = np.hypot(qx, qy)
+    q[0, 0] = np.inf
+    return Convolution(shape, spacing, shape, 2 / (E_star * q) / (nx * ny), zero_mean=True)

@@ -1,0 +1,66 @@
+"""The half-space makes one map from pressures to displacements, in any units and on any grid."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.halfspace.half_space import HalfSpace
+from roughline.halfspace.operator import displacement_field
+
+ROUNDING = 1e-13
+
+SHAPE, SPACING = (9, 6), (0.3, 0.7)
+PRESSURE = np.random.default_rng(1).normal(size=SHAPE)
+
+boundaries = pytest.mark.parametrize("periodic", [False, True])
+
+
+@boundaries
+def test_a_stiffer_half_space_yields_less(periodic):
+    soft, stiff = (HalfSpace(E, periodic).operator(SHAPE, SPACING) for E in (1.0, 4.0))
+    expected = displacement_field(soft, PRESSURE) / 4
+    assert displacement_field(stiff, PRESSURE) == pytest.approx(expected, rel=ROUNDING)
+
+
+@boundaries
+def test_scaled_units_change_the_numbers_and_not_the_displacement(periodic):
+    half_space, pressure, length = HalfSpace(70e9, periodic), 70e9, 2e-6
+    expected = displacement_field(half_space.operator(SHAPE, SPACING), PRESSURE)
+    scaled = half_space.scaled(pressure, length)
+    spacing = (SPACING[0] / length, SPACING[1] / length)
+    found = displacement_field(scaled.operator(SHAPE, spacing), PRESSURE / pressure) * length
+    assert scaled.E_star == 1.0
+    assert np.abs(found - expected).max() < ROUNDING * np.abs(expected).max()
+
+
+def test_only_the_periodic_operator_counts_displacements_from_their_mean():
+    for periodic in (False, True):
+        operator = HalfSpace(1.0, periodic).operator(SHAPE, SPACING)
+        even = displacement_field(operator, np.ones(SHAPE))
+        assert operator.zero_mean == periodic
+        assert (np.abs(even).max() < ROUNDING) == periodic
+
+
+def test_a_coarser_grid_covers_the_same_surface():
+    for periodic in (False, True):
+        half_space = HalfSpace(1.0, periodic)
+        coarse = half_space.coarser_operator(half_space.operator((8, 6), SPACING))
+        assert coarse.shape == (4, 3)
+        assert coarse.spacing == pytest.approx((0.6, 1.4))
+
+
+def test_on_odd_sides_periods_stay_and_free_cells_double():
+    shapes = {}
+    for periodic in (False, True):
+        half_space = HalfSpace(1.0, periodic)
+        coarse = half_space.coarser_operator(half_space.operator((9, 1), SPACING))
+        assert coarse.shape == (5, 1)
+        shapes[periodic] = coarse.spacing
+    assert shapes[False] == pytest.approx((0.6, 0.7))
+    assert shapes[True] == pytest.approx((9 * 0.3 / 5, 0.7))
+
+
+@pytest.mark.parametrize("E_star", [0.0, -1.0, np.inf, np.nan])
+def test_a_modulus_that_is_none_is_refused(E_star):
+    with pytest.raises(rl.InputError, match="a positive, finite contact modulus is needed"):
+        HalfSpace(E_star)
