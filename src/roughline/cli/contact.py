@@ -168,7 +168,12 @@ def press(
 
     if threads is not None:
         set_threads(threads)
-    _refuse_incomplete_report(report, json, materials, load, friction)
+    if materials is None and (report or frequency or friction is not None):
+        raise InputError("a report, reflection and partial slip need two --materials")
+    if report is not None and not load:
+        raise InputError('a report needs a --load, such as "10 N"')
+    if friction is not None and report is None and not json:
+        raise InputError("partial slip is drawn in a report: give --report too")
     question = Question(
         file,
         materials=materials,
@@ -209,22 +214,6 @@ def press(
         end_interrupted("the loads solved before are above")
     if not result.curve.converged.all():
         raise typer.Exit(1)
-
-
-def _refuse_incomplete_report(
-    report: Path | None,
-    json: bool,
-    materials: str | None,
-    load: list[str] | None,
-    friction: float | None,
-) -> None:
-    """Refuse a report without materials or loads, and partial slip that nothing would show."""
-    if report is not None and materials is None:
-        raise InputError("a report, reflection and partial slip need two --materials")
-    if report is not None and not load:
-        raise InputError('a report needs a --load, such as "10 N"')
-    if friction is not None and materials is not None and report is None and not json:
-        raise InputError("partial slip is drawn in a report: give --report too")
 
 
 def _written(result: Assessment, report: Path | None, out: Path | None) -> list[Path]:
