@@ -14,7 +14,7 @@ import numpy as np
 
 import roughline as rl
 from roughline.comparison.trust import TrustMap
-from roughline.paper.comparison_figures import draw_trust_map
+from roughline.paper.added_figures import trust_map_figure
 from roughline.paper.page import compose
 from roughline.paper.results import results_of_folder
 from roughline.paper.trust_page import trust_page
@@ -54,7 +54,7 @@ def publish_map() -> None:
     """Draw the page of the map."""
     trust = rl.trust_map()
     with styled():
-        save(draw_trust_map(trust), FIGURES, "trust_map")
+        save(trust_map_figure(trust), FIGURES, "trust_map")
     (FIGURES / "trust_map.pdf").unlink()
     fine = TrustMap.from_rows(np.loadtxt(DATA / "map_fine.csv", delimiter=",", skiprows=1))
     (DOCS / "trust.md").write_text(trust_page(trust, fine, FOLDER_IN_PAGES), encoding="utf-8")

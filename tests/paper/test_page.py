@@ -8,7 +8,7 @@ import pytest
 import xarray
 
 import roughline as rl
-from roughline.paper import comparison_figures
+from roughline.paper import added_figures
 from roughline.paper.page import compose, write_page
 from roughline.report.page import render_markdown
 
@@ -75,7 +75,7 @@ def test_the_published_page_has_grids_and_times(results, tmp_path):
         core_seconds={"reduced": 0.02, "full, 2048²": 100.0},
     )
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(comparison_figures, "CONVERGENCE_DIMENSIONS", DIMENSIONS)
+        patch.setattr(added_figures, "CONVERGENCE_DIMENSIONS", DIMENSIONS)
         text = render_markdown(*compose(more, tmp_path), "figures/paper")
     assert text.startswith("# The paper, recomputed")
     assert "today 10 hours for the 60 surfaces of six D_f, on one core: 100 s a surface" in text

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 _INDENTED = 1  # which body of the gallery Figure 2 shows
 
 
-def draw_figure_1(gallery: xarray.Dataset) -> Figure:
+def figure_1(gallery: xarray.Dataset) -> Figure:
     """Draw rough line, surface, real contact area and deflection for four fractal dimensions."""
     figure = new_figure(PAGE, 7.0)
     rows = gallery.sizes["fractal_dimension"]
@@ -65,7 +65,7 @@ def draw_figure_1(gallery: xarray.Dataset) -> Figure:
     return figure
 
 
-def draw_figure_2(gallery: xarray.Dataset) -> Figure:
+def figure_2(gallery: xarray.Dataset) -> Figure:
     """Draw the indented line: springs in contact, and the force as the area above the level."""
     figure = new_figure(COLUMN, 2.4)
     axes = figure.add_subplot()
@@ -99,7 +99,7 @@ def draw_figure_2(gallery: xarray.Dataset) -> Figure:
     return figure
 
 
-def draw_figure_3(reduced: xarray.Dataset, dimensions: Real) -> Figure:
+def figure_3(reduced: xarray.Dataset, dimensions: Real) -> Figure:
     """Draw the stiffness over force of the reduced model, k / (E* L)."""
     chosen = reduced.sel(fractal_dimension=dimensions)
     figure = _stiffness_figure(
@@ -109,7 +109,7 @@ def draw_figure_3(reduced: xarray.Dataset, dimensions: Real) -> Figure:
     return figure
 
 
-def draw_figure_4(full: xarray.Dataset) -> Figure:
+def figure_4(full: xarray.Dataset) -> Figure:
     """Draw the stiffness over force of the full model, k / (1.1419 E* L)."""
     label = r"stiffness $\bar k_{3D} = k\,/\,(1.1419\,E^* \sqrt{A_0})$"
     figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, WINDOW_FULL)
@@ -126,7 +126,7 @@ def draw_figure_4(full: xarray.Dataset) -> Figure:
     return figure
 
 
-def draw_figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
+def figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
     """Draw the exponent over fractal dimension: both models and the two predictions."""
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()

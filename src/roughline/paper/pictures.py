@@ -8,7 +8,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from roughline.paper import comparison_figures, figures
+from roughline.paper import added_figures, figures
 from roughline.paper.results import PaperResults
 from roughline.report.page import Picture
 from roughline.report.style import save, styled
@@ -86,18 +86,16 @@ def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
     drawings: dict[str, Callable[[], Figure]] = {}
     if gallery is not None:
         drawings |= {
-            "figure_1": partial(figures.draw_figure_1, gallery),
-            "figure_2": partial(figures.draw_figure_2, gallery),
+            "figure_1": partial(figures.figure_1, gallery),
+            "figure_2": partial(figures.figure_2, gallery),
         }
     drawings |= {
-        "figure_3": partial(figures.draw_figure_3, reduced, full.fractal_dimension.values),
-        "figure_4": partial(figures.draw_figure_4, full),
-        "figure_5": partial(figures.draw_figure_5, results.exponents, laws),
-        "area_law": partial(comparison_figures.draw_area_law, full, laws),
-        "models_compared": partial(comparison_figures.draw_both_models, full, results.matched),
+        "figure_3": partial(figures.figure_3, reduced, full.fractal_dimension.values),
+        "figure_4": partial(figures.figure_4, full),
+        "figure_5": partial(figures.figure_5, results.exponents, laws),
+        "area_law": partial(added_figures.area_law_figure, full, laws),
+        "models_compared": partial(added_figures.both_models_figure, full, results.matched),
     }
     if results.grids:
-        drawings["grid_convergence"] = partial(
-            comparison_figures.draw_grid_convergence, results.grids
-        )
+        drawings["grid_convergence"] = partial(added_figures.grid_convergence_figure, results.grids)
     return drawings

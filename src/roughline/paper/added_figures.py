@@ -36,7 +36,7 @@ LINE_STYLES = (":", "-.", "--", "-")
 Colour = tuple[float, float, float, float]
 
 
-def draw_area_law(full: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
+def area_law_figure(full: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
     """Draw the real contact area over force, and κ of eq. 4 over fractal dimension."""
     figure = new_figure(PAGE, 3.0)
     left, right = figure.subplots(1, 2)
@@ -87,7 +87,7 @@ def _draw_kappa(axes: Axes, laws: list[DimensionLaws]) -> None:
     axes.legend(loc="upper left")
 
 
-def draw_both_models(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
+def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
     """Draw the raw stiffness of both models with the same waves, and their relative difference."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
@@ -125,7 +125,7 @@ def draw_both_models(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
     return figure
 
 
-def draw_grid_convergence(grids: dict[int, xarray.Dataset]) -> Figure:
+def grid_convergence_figure(grids: dict[int, xarray.Dataset]) -> Figure:
     """Draw stiffness and area of the same surfaces on several grids, relative to the finest."""
     figure = new_figure(PAGE, 3.3)
     axes = figure.subplots(1, 2)
@@ -168,7 +168,7 @@ def _draw_ratios_to_finest(
         )
 
 
-def draw_trust_map(trust: TrustMap) -> Figure:
+def trust_map_figure(trust: TrustMap) -> Figure:
     """Draw the relative difference of the two models, a panel for each roll-off ratio."""
     count = trust.roll_off_ratios.size
     figure = new_figure(PAGE, 2.7)
