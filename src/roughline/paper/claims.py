@@ -13,8 +13,8 @@ from roughline.report.page import Section, Table
 def judge_claims(results: PaperResults) -> list[Claim]:
     """Put each claim of the paper beside the same number here, with a verdict."""
     return [
-        on_exponents.power_law(results, "1D", "over low and medium forces (§6, §8)"),
-        on_exponents.power_law(results, "3D", "k = ζ F^α (eq. 5)"),
+        on_exponents.constant_exponent(results, "1D", "over low and medium forces (§6, §8)"),
+        on_exponents.constant_exponent(results, "3D", "k = ζ F^α (eq. 5)"),
         on_exponents.lowest_forces(results, "1D"),
         on_exponents.lowest_forces(results, "3D"),
         on_exponents.ends_of_reduced(results),

@@ -37,7 +37,7 @@ from roughline.statistics.verdict import Verdict
 if TYPE_CHECKING:
     import xarray
 
-Model = Literal["1D", "3D"]
+ModelLabel = Literal["1D", "3D"]
 
 _NO_CHANGE = around(0, EXPONENT_TOLERANCE)
 _BOTH_MODELS = (0.5 - EXPONENT_TOLERANCE, 0.8 + EXPONENT_TOLERANCE)  # of §7, for both
@@ -46,7 +46,7 @@ _EXTREMELY_WELL_UP_TO = 2.6  # D_f
 _SMALL = 2 * EXPONENT_TOLERANCE  # a "small discrepancy" of exponents
 
 
-def power_law(results: PaperResults, model: Model, said: str) -> Claim:
+def constant_exponent(results: PaperResults, model: ModelLabel, said: str) -> Claim:
     """Judge whether the exponent stays the same from the lowest loads to medium ones."""
     drifts = cases_of(results.laws, lambda laws: _local(laws, model).drift)
     lowest = min(_local(laws, model).lowest for laws in results.laws)
@@ -63,7 +63,7 @@ def power_law(results: PaperResults, model: Model, said: str) -> Claim:
     )
 
 
-def lowest_forces(results: PaperResults, model: Model) -> Claim:
+def lowest_forces(results: PaperResults, model: ModelLabel) -> Claim:
     """Judge whether the exponent of the window holds at the lowest loads of the grid."""
     changes = cases_of(results.laws, lambda laws: _local(laws, model).at_lowest)
     return claim_about_every_dimension(
@@ -96,7 +96,7 @@ def ends_of_reduced(results: PaperResults) -> Claim:
     )
 
 
-def between_half_and_four_fifths(results: PaperResults, model: Model) -> Claim:
+def between_half_and_four_fifths(results: PaperResults, model: ModelLabel) -> Claim:
     """Judge whether all exponents lie in the range that the paper gives for both models."""
     exponents = cases_of(results.laws, lambda laws: _exponent(laws, model))
     return claim_about_every_dimension(
@@ -140,7 +140,7 @@ def linear_in_dimension(results: PaperResults) -> Claim:
     )
 
 
-def scaling_argument(results: PaperResults, model: Model) -> Claim:
+def scaling_argument(results: PaperResults, model: ModelLabel) -> Claim:
     """Judge whether eq. 14 gives the exponent of smooth surfaces."""
     smooth = [laws for laws in results.laws if _is_smooth(laws)]
     off = cases_of(smooth, lambda laws: _off_scaling(laws, model))
@@ -154,7 +154,7 @@ def scaling_argument(results: PaperResults, model: Model) -> Claim:
     )
 
 
-def small_discrepancy(results: PaperResults, model: Model) -> Claim:
+def small_discrepancy(results: PaperResults, model: ModelLabel) -> Claim:
     """Judge whether eq. 14 differs little from the exponent of rough surfaces."""
     rough = [laws for laws in results.laws if not _is_smooth(laws)]
     off = cases_of(rough, lambda laws: _off_scaling(laws, model))
@@ -198,21 +198,21 @@ def _is_smooth(laws: DimensionLaws) -> bool:
     return laws.fractal_dimension <= _EXTREMELY_WELL_UP_TO + 1e-9
 
 
-def _off_scaling(laws: DimensionLaws, model: Model) -> IntervalEstimate:
+def _off_scaling(laws: DimensionLaws, model: ModelLabel) -> IntervalEstimate:
     return _exponent(laws, model) - scaling_exponent(laws.fractal_dimension)
 
 
-def _exponent(laws: DimensionLaws, model: Model) -> IntervalEstimate:
+def _exponent(laws: DimensionLaws, model: ModelLabel) -> IntervalEstimate:
     return exponent_estimate(laws.reduced if model == "1D" else laws.full)
 
 
-def _local(laws: DimensionLaws, model: Model) -> LocalExponents:
+def _local(laws: DimensionLaws, model: ModelLabel) -> LocalExponents:
     return laws.reduced_local if model == "1D" else laws.full_local
 
 
-def _data(results: PaperResults, model: Model) -> xarray.Dataset:
+def _data(results: PaperResults, model: ModelLabel) -> xarray.Dataset:
     return results.reduced if model == "1D" else results.full
 
 
-def _window(model: Model) -> Window:
+def _window(model: ModelLabel) -> Window:
     return WINDOW_REDUCED if model == "1D" else WINDOW_FULL

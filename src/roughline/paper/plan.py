@@ -6,9 +6,9 @@ from typing import Literal
 
 from roughline.campaign.plan import Ensemble, Gallery, Plan, decades, evenly
 
-Scale = Literal["quick", "full"]
+StudyScale = Literal["quick", "full"]
 
-DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
+PAPER_DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 """The six fractal dimensions of the paper's Figures 3 and 4."""
 
 ENSEMBLE_REDUCED = "lines"
@@ -17,7 +17,7 @@ ENSEMBLE_MATCHED = "lines-of-surfaces"
 """Lines of the reduced model with the waves of the surfaces and no shorter ones."""
 
 
-def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
+def paper_plan(scale: StudyScale, seed: int = 2012) -> Plan:
     """Return the paper's study at one of two scales.
 
     Parameters
@@ -44,7 +44,7 @@ def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
     surfaces = Ensemble(
         name=ENSEMBLE_FULL,
         model="full",
-        fractal_dimensions=DIMENSIONS,
+        fractal_dimensions=PAPER_DIMENSIONS,
         n=n,
         realisations=10 if quick else 60,
         force_bars=forces,
@@ -54,7 +54,7 @@ def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
     matched = Ensemble(
         name=ENSEMBLE_MATCHED,
         model="reduced",
-        fractal_dimensions=DIMENSIONS,
+        fractal_dimensions=PAPER_DIMENSIONS,
         n=256 * n,
         realisations=line_count,
         force_bars=forces,

@@ -9,12 +9,12 @@ from roughline.campaign.run import Progress, run
 from roughline.campaign.store import Store
 from roughline.errors import StoreError
 from roughline.paper.page import write_page
-from roughline.paper.plan import Scale, paper_plan
+from roughline.paper.plan import StudyScale, paper_plan
 from roughline.paper.results import results_of_store
 
 
 def recompute(
-    scale: Scale,
+    scale: StudyScale,
     out: Path,
     seed: int,
     *,

@@ -72,7 +72,7 @@ def average(
     InputError
         If the shape is another, or the mean is geometric and a value is not positive.
     """
-    table = _checked(values, averaging, confidence)
+    table = _checked_table(values, averaging, confidence)
     averaged = np.log(table) if averaging == "geometric" else table
     count = np.count_nonzero(np.isfinite(table), axis=0)
     resampled = bootstrap.means(averaged, rng)
@@ -115,8 +115,8 @@ def relative_difference(
     InputError
         If the shapes do not fit, or a value is not positive.
     """
-    first = _checked(values, "arithmetic", confidence)
-    second = _checked(reference, "arithmetic", confidence)
+    first = _checked_table(values, "arithmetic", confidence)
+    second = _checked_table(reference, "arithmetic", confidence)
     if first.shape[1] != second.shape[1] or (paired and first.shape != second.shape):
         raise InputError(
             f"values have shape {first.shape}, the reference {second.shape}; the same loads are "
@@ -181,7 +181,7 @@ def at_levels(
     return force_at, stiffness_at
 
 
-def _checked(values: ArrayLike, averaging: str, confidence: float) -> Real:
+def _checked_table(values: ArrayLike, averaging: str, confidence: float) -> Real:
     table = np.asarray(values, dtype=np.float64)
     if table.ndim != 2 or not table.size:
         raise InputError(f"values have shape {table.shape}; (realisations, loads) is needed")

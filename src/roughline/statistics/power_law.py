@@ -95,7 +95,7 @@ def fit_power_law(
         If the window holds fewer than three loads, or values that are not positive and finite
         (loads that did not converge are NaN: leave them out knowingly).
     """
-    force, stiffness = _checked(force_bar, stiffness_bar, window, confidence)
+    force, stiffness = _loads_in_window(force_bar, stiffness_bar, window, confidence)
     several = stiffness.shape[0] > 1
     slope, offset = (
         _resampled_line(force, stiffness, confidence, rng, averaging)
@@ -146,7 +146,7 @@ def linear_exponent(fractal_dimension: Value) -> Value:
     return 0.2567 * fractal_dimension
 
 
-def _checked(
+def _loads_in_window(
     force_bar: ArrayLike, stiffness_bar: ArrayLike, window: tuple[float, float], confidence: float
 ) -> tuple[Real, Real]:
     """Forces and stiffness, shape (realisations, loads), inside the window."""
