@@ -9,6 +9,7 @@ import pytest
 import roughline as rl
 from roughline import cli
 
+_STUDY = Path(__file__).parents[1] / "studies" / "paper" / "data"
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
 
@@ -50,3 +51,11 @@ def invoke(monkeypatch, capsys):
         return caught.value.code, captured.out, captured.err
 
     return run
+
+
+@pytest.fixture(scope="session")
+def published_results():
+    """Return the results of the paper's study that come with the sources."""
+    from roughline.paper.results import results_of_folder
+
+    return results_of_folder(_STUDY, name="", command="")

@@ -47,8 +47,8 @@ if TYPE_CHECKING:
     from roughline.statistics.averages import average as average
     from roughline.statistics.averages import relative_difference as relative_difference
     from roughline.statistics.power_law import PowerLaw as PowerLaw
-    from roughline.statistics.power_law import find_window as find_window
     from roughline.statistics.power_law import fit_power_law as fit_power_law
+    from roughline.statistics.window import find_window as find_window
     from roughline.theories.theory import theory as theory
     from roughline.topography.body import Line as Line
     from roughline.topography.body import Surface as Surface
@@ -95,7 +95,7 @@ _HOMES = {
     "write": "files.netcdf",
     "PowerLaw": "statistics.power_law",
     "fit_power_law": "statistics.power_law",
-    "find_window": "statistics.power_law",
+    "find_window": "statistics.window",
     "press": "contact.press",
     "EXACT_PUNCH": "contact.scaling",
     "PAPER_PUNCH": "contact.scaling",

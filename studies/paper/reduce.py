@@ -13,12 +13,13 @@ import numpy as np
 import pandas as pd
 import xarray
 
+import roughline as rl
 from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
 from roughline.comparison.trust import COLUMNS
 from roughline.paper.exponents import exponents_of
-from roughline.paper.sensitivity import WINDOWS_REDUCED
-from roughline.statistics import averages
+from roughline.paper.windows import WINDOWS_REDUCED
+from roughline.statistics.averages import relative_difference
 
 HERE = Path(__file__).parent
 DATA = HERE / "data"
@@ -64,10 +65,10 @@ def write_map(store: Store, name: str, roll_offs: Sequence[int], path: Path) -> 
         )
         for dimension in full.fractal_dimension.values:
             one_3d, one_1d = (data.sel(fractal_dimension=dimension) for data in (full, reduced))
-            difference, low, high = averages.relative_difference(
+            difference, low, high = relative_difference(
                 one_3d.stiffness.values, one_1d.stiffness.values, paired=False
             )
-            mean = averages.average(one_3d.stiffness.values)
+            mean = rl.average(one_3d.stiffness.values)
             resolved = (one_3d.resolved.values == 1).all(axis=0)
             rows += [
                 (roll_off, dimension, *row)

@@ -1,53 +1,22 @@
 """The verdicts on the paper's claims, from the data of the study that comes with the sources."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-import xarray
 
 from roughline.paper.claim import by_dimension
-from roughline.paper.claims import judge
-from roughline.paper.exponents import summarise
-from roughline.paper.results import PaperResults
-from roughline.statistics.bootstrap import Estimate
+from roughline.paper.claims import judge_claims
+from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Verdict
 
-STUDY = Path(__file__).parents[2] / "studies" / "paper" / "data"
-
-
-def read(name):
-    with xarray.open_dataset(STUDY / f"{name}.nc", engine="h5netcdf") as data:
-        return data.load()
-
 
 @pytest.fixture(scope="module")
-def results():
-    return PaperResults(
-        name="",
-        command="",
-        reduced=read("lines"),
-        full=read("surfaces"),
-        matched=read("matched"),
-        exponents=read("exponents"),
-        paper_grid=read("paper_grid"),
-        core_seconds={"reduced": 0.025, "full, 2048²": 121.0},
-    )
-
-
-@pytest.fixture(scope="module")
-def summaries(results):
-    return summarise(results)
-
-
-@pytest.fixture(scope="module")
-def claims(results, summaries):
-    return judge(summaries, results)
+def claims(published_results):
+    return judge_claims(published_results)
 
 
 def the(claims, *words):
-    (found,) = (c for c in claims if all(word in c.statement for word in words))
-    return found
+    (claim,) = (each for each in claims if all(word in each.statement for word in words))
+    return claim
 
 
 def test_every_claim_has_one_of_three_verdicts_and_says_it_first(claims):
@@ -65,12 +34,12 @@ def test_the_sections_of_the_paper_are_all_there(claims):
         assert place in said
 
 
-def test_no_power_law_is_confirmed_where_the_exponent_changes(claims, results):
+def test_no_power_law_is_confirmed_where_the_exponent_changes(claims, published_results):
     """At D_f = 3 the local exponents of two decades differ by many standard errors."""
     claim = the(claims, "1D: a power law")
     assert claim.verdict is Verdict.REFUTED
     assert claim.cases.startswith("refuted at D_f = 3.0;")
-    lines = results.reduced.sel(fractal_dimension=3.0)
+    lines = published_results.reduced.sel(fractal_dimension=3.0)
     force, mean = lines.force_bar.values, lines.stiffness.values.mean(axis=0)
     local = np.gradient(np.log(mean), np.log(force))
     assert local[force < 1e-3].mean() - local[(force > 1e-2) & (force < 0.1)].mean() > 0.05
@@ -83,15 +52,15 @@ def test_the_range_of_exponents_that_the_paper_gives_for_both_models(claims):
     assert the(claims, "3D: the power law holds down to").verdict is Verdict.UNDECIDED
 
 
-def test_kappa_weighs_every_load_alike_and_is_given_for_both_areas(results, summaries):
+def test_kappa_weighs_every_load_alike_and_is_given_for_both_areas(published_results):
     """Against least squares of log A = log F + log(κ / slope), with the slope of 1."""
     inside = slice(12, 21)  # F̄ = 10^-1.5 to 10^-0.5, eight loads a decade
-    force = results.full.force_bar.values[inside]
+    force = published_results.full.force_bar.values[inside]
     assert force[[0, -1]] == pytest.approx(10 ** np.array([-1.5, -0.5]))
     for name, least, most in (("cells", 2.22, 4.04), ("corrected", 1.94, 2.44)):
         found = []
-        for s in summaries:
-            one = results.full.sel(fractal_dimension=s.fractal_dimension)
+        for s in published_results.laws:
+            one = published_results.full.sel(fractal_dimension=s.fractal_dimension)
             variable = "area_fraction" + ("_corrected" if name == "corrected" else "")
             logs = np.log(one[variable].values[:, inside].mean(axis=0) / force)
             law = getattr(s, name)
@@ -122,7 +91,8 @@ def test_what_the_grid_decides_stands_with_its_grid(claims):
     ],
 )
 def test_a_verdict_needs_the_whole_interval(ends, expected):
-    sure = Estimate(0.0, -0.01, 0.01)
-    found = by_dimension([(2.0, Estimate(0.0, *ends)), (3.0, sure)], -0.05, 0.05)
-    assert found[0] is expected
-    assert found[1].startswith(expected)
+    sure = IntervalEstimate(0.0, -0.01, 0.01)
+    cases = [(2.0, IntervalEstimate(0.0, *ends)), (3.0, sure)]
+    whole, in_words = by_dimension(cases, (-0.05, 0.05))
+    assert whole is expected
+    assert in_words.startswith(expected)

@@ -4,13 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.statistics import bootstrap
 from roughline.statistics.averages import at_levels, relative_difference
-
-
-@pytest.fixture
-def ensemble():
-    return np.exp(np.random.default_rng(1).normal(0, 0.3, (40, 5)) + np.arange(5))
 
 
 def test_the_mean_is_the_mean(ensemble):
@@ -68,26 +62,6 @@ def test_pairs_share_their_scatter(ensemble):
     hurt[0, 0] = np.nan
     again = relative_difference(hurt, ensemble, paired=True)[0]
     assert again[0] == pytest.approx(hurt[1:, 0].mean() / ensemble[1:, 0].mean() - 1)
-
-
-def test_resampling_is_the_same_for_the_same_seed(ensemble):
-    found = bootstrap.means(ensemble, 3)
-    assert found.values.shape == (bootstrap.ROUNDS, 5)
-    assert (found.values == bootstrap.means(ensemble, 3).values).all()
-    draws = np.random.default_rng(3).integers(40, size=(bootstrap.ROUNDS, 40))
-    assert found.values == pytest.approx(ensemble[draws].mean(axis=1))
-    assert found.errors == pytest.approx(ensemble[draws].std(axis=1) / np.sqrt(39))
-
-
-def test_errors_of_smooth_functions_are_those_of_their_scatter(ensemble):
-    """The linearised error of log(mean) is that of the realisations over the mean."""
-    weights = np.array([0.0, 1.0, 0.0, -2.0, 0.0])
-    found = bootstrap.of_log_means(ensemble, weights)
-    assert found.value == pytest.approx(np.log(ensemble.mean(axis=0)) @ weights)
-    each = (ensemble / ensemble.mean(axis=0)) @ weights
-    assert found.error == pytest.approx(each.std(ddof=1) / np.sqrt(40))
-    alone = bootstrap.of_log_means(ensemble, np.array([0.0, 1.0, 0, 0, 0]))
-    assert alone.interval() == pytest.approx(bootstrap.means(ensemble[:, 1]).log().interval())
 
 
 def test_realisations_that_are_all_alike_have_no_width():

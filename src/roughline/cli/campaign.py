@@ -50,7 +50,7 @@ def paper(
 
     Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
     """
-    from roughline.paper.page import recompute
+    from roughline.paper.study import recompute
     from roughline.report.progress import campaign_progress
     from roughline.report.terminal import announce
 

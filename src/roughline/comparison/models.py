@@ -1,4 +1,4 @@
-"""Both models on the same roughness: two curves, and how far they are apart."""
+"""Both models on the same roughness: their mean stiffness, and the difference of the two."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from roughline.comparison.single_surface import difference_of_one, scatter_of_surfaces
 from roughline.comparison.trust import Difference
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.spectra.isotropic import isotropic_spectrum
@@ -20,11 +21,10 @@ from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Body, Surface
 from roughline.topography.preparation import tilt_warnings
 
-LINES = 200
-_SPRINGS_A_WAVE = 128  # of the shortest wave, so that the springs do not show
+COMPARED_LINES = 200
+"""Number of lines that are pressed beside the surfaces."""
+_SPRINGS_PER_WAVE = 128  # springs under the shortest wave, so fine that their spacing has no effect
 _LEAST_SPRINGS = 2**16
-_LEAST_SCATTER = 0.01  # where lines are saturated: surfaces scatter by 0.012 at F̄ = 4, 0.003 at 10
-_TWO_SIDED = 1.97  # Student's t for 95 %, with the freedom of 200 lines
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,22 +36,22 @@ class Comparison:
     force_bar : ndarray, shape (loads,)
         F / (E* h L).
     full, reduced : Average
-        Raw stiffness k / (E* L), mean over surfaces and over lines.
+        Raw stiffness k / (E* L), averaged over the surfaces and over the lines.
     difference : ndarray, shape (loads,)
-        Full over reduced, less 1, of what was pressed. [1]
+        Mean stiffness of the surfaces over mean stiffness of the lines, less 1. [1]
     low, high : ndarray, shape (loads,)
-        Ends of the 95 % interval of the difference between the two models, that is, of their
-        means over all surfaces and lines of this spectrum. A single surface is one draw among
-        these surfaces: the interval then holds the scatter of single surfaces too. [1]
+        Ends of the 95 % interval of this difference for the means over all surfaces and all lines
+        of the spectrum. A single surface is one draw from these surfaces; its interval therefore
+        includes the scatter of single surfaces. [1]
     scatter : ndarray, shape (loads,)
-        Relative standard deviation of the stiffness of single surfaces; beside a single surface
-        estimated from the lines. [1]
+        Relative standard deviation of the stiffness of single surfaces. For a single surface it
+        is estimated from the lines. [1]
     resolved : ndarray of bool, shape (loads,)
-        Whether every surface had ten cells or more in contact.
+        Whether ten cells or more were in contact on every surface.
     surfaces, lines : int
-        How many were pressed.
+        Number of surfaces and lines that were pressed.
     warnings : tuple of str
-        What to know before the numbers are used; empty where there is nothing to say.
+        What to know before the numbers are used; empty if there is nothing to say.
     """
 
     force_bar: Real
@@ -61,7 +61,7 @@ class Comparison:
     low: Real
     high: Real
     scatter: Real
-    resolved: NDArray[np.bool_]
+    resolved: Mask
     surfaces: int
     lines: int
     warnings: tuple[str, ...] = ()
@@ -75,20 +75,21 @@ class Comparison:
         ]
 
     def trusted(self, tolerance: float = 0.1) -> tuple[float, float] | None:
-        """Longest range of resolved loads whose verdicts are all "confirmed", or None."""
-        good = [
+        """Return the longest range of resolved loads that are all "confirmed", or None."""
+        confirmed_at = [
             difference.verdict(tolerance) is Verdict.CONFIRMED and difference.resolved
             for difference in self.differences()
         ]
-        best, start = (0, 0), None
-        for i, fits in enumerate([*good, False]):
-            if fits and start is None:
+        longest, start = (0, 0), None
+        for i, confirmed in enumerate([*confirmed_at, False]):
+            if confirmed and start is None:
                 start = i
-            elif not fits and start is not None:
-                best, start = max(best, (start, i), key=lambda run: run[1] - run[0]), None
-        if best[1] == best[0]:
+            elif not confirmed and start is not None:
+                longest, start = max(longest, (start, i), key=lambda run: run[1] - run[0]), None
+        first, end = longest
+        if first == end:
             return None
-        return float(self.force_bar[best[0]]), float(self.force_bar[best[1] - 1])
+        return float(self.force_bar[first]), float(self.force_bar[end - 1])
 
 
 def compare(
@@ -102,10 +103,10 @@ def compare(
 ) -> Comparison:
     """Press both models of the same roughness, with the same waves.
 
-    Of a spectrum, random surfaces and random reduced lines are pressed. Of a given surface, that
-    surface and random lines with its spectrum, averaged over directions, scaled to its rms height.
-    The intervals are about the two models for this spectrum; those beside a single surface are
-    wide, as one surface says little of a mean over many.
+    Of a spectrum, random surfaces and random reduced lines are pressed. Of a surface, the surface
+    itself is pressed, and random lines with its spectrum averaged over directions, scaled to its
+    rms height. The intervals are those of the means over all surfaces and lines of the spectrum.
+    For a single surface they are wide, because one surface does not determine such a mean.
 
     Parameters
     ----------
@@ -131,36 +132,64 @@ def compare(
         If a load was not solved to the tolerance.
     """
     forces = np.geomspace(1e-3, 3, 15) if force_bars is None else np.asarray(force_bars, float)
-    tell = progress or (lambda done, total: None)
+    report = progress or (lambda done, total: None)
     if isinstance(body, Surface):
-        spectrum = isotropic_spectrum(body)
-        points = _SPRINGS_A_WAVE * spectrum.q.size
-        lines = (spectrum.line(points, seed) for seed in _seeds(rng, LINES))
-        tell(0, 1)
-        pressed = [_pressed(body, forces)]
-        tell(1, 1)
-    else:
-        if surfaces < 2:
-            raise InputError(f"surfaces is {surfaces}; an interval needs at least 2")
-        alike = _on_grid(body, n)
-        points = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE // 2 * n)
-        lines = (alike.line(points, seed) for seed in _seeds(rng, LINES))
-        pressed = []
-        for i, seed in enumerate(_seeds(rng, surfaces)):
-            tell(i, surfaces)
-            pressed.append(_pressed(alike.surface(n, seed), forces))
-        tell(surfaces, surfaces)
+        return _compare_surface(body, forces, rng, report)
+    if surfaces < 2:
+        raise InputError(f"surfaces is {surfaces}; an interval needs at least 2")
+    return _compare_spectrum(_on_grid(body, n), n, surfaces, forces, rng, report)
+
+
+def _compare_surface(
+    surface: Surface, forces: Real, rng: int, report: Callable[[int, int], None]
+) -> Comparison:
+    """Compare one surface with random lines of its spectrum."""
+    spectrum = isotropic_spectrum(surface)
+    springs = _SPRINGS_PER_WAVE * spectrum.q.size
+    report(0, 1)
+    full, resolved = _stiffness_under(forces, surface)
+    report(1, 1)
+    lines = (spectrum.line(springs, seed) for seed in _seeds(rng, COMPARED_LINES))
+    stiffness = np.array(
+        [[_stiffness_under(loads, line)[0] for loads in (forces, forces / 2)] for line in lines]
+    )
+    reduced, at_half = stiffness[:, 0], stiffness[:, 1]
+    scatter = scatter_of_surfaces(reduced, at_half)
+    difference, low, high = difference_of_one(full, reduced, scatter)
+    return Comparison(
+        force_bar=forces,
+        full=average(full[np.newaxis]),
+        reduced=average(reduced),
+        difference=difference,
+        low=low,
+        high=high,
+        scatter=scatter,
+        resolved=resolved,
+        surfaces=1,
+        lines=COMPARED_LINES,
+        warnings=tilt_warnings(surface),
+    )
+
+
+def _compare_spectrum(
+    spectrum: SelfAffine,
+    n: int,
+    surfaces: int,
+    forces: Real,
+    rng: int,
+    report: Callable[[int, int], None],
+) -> Comparison:
+    """Compare random surfaces of n² points with random lines of the same spectrum."""
+    springs = max(_LEAST_SPRINGS, _SPRINGS_PER_WAVE // 2 * n)
+    pressed = []
+    for i, seed in enumerate(_seeds(rng, surfaces)):
+        report(i, surfaces)
+        pressed.append(_stiffness_under(forces, spectrum.surface(n, seed)))
+    report(surfaces, surfaces)
     full = np.array([stiffness for stiffness, _ in pressed])
-    resolved = np.all([each for _, each in pressed], axis=0)
-    if isinstance(body, Surface):
-        twice = np.array([[_pressed(line, f)[0] for f in (forces, forces / 2)] for line in lines])
-        reduced, at_half = twice[:, 0], twice[:, 1]
-        scatter = scatter_of_surfaces(reduced, at_half)
-        difference, low, high = difference_of_one(full[0], reduced, scatter)
-    else:
-        reduced = np.array([_pressed(line, forces)[0] for line in lines])
-        difference, low, high = relative_difference(full, reduced, paired=False)
-        scatter = full.std(axis=0, ddof=1) / full.mean(axis=0)
+    lines = (spectrum.line(springs, seed) for seed in _seeds(rng, COMPARED_LINES))
+    reduced = np.array([_stiffness_under(forces, line)[0] for line in lines])
+    difference, low, high = relative_difference(full, reduced, paired=False)
     return Comparison(
         force_bar=forces,
         full=average(full),
@@ -168,56 +197,11 @@ def compare(
         difference=difference,
         low=low,
         high=high,
-        scatter=scatter,
-        resolved=resolved,
-        surfaces=len(pressed),
-        lines=LINES,
-        warnings=tilt_warnings(body) if isinstance(body, Surface) else (),
+        scatter=full.std(axis=0, ddof=1) / full.mean(axis=0),
+        resolved=np.all([resolved for _, resolved in pressed], axis=0),
+        surfaces=surfaces,
+        lines=COMPARED_LINES,
     )
-
-
-def scatter_of_surfaces(reduced: Real, at_half: Real) -> Real:
-    """Estimate how much single surfaces scatter from lines with the same waves.
-
-    Lines scatter as surfaces do, or up to twice as much, but saturate at lower loads, where all
-    of them become alike: the larger scatter at the load and at half of it serves both.
-
-    Parameters
-    ----------
-    reduced, at_half : ndarray, shape (lines, loads)
-        Stiffness of lines at the loads, and at half of each.
-
-    Returns
-    -------
-    ndarray, shape (loads,)
-        Standard deviation of the logarithm of the stiffness. [1]
-    """
-    scatters = [np.log(each).std(axis=0, ddof=1) for each in (reduced, at_half)]
-    return np.maximum(np.maximum(*scatters), _LEAST_SCATTER)
-
-
-def difference_of_one(surface: Real, reduced: Real, scatter: Real) -> tuple[Real, Real, Real]:
-    """Relative difference of one surface from lines, as a sample of the models' difference.
-
-    Parameters
-    ----------
-    surface : ndarray, shape (loads,)
-        Stiffness of the surface.
-    reduced : ndarray, shape (lines, loads)
-        Stiffness of the lines.
-    scatter : ndarray, shape (loads,)
-        Standard deviation of the logarithm of the stiffness of single surfaces. [1]
-
-    Returns
-    -------
-    difference, low, high : ndarray, shape (loads,)
-        The difference, and the ends of the 95 % interval of that of the two means. [1]
-    """
-    mean = reduced.mean(axis=0)
-    error = reduced.std(axis=0, ddof=1) / mean / math.sqrt(len(reduced))
-    difference = np.log(surface / mean)
-    width = _TWO_SIDED * np.hypot(scatter, error)
-    return np.expm1(difference), np.expm1(difference - width), np.expm1(difference + width)
 
 
 def _seeds(root: int, count: int) -> list[np.random.SeedSequence]:
@@ -225,7 +209,7 @@ def _seeds(root: int, count: int) -> list[np.random.SeedSequence]:
 
 
 def _on_grid(spectrum: SelfAffine, n: int) -> SelfAffine:
-    """The dimensionless spectrum with the waves that n points carry."""
+    """The dimensionless spectrum, with the waves that n points carry."""
     q_low = 2 * math.pi
     return SelfAffine(
         hurst=spectrum.hurst,
@@ -235,7 +219,7 @@ def _on_grid(spectrum: SelfAffine, n: int) -> SelfAffine:
     )
 
 
-def _pressed(body: Body, force_bars: Real) -> tuple[Real, NDArray[np.bool_]]:
+def _stiffness_under(force_bars: Real, body: Body) -> tuple[Real, Mask]:
     """Raw dimensionless stiffness under dimensionless forces, and where it is resolved."""
     curve = press(body, E_star=1.0, forces=force_bars * body.rms_height * body.length)
     return curve.stiffness / body.length, curve.resolved

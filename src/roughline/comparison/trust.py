@@ -1,14 +1,14 @@
-"""Where the reduced model may be trusted: its distance from the full model, as a map.
+"""Where the reduced model may be trusted: a map of its difference from the full model.
 
-The map comes from ensembles of both models with the same self-affine spectrum, from
-2 pi / L to 32 times that, well resolved by the grids (256² points, free half-space); it is part of
-the package, and made anew from the study in ``studies/paper``.
+The map comes from ensembles of both models with the same self-affine spectrum, from 2 pi / L to
+32 times that. The grids resolve these waves well (256² points, free half-space). The map is part of
+the package; the study in ``studies/paper`` computes it.
 
-Its intervals are percentiles of resampled realisations, which with 20 surfaces hold the truth in
-90 to 93 of 100 cases. They were widened about the difference, in the logarithm of the ratio, by
-1.0957: Student's t of 19 degrees of freedom over the normal 1.96, times √(20 / 19). Widened so,
-they hold it in 93 to 95 (``make bootstrap-coverage``). The next run of the study writes
-studentised intervals.
+The intervals of the map are percentiles of resampled realisations. With 20 surfaces such intervals
+hold the truth in 90 to 93 of 100 cases. They were therefore widened about the difference, in the
+logarithm of the ratio, by 1.0957: Student's t of 19 degrees of freedom over the normal 1.96, times
+√(20 / 19). The widened intervals hold the truth in 93 to 95 of 100 cases
+(``make bootstrap-coverage``). The next run of the study writes studentised intervals.
 """
 
 from __future__ import annotations
@@ -18,9 +18,8 @@ from functools import cache
 from importlib.resources import files
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.statistics.verdict import Verdict, verdict
 
@@ -34,26 +33,25 @@ COLUMNS = (
     "scatter",
     "resolved",
 )
-"""Of the file, a row for each point of the map; the first three are the axes."""
+"""Columns of the file, which has one row for each point of the map; the first three are axes."""
 
 
 @dataclass(frozen=True)
 class Difference:
-    """How far the reduced model is from the full one.
+    """How far the full model is from the reduced one, at one load.
 
     Attributes
     ----------
     value : float
-        Stiffness of the full model over that of the reduced one, less 1, of the means, or of one
-        surface over the mean of lines. [1]
+        Mean stiffness of the surfaces over mean stiffness of the lines, less 1. [1]
     low, high : float
-        Ends of the 95 % interval of the difference of the means over all surfaces and lines; where
-        one surface was pressed, its scatter about the mean is part of it. [1]
+        Ends of the 95 % interval for the means over all surfaces and all lines. Where a single
+        surface was pressed, the interval includes the scatter of single surfaces. [1]
     scatter : float
-        Relative standard deviation of the stiffness of single surfaces: one surface differs from
-        the mean by so much. [1]
+        Relative standard deviation of the stiffness of single surfaces: how far one surface
+        differs from their mean. [1]
     resolved : bool
-        Whether, in every realisation, ten cells or more were in contact.
+        Whether ten cells or more were in contact in every realisation.
     """
 
     value: float
@@ -73,7 +71,7 @@ class Difference:
 
 @dataclass(frozen=True, eq=False)
 class TrustMap:
-    """Difference of the two models over roll-off, fractal dimension and load.
+    """The difference of the two models over roll-off, fractal dimension and load.
 
     Attributes
     ----------
@@ -82,7 +80,7 @@ class TrustMap:
     difference, low, high, scatter : ndarray, shape (roll-offs, dimensions, loads)
         As in :class:`Difference`.
     resolved : ndarray of bool, same shape
-        Whether every realisation had ten cells or more in contact.
+        Whether ten cells or more were in contact in every realisation.
     """
 
     roll_off_ratios: Real
@@ -92,12 +90,28 @@ class TrustMap:
     low: Real
     high: Real
     scatter: Real
-    resolved: NDArray[np.bool_]
+    resolved: Mask
+
+    @classmethod
+    def from_rows(cls, rows: Real) -> TrustMap:
+        """Make a map of the rows of its file, which are sorted by the axes.
+
+        Parameters
+        ----------
+        rows : ndarray, shape (points, 8)
+            Values in the order of :data:`COLUMNS`.
+        """
+        roll_offs, dimensions, forces = (np.unique(rows[:, i]) for i in range(3))
+        shape = (roll_offs.size, dimensions.size, forces.size)
+        difference, low, high, scatter, resolved = rows[:, 3:].T.reshape(5, *shape)
+        return cls(
+            roll_offs, dimensions, forces, difference, low, high, scatter, resolved=resolved > 0.5
+        )
 
     def at(
         self, fractal_dimension: float, force_bar: float, roll_off_ratio: float = 1.0
     ) -> Difference:
-        """Read the map, linearly between its points (ratios and loads by their logarithms).
+        """Interpolate the map linearly, with the logarithms of ratios and loads.
 
         Parameters
         ----------
@@ -111,7 +125,7 @@ class TrustMap:
         Raises
         ------
         InputError
-            Outside the map.
+            If the point lies outside the map.
         """
         from scipy.interpolate import interpn  # here because it loads slowly
 
@@ -140,20 +154,4 @@ class TrustMap:
 def trust_map() -> TrustMap:
     """Return the map that comes with the package."""
     with files("roughline.comparison").joinpath("trust_map.csv").open(encoding="utf-8") as file:
-        return from_rows(np.loadtxt(file, delimiter=",", skiprows=1))
-
-
-def from_rows(rows: Real) -> TrustMap:
-    """Make a map of rows in the order of :data:`COLUMNS`, sorted by the axes."""
-    axes = [np.unique(rows[:, i]) for i in range(3)]
-    values = rows[:, 3:].T.reshape(5, *(axis.size for axis in axes))
-    return TrustMap(
-        roll_off_ratios=axes[0],
-        fractal_dimensions=axes[1],
-        force_bars=axes[2],
-        difference=values[0],
-        low=values[1],
-        high=values[2],
-        scatter=values[3],
-        resolved=values[4] > 0.5,
-    )
+        return TrustMap.from_rows(np.loadtxt(file, delimiter=",", skiprows=1))

@@ -1,14 +1,15 @@
-"""One statement of the paper beside what was found, and how it is judged."""
+"""One statement of the paper beside the same number here, and how it is judged."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from roughline.statistics.bootstrap import Estimate
-from roughline.statistics.power_law import PowerLaw
-from roughline.statistics.verdict import Verdict, of_all, verdict
+from roughline.paper.laws import DimensionLaws
+from roughline.paper.windows import Window
+from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.verdict import Verdict, joint_verdict, verdict
 
 if TYPE_CHECKING:
     import xarray
@@ -17,14 +18,19 @@ EXPONENT_TOLERANCE = 0.05
 """How near exponents must come; the paper's own plots show no more."""
 STIFFNESS_TOLERANCE = 0.10
 """How near stiffnesses must come, as a share."""
+EXACT = "exact"
+"""Stands for the interval of a number that no sample decides."""
 
-Cases = Sequence[tuple[float, Estimate]]
+Cases = Sequence[tuple[float, IntervalEstimate]]
 """A number with its interval for each fractal dimension."""
+
+Range = tuple[float, float]
+"""Smallest and largest number that a statement allows."""
 
 
 @dataclass(frozen=True)
 class Claim:
-    """One statement of the paper beside what was found.
+    """One statement of the paper beside the same number here.
 
     Attributes
     ----------
@@ -37,9 +43,9 @@ class Claim:
     basis : str
         Window of F̄, averaging and grid.
     verdict : Verdict
-        On the statement as a whole: one case that is refuted refutes it.
+        On the statement as a whole: one refuted case refutes it.
     cases : str
-        The verdict in words, case by case where these differ.
+        The verdict in words, case by case where the cases differ.
     """
 
     statement: str
@@ -50,28 +56,66 @@ class Claim:
     cases: str
 
 
-def by_dimension(cases: Cases, least: float, most: float) -> tuple[Verdict, str]:
-    """Judge a statement about every fractal dimension; the verdict, and in words."""
-    found = {d: verdict(number.low, number.high, least, most) for d, number in cases}
+def claim_about_every_dimension(
+    statement: str, found: str, basis: str, cases: Cases, allowed: Range, form: str = ".3f"
+) -> Claim:
+    """Return a claim about a number that is judged for every fractal dimension.
+
+    Parameters
+    ----------
+    statement, found, basis : str
+        As in :class:`Claim`.
+    cases : Cases
+        The number that is judged.
+    allowed : Range
+        What the statement allows.
+    form : str, optional
+        Format of the numbers in the intervals.
+    """
+    whole, in_words = by_dimension(cases, allowed)
+    return Claim(
+        statement=statement,
+        found=found,
+        interval=intervals(cases, form),
+        basis=basis,
+        verdict=whole,
+        cases=in_words,
+    )
+
+
+def around(value: float, tolerance: float) -> Range:
+    """Return the range of numbers that are as near to a value as the tolerance says."""
+    return value - tolerance, value + tolerance
+
+
+def by_dimension(cases: Cases, allowed: Range) -> tuple[Verdict, str]:
+    """Judge a statement about every fractal dimension; return the verdict, also in words."""
+    verdicts = {d: verdict(number.low, number.high, *allowed) for d, number in cases}
     words = []
     for each in (Verdict.REFUTED, Verdict.UNDECIDED, Verdict.CONFIRMED):
-        dimensions = [f"{d:.1f}" for d, one in found.items() if one is each]
-        if len(dimensions) == len(found):
+        dimensions = [f"{d:.1f}" for d, of_case in verdicts.items() if of_case is each]
+        if len(dimensions) == len(verdicts):
             return each, str(each)
         if dimensions:
             words.append(f"{each} at D_f = {', '.join(dimensions)}")
-    return of_all(found.values()), "; ".join(words)
+    return joint_verdict(verdicts.values()), "; ".join(words)
 
 
-def alpha(law: PowerLaw) -> Estimate:
-    """Exponent of a power law with its interval."""
-    return Estimate(law.exponent, *law.exponent_interval)
+def cases_of(
+    laws: Sequence[DimensionLaws], number: Callable[[DimensionLaws], IntervalEstimate]
+) -> Cases:
+    """Return a number of the laws for each of their fractal dimensions."""
+    return [(each.fractal_dimension, number(each)) for each in laws]
 
 
-def values(cases: Cases, form: str = ".3f") -> str:
+def numbers(cases: Cases, form: str = ".3f") -> str:
+    """List the numbers of all fractal dimensions."""
+    return ", ".join(f"{number.value:{form}}" for _, number in cases)
+
+
+def numbers_by_dimension(cases: Cases, form: str = ".3f") -> str:
     """List the numbers of all fractal dimensions, and which dimensions these are."""
-    numbers = ", ".join(f"{number.value:{form}}" for _, number in cases)
-    return f"{numbers} at D_f = {', '.join(f'{d:.1f}' for d, _ in cases)}"
+    return f"{numbers(cases, form)} at D_f = {', '.join(f'{d:.1f}' for d, _ in cases)}"
 
 
 def intervals(cases: Cases, form: str = ".3f") -> str:
@@ -79,13 +123,13 @@ def intervals(cases: Cases, form: str = ".3f") -> str:
     return ", ".join(f"{number.low:{form}} to {number.high:{form}}" for _, number in cases)
 
 
-def basis(window: tuple[float, float], data: xarray.Dataset, averaged: str = "k") -> str:
-    """Window, averaging and grid of a number."""
-    return f"F̄ = {window[0]:.3g} to {window[1]:.3g}; mean {averaged} at fixed F̄; {grid(data)}"
+def basis_in(window: Window, data: xarray.Dataset, averaged: str = "k") -> str:
+    """Describe the window, the averaging and the grid of a number."""
+    return f"F̄ = {window[0]:.3g} to {window[1]:.3g}; mean {averaged} at fixed F̄; {bodies_of(data)}"
 
 
-def grid(data: xarray.Dataset) -> str:
-    """Name how many bodies on which grid."""
+def bodies_of(data: xarray.Dataset) -> str:
+    """Say how many lines or surfaces an ensemble has, and their points."""
     count, n = data.sizes["realisation"], int(data.attrs["n"])
     if data.attrs["model"] == "reduced":
         power = n.bit_length() - 1

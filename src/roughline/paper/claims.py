@@ -1,18 +1,44 @@
-"""The paper's claims against the ensembles, all of them."""
+"""All claims of the paper, judged by the results of a study."""
 
 from __future__ import annotations
 
+from roughline.paper import claims_on_computing as on_computing
+from roughline.paper import claims_on_contact as on_contact
+from roughline.paper import claims_on_exponents as on_exponents
 from roughline.paper.claim import EXPONENT_TOLERANCE, STIFFNESS_TOLERANCE, Claim
-from roughline.paper.claims_on_contact import on_contact
-from roughline.paper.claims_on_exponents import on_exponents
-from roughline.paper.exponents import DimensionSummary
 from roughline.paper.results import PaperResults
 from roughline.report.page import Section, Table
 
 
-def judge(summaries: list[DimensionSummary], results: PaperResults) -> list[Claim]:
-    """Put each claim of the paper beside our numbers."""
-    return [*on_exponents(summaries, results), *on_contact(summaries, results)]
+def judge_claims(results: PaperResults) -> list[Claim]:
+    """Put each claim of the paper beside the same number here, with a verdict."""
+    return [
+        on_exponents.constant_exponent(results, "1D", "over low and medium forces (§6, §8)"),
+        on_exponents.constant_exponent(results, "3D", "k = ζ F^α (eq. 5)"),
+        on_exponents.lowest_forces(results, "1D"),
+        on_exponents.lowest_forces(results, "3D"),
+        on_exponents.ends_of_reduced(results),
+        on_exponents.between_half_and_four_fifths(results, "1D"),
+        on_exponents.between_half_and_four_fifths(results, "3D"),
+        on_exponents.great_accuracy(results),
+        on_exponents.linear_in_dimension(results),
+        on_exponents.scaling_argument(results, "1D"),
+        on_exponents.scaling_argument(results, "3D"),
+        on_exponents.small_discrepancy(results, "1D"),
+        on_exponents.small_discrepancy(results, "3D"),
+        on_exponents.scaling_identity(),
+        on_exponents.same_behaviour(results),
+        on_contact.stiffness_agrees(results),
+        on_contact.area_is_linear(results),
+        on_contact.equal_moments(results),
+        on_contact.punch_constant(results),
+        on_contact.configuration_alone(results),
+        on_contact.saturates_early(results),
+        on_contact.saturates_with_all_springs(results),
+        on_computing.no_difficulties(results),
+        *on_computing.reduced_within_minutes(results),
+        *on_computing.full_takes_weeks(results),
+    ]
 
 
 def claims_section(claims: list[Claim]) -> Section:
@@ -21,7 +47,9 @@ def claims_section(claims: list[Claim]) -> Section:
         *("The paper says", "Found here", "95 % interval"),
         *("Window, averaging, grid", "Verdict"),
     )
-    rows = [(c.statement, c.found, c.interval, c.basis, c.cases) for c in claims]
+    rows = [
+        (claim.statement, claim.found, claim.interval, claim.basis, claim.cases) for claim in claims
+    ]
     return Section(
         "The paper's claims",
         tables=[Table(header, rows, verdict=4)],

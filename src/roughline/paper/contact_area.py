@@ -9,16 +9,15 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact import scaling
+from roughline.paper.windows import WINDOW_AREA
 from roughline.statistics import bootstrap
-from roughline.statistics.bootstrap import NOTHING, Estimate
-from roughline.statistics.power_law import exponent_weights, inside_window
+from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
+from roughline.statistics.power_law import exponent_weights
+from roughline.statistics.window import inside_window
 
 if TYPE_CHECKING:
     import xarray
 
-
-WINDOW_AREA = (10**-1.5, 10**-0.5)
-"""Range of F̄ for the area law."""
 SATURATED = 0.9
 """Share of the exact punch's stiffness at which the real area is read."""
 
@@ -29,41 +28,42 @@ class AreaLaw:
 
     Attributes
     ----------
-    kappa : Estimate
-        A E* slope / F, geometric mean over the window: every load counts alike. [1]
+    kappa : IntervalEstimate
+        A E* rms_slope / F, geometric mean over the window: every load has the same weight. [1]
     kappa_ends : tuple of float
-        The same at the first and at the last load of the window. [1]
-    exponent : Estimate
+        κ at the first and at the last load of the window. [1]
+    exponent : IntervalEstimate
         Exponent of the area over the force, by least squares of the logarithms.
     """
 
-    kappa: Estimate
+    kappa: IntervalEstimate
     kappa_ends: tuple[float, float]
-    exponent: Estimate
+    exponent: IntervalEstimate
 
 
 def area_law(full: xarray.Dataset, name: str) -> AreaLaw:
-    """Eq. 4 for one fractal dimension, with the area of that name."""
+    """Return the area law of one fractal dimension, with the area of that name."""
     inside = inside_window(full.force_bar.values, WINDOW_AREA)
     force = full.force_bar.values[inside]
     area = full[name].values[:, inside]
     finite = np.isfinite(area).all(axis=1)
     area, slope = area[finite], full.rms_slope.values[finite]
     scaled = area * slope[:, np.newaxis] / force
-    alike = np.full(force.size, 1 / force.size)
+    same_weights = np.full(force.size, 1 / force.size)
     ends = scaled.mean(axis=0)[[0, -1]]
-    exponent = bootstrap.of_log_means(area, exponent_weights(force, WINDOW_AREA))
+    exponent = bootstrap.sum_of_log_means(area, exponent_weights(force, WINDOW_AREA))
     return AreaLaw(
-        kappa=bootstrap.of_log_means(scaled, alike).estimate().exp(),
+        kappa=bootstrap.sum_of_log_means(scaled, same_weights).interval_estimate().exp(),
         kappa_ends=(float(ends[0]), float(ends[1])),
-        exponent=exponent.estimate(),
+        exponent=exponent.interval_estimate(),
     )
 
 
-def saturation(full: xarray.Dataset) -> Estimate:
-    """Real area fraction, in cells, at which the mean stiffness is 90 % of the exact punch's.
+def saturation(full: xarray.Dataset) -> IntervalEstimate:
+    """Return the real area fraction at which the mean stiffness is 90 % of the exact punch's.
 
-    Linear between loads; NaN if the largest load does not reach it.
+    The area is counted in cells, and interpolated linearly between loads; it is NaN if the
+    largest load does not reach that stiffness.
     """
     converged = np.isfinite(full.stiffness.values).all(axis=1)
     stiffness = full.stiffness.values[converged] / scaling.EXACT_PUNCH
@@ -71,9 +71,10 @@ def saturation(full: xarray.Dataset) -> Estimate:
     mean = stiffness.mean(axis=0)
     above = int(np.searchsorted(mean, SATURATED))
     if above in (0, mean.size):
-        return NOTHING
+        return NO_ESTIMATE
 
-    def reached(means: Real) -> tuple[Real, Real]:
+    def area_at_saturation(means: Real) -> tuple[Real, Real]:
+        """Area between two loads, and its gradient by the two stiffnesses and areas."""
         (k_0, k_1), (a_0, a_1) = means[..., :2].T, means[..., 2:].T
         part, slope = (SATURATED - k_0) / (k_1 - k_0), (a_1 - a_0) / (k_1 - k_0)
         gradient = [-(1 - part) * slope, -part * slope, 1 - part, part]
@@ -81,4 +82,4 @@ def saturation(full: xarray.Dataset) -> Estimate:
 
     ends = slice(above - 1, above + 1)
     both = np.hstack([stiffness[:, ends], area[:, ends]])
-    return bootstrap.of_means(both, reached).estimate()
+    return bootstrap.function_of_means(both, area_at_saturation).interval_estimate()

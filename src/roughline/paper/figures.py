@@ -6,16 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
-from roughline.paper.exponents import (
-    WINDOW_FULL,
-    WINDOW_REDUCED,
-    DimensionSummary,
-    Window,
-)
+from roughline.paper.laws import DimensionLaws
+from roughline.paper.windows import WINDOW_FULL, WINDOW_REDUCED, Window
 from roughline.report.style import (
     COLUMN,
     FORCE_LABEL,
@@ -31,9 +26,11 @@ from roughline.statistics.power_law import linear_exponent, scaling_exponent
 if TYPE_CHECKING:
     import xarray
 
+_INDENTED = 1  # which body of the gallery Figure 2 shows
+
 
 def figure_1(gallery: xarray.Dataset) -> Figure:
-    """Rough line, surface, real contact area and deflection for four fractal dimensions."""
+    """Draw rough line, surface, real contact area and deflection for four fractal dimensions."""
     figure = new_figure(PAGE, 7.0)
     rows = gallery.sizes["fractal_dimension"]
     grid = figure.add_gridspec(rows, 4, width_ratios=[1.15, 1.25, 1, 1.2])
@@ -68,11 +65,11 @@ def figure_1(gallery: xarray.Dataset) -> Figure:
     return figure
 
 
-def figure_2(gallery: xarray.Dataset, fractal_dimension_index: int = 1) -> Figure:
-    """The indented line: springs in contact, and the force as the area above the level."""
+def figure_2(gallery: xarray.Dataset) -> Figure:
+    """Draw the indented line: springs in contact, and the force as the area above the level."""
     figure = new_figure(COLUMN, 2.4)
     axes = figure.add_subplot()
-    body = gallery.isel(fractal_dimension=fractal_dimension_index)
+    body = gallery.isel(fractal_dimension=_INDENTED)
     heights = body.line_heights.values
     position = np.arange(heights.size) / heights.size
     level = heights.max() - float(body.line_depth)
@@ -87,9 +84,8 @@ def figure_2(gallery: xarray.Dataset, fractal_dimension_index: int = 1) -> Figur
         linewidth=0,
         label=r"$F/E^*$ = shaded area",
     )
-    ends = _runs(heights > level)
     bottom = heights.min() - 1.2
-    for start, end in ends:
+    for start, end in _runs(heights > level):
         axes.plot(position[[start, end]], [bottom, bottom], color="k", linewidth=3)
     axes.annotate(
         "springs in contact: $k = E^*\\,\\sum L_i$",
@@ -104,7 +100,7 @@ def figure_2(gallery: xarray.Dataset, fractal_dimension_index: int = 1) -> Figur
 
 
 def figure_3(reduced: xarray.Dataset, dimensions: Real) -> Figure:
-    """Stiffness over force of the reduced model, k / (E* L)."""
+    """Draw the stiffness over force of the reduced model, k / (E* L)."""
     chosen = reduced.sel(fractal_dimension=dimensions)
     figure = _stiffness_figure(
         chosen, 1.0, r"stiffness $\bar k_{1D} = k\,/\,(E^* L)$", WINDOW_REDUCED
@@ -114,7 +110,7 @@ def figure_3(reduced: xarray.Dataset, dimensions: Real) -> Figure:
 
 
 def figure_4(full: xarray.Dataset) -> Figure:
-    """Stiffness over force of the full model, k / (1.1419 E* L)."""
+    """Draw the stiffness over force of the full model, k / (1.1419 E* L)."""
     label = r"stiffness $\bar k_{3D} = k\,/\,(1.1419\,E^* \sqrt{A_0})$"
     figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, WINDOW_FULL)
     exact = scaling.EXACT_PUNCH / scaling.PAPER_PUNCH
@@ -130,8 +126,8 @@ def figure_4(full: xarray.Dataset) -> Figure:
     return figure
 
 
-def figure_5(exponents: xarray.Dataset, summaries: list[DimensionSummary]) -> Figure:
-    """Exponent over fractal dimension: both models and the two predictions."""
+def figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
+    """Draw the exponent over fractal dimension: both models and the two predictions."""
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()
     fine = np.linspace(2, 3, 101)
@@ -149,19 +145,19 @@ def figure_5(exponents: xarray.Dataset, summaries: list[DimensionSummary]) -> Fi
             one.exponent,
             color=light,
             linestyle=style,
-            label=f"1D, {_window(span)}",
+            label=f"1D, {_window_label(span)}",
         )
-    alpha = np.array([s.full.exponent for s in summaries])
-    low, high = np.array([s.full.exponent_interval for s in summaries]).T
+    alpha = np.array([each.full.exponent for each in laws])
+    low, high = np.array([each.full.exponent_interval for each in laws]).T
     axes.errorbar(
-        [s.fractal_dimension for s in summaries],
+        [each.fractal_dimension for each in laws],
         alpha,
         yerr=[alpha - low, high - alpha],
         fmt="o",
         color=dark,
         capsize=2,
         linewidth=1,
-        label=f"3D, {_window(WINDOW_FULL)}",
+        label=f"3D, {_window_label(WINDOW_FULL)}",
     )
     axes.set(xlabel="fractal dimension $D_f$", ylabel=r"exponent $\alpha$")
     axes.set(xlim=(1.97, 3.03), ylim=(0.4, 1.02))
@@ -170,7 +166,7 @@ def figure_5(exponents: xarray.Dataset, summaries: list[DimensionSummary]) -> Fi
 
 
 def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Window) -> Figure:
-    """Mean stiffness with its standard error; open where the grid shows."""
+    """Draw the mean stiffness with its standard error; dashed where the grid does not resolve."""
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()
     axes.axvspan(*window, **SHADE)
@@ -181,18 +177,18 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
         mean = np.nanmean(stiffness, axis=0)
         error = np.nanstd(stiffness, axis=0, ddof=1) / np.sqrt(stiffness.shape[0])
         force = one.force_bar.values
-        certain = (one.resolved.values == 1).all(axis=0)
-        every = max(1, force.size // 24)
+        resolved = (one.resolved.values == 1).all(axis=0)
+        mark_spacing = max(1, force.size // 24)
         axes.fill_between(force, mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
         axes.loglog(
-            force[certain],
-            mean[certain],
+            force[resolved],
+            mean[resolved],
             color=colour,
             marker=marker,
-            markevery=every,
+            markevery=mark_spacing,
             label=f"{dimension:.1f}",
         )
-        axes.loglog(force[~certain], mean[~certain], color=colour, linewidth=0.8, linestyle="--")
+        axes.loglog(force[~resolved], mean[~resolved], color=colour, linewidth=0.8, linestyle="--")
     axes.set(xlabel=FORCE_LABEL, ylabel=label)
     legend_dimensions(axes, dimensions)
     return figure
@@ -211,7 +207,7 @@ def _draw_topography(axes: Any, heights: Real) -> None:
     axes.set_axis_off()
 
 
-def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def _runs(flags: Mask) -> list[tuple[int, int]]:
     """First and last index of each run of true values."""
     edges = np.diff(np.concatenate([[0], flags.astype(np.int8), [0]]))
     starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
@@ -219,10 +215,11 @@ def _runs(flags: NDArray[np.bool_]) -> list[tuple[int, int]]:
 
 
 def _as_fraction(value: float) -> str:
+    """A fractal dimension as it is written in the paper."""
     return {2 + 1 / 3: "7/3", 2 + 2 / 3: "8/3"}.get(value, f"{value:g}")
 
 
-def _window(window: Window) -> str:
+def _window_label(window: Window) -> str:
     low, high = (_power_of_ten(edge) for edge in window)
     return rf"$\bar F = {low}$ to ${high}$"
 

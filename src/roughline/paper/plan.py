@@ -6,17 +6,18 @@ from typing import Literal
 
 from roughline.campaign.plan import Ensemble, Gallery, Plan, decades, evenly
 
-Scale = Literal["quick", "full"]
+StudyScale = Literal["quick", "full"]
 
-DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
+PAPER_DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 """The six fractal dimensions of the paper's Figures 3 and 4."""
 
-LINES, SURFACES, MATCHED = "lines", "surfaces", "lines-of-surfaces"
-"""Names of the ensembles: the reduced model, the full model, and lines with the waves of the
-surfaces alone."""
+ENSEMBLE_REDUCED = "lines"
+ENSEMBLE_FULL = "surfaces"
+ENSEMBLE_MATCHED = "lines-of-surfaces"
+"""Lines of the reduced model with the waves of the surfaces and no shorter ones."""
 
 
-def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
+def paper_plan(scale: StudyScale, seed: int = 2012) -> Plan:
     """Return the paper's study at one of two scales.
 
     Parameters
@@ -28,22 +29,22 @@ def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
     """
     quick = scale == "quick"
     n = 256 if quick else 2048
-    bodies = 100 if quick else 500
+    line_count = 100 if quick else 500
     forces = decades(1e-3, 1e1, per_decade=6)
     lines = Ensemble(
-        name=LINES,
+        name=ENSEMBLE_REDUCED,
         model="reduced",
         fractal_dimensions=evenly(2, 3, 21 if quick else 101),
         n=2**16 if quick else 2**20,
-        realisations=bodies,
+        realisations=line_count,
         force_bars=decades(1e-5, 1e1, per_decade=10),
         seed=seed,
         boundary="none",
     )
     surfaces = Ensemble(
-        name=SURFACES,
+        name=ENSEMBLE_FULL,
         model="full",
-        fractal_dimensions=DIMENSIONS,
+        fractal_dimensions=PAPER_DIMENSIONS,
         n=n,
         realisations=10 if quick else 60,
         force_bars=forces,
@@ -51,11 +52,11 @@ def paper_plan(scale: Scale, seed: int = 2012) -> Plan:
         boundary="free",
     )
     matched = Ensemble(
-        name=MATCHED,
+        name=ENSEMBLE_MATCHED,
         model="reduced",
-        fractal_dimensions=DIMENSIONS,
+        fractal_dimensions=PAPER_DIMENSIONS,
         n=256 * n,
-        realisations=bodies,
+        realisations=line_count,
         force_bars=forces,
         seed=seed,
         boundary="none",

@@ -1,18 +1,32 @@
-"""The results that the page about the paper is drawn from."""
+"""The results of the paper's study, from a store or from files."""
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING
+
+from roughline.paper.exponents import exponents_of
+from roughline.paper.laws import DimensionLaws, dimension_laws
+from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
+from roughline.paper.windows import WINDOWS_REDUCED
 
 if TYPE_CHECKING:
     import xarray
 
-ROW_1D, ROW_MATCHED, ROW_3D = "reduced", "reduced, with the waves of the surfaces", "full"
+    from roughline.campaign.store import Store
+
+ROW_REDUCED, ROW_MATCHED, ROW_FULL = "reduced", "reduced, with the waves of the surfaces", "full"
 """Names of the ensembles in the table of what was computed."""
 
+PAPER_GRID = 2048
+"""Points along a side of the surfaces on the paper's grid."""
+_OTHER_GRIDS = (128, 256, 512, 1024)
 
-def row_of(n: int) -> str:
+
+def row_of_grid(n: int) -> str:
     """Return the name of the surfaces on a grid of n points along a side."""
     return f"full, {n}²"
 
@@ -24,21 +38,22 @@ class PaperResults:
     Attributes
     ----------
     name : str
-        Which study.
+        Which study this is, such as "at the quick scale"; the lead of the page ends with it.
     command : str
-        The command that repeats it.
+        The command that repeats the study.
     reduced, full : Dataset
         Lines and surfaces, over the fractal dimensions of the surfaces at least.
     matched : Dataset
         Lines with the waves of the surfaces and no shorter ones, at the loads of the surfaces.
     exponents : Dataset
-        The reduced model's exponent over all fractal dimensions, of :func:`exponents_of`.
+        The reduced model's exponent over all fractal dimensions, of
+        :func:`roughline.paper.exponents.exponents_of`.
     gallery : Dataset or None
         Single bodies for Figures 1 and 2.
     grids : dict of Dataset
         The same surfaces on other grids, by points along a side.
     paper_grid : Dataset or None
-        Surfaces of 2048².
+        Surfaces on the paper's grid.
     core_seconds : dict of float
         Computing time of one body with all its loads, on one core, by the name of its row. [s]
     """
@@ -54,7 +69,72 @@ class PaperResults:
     paper_grid: xarray.Dataset | None = None
     core_seconds: dict[str, float] = field(default_factory=dict)
 
-    @property
-    def ensembles(self) -> tuple[xarray.Dataset, xarray.Dataset, xarray.Dataset]:
-        """Lines, surfaces, and lines with the waves of the surfaces."""
-        return self.reduced, self.full, self.matched
+    @cached_property
+    def laws(self) -> list[DimensionLaws]:
+        """Laws of stiffness and contact area, for each fractal dimension of the surfaces."""
+        ensembles = (self.reduced, self.full, self.matched)
+        return [
+            dimension_laws(*(data.sel(fractal_dimension=dimension) for data in ensembles))
+            for dimension in self.full.fractal_dimension.values
+        ]
+
+
+def results_of_store(store: Store, name: str, command: str) -> PaperResults:
+    """Read the results of a store whose plan is the paper's.
+
+    Parameters
+    ----------
+    store : Store
+        A finished store.
+    name, command : str
+        As in :class:`PaperResults`.
+    """
+    lines = store.dataset(ENSEMBLE_REDUCED)
+    return PaperResults(
+        name=name,
+        command=command,
+        reduced=lines,
+        full=store.dataset(ENSEMBLE_FULL),
+        matched=store.dataset(ENSEMBLE_MATCHED),
+        exponents=exponents_of(lines, WINDOWS_REDUCED),
+        gallery=store.gallery(),
+    )
+
+
+def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:
+    """Read the results that ``studies/paper`` keeps as files.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder with the NetCDF files, and with ``times.json``.
+    name, command : str
+        As in :class:`PaperResults`.
+    """
+    times = json.loads((folder / "times.json").read_text(encoding="utf-8"))["core_seconds"]
+    paper_grid = _read_netcdf(folder / "paper_grid.nc")
+    grids = {n: _read_netcdf(folder / f"grid_{n}.nc") for n in _OTHER_GRIDS}
+    return PaperResults(
+        name=name,
+        command=command,
+        reduced=_read_netcdf(folder / "lines.nc"),
+        full=_read_netcdf(folder / "surfaces.nc"),
+        matched=_read_netcdf(folder / "matched.nc"),
+        exponents=_read_netcdf(folder / "exponents.nc"),
+        grids=grids | {PAPER_GRID: paper_grid},
+        paper_grid=paper_grid,
+        core_seconds={
+            ROW_REDUCED: times[ENSEMBLE_REDUCED],
+            ROW_MATCHED: times[ENSEMBLE_MATCHED],
+            ROW_FULL: times[ENSEMBLE_FULL],
+            row_of_grid(PAPER_GRID): times["paper-grid"],
+            **{row_of_grid(n): times[f"grids-n{n}"] for n in _OTHER_GRIDS},
+        },
+    )
+
+
+def _read_netcdf(path: Path) -> xarray.Dataset:
+    import xarray  # here because it loads slowly
+
+    with xarray.open_dataset(path, engine="h5netcdf") as data:
+        return data.load()

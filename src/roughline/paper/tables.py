@@ -1,4 +1,4 @@
-"""The numbers behind the figures: tables for the page, and files to go on working with."""
+"""The numbers of the page: its tables, and files for further work."""
 
 from __future__ import annotations
 
@@ -9,11 +9,25 @@ import numpy as np
 
 from roughline.campaign.export import mean_table, write_netcdf
 from roughline.paper.claim import Claim
-from roughline.paper.exponents import OTHER_WINDOWS_REDUCED, WINDOW_FULL, DimensionSummary
-from roughline.paper.results import PaperResults
+from roughline.paper.exponents import exponent_estimate, prefactor_estimate
+from roughline.paper.laws import DimensionLaws
+from roughline.paper.results import (
+    ROW_FULL,
+    ROW_MATCHED,
+    ROW_REDUCED,
+    PaperResults,
+    row_of_grid,
+)
 from roughline.paper.sensitivity import Sensitivity
+from roughline.paper.windows import OTHER_WINDOWS_REDUCED, WINDOW_FULL
 from roughline.report.page import Table
-from roughline.statistics.power_law import fit_power_law, linear_exponent, scaling_exponent
+from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.power_law import (
+    PowerLaw,
+    fit_power_law,
+    linear_exponent,
+    scaling_exponent,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -21,8 +35,8 @@ if TYPE_CHECKING:
 _GRID_FORCES = (0.01, 0.1, 1.0)
 
 
-def exponent_table(summaries: list[DimensionSummary]) -> Table:
-    """Table of the exponents of both models beside the two predictions."""
+def exponent_table(laws: list[DimensionLaws]) -> Table:
+    """Return the exponents of both models beside the two predictions."""
     header = (
         "D_f",
         "1/(4 - D_f)",
@@ -34,115 +48,158 @@ def exponent_table(summaries: list[DimensionSummary]) -> Table:
     )
     rows = [
         (
-            f"{s.fractal_dimension:.1f}",
-            f"{scaling_exponent(s.fractal_dimension):.3f}",
-            f"{linear_exponent(s.fractal_dimension):.3f}",
-            _with_interval(s.reduced.exponent, s.reduced.exponent_interval),
-            *(f"{law.exponent:.3f}" for law in s.reduced_elsewhere),
-            _with_interval(s.full.exponent, s.full.exponent_interval),
-            f"{s.unresolved:.0%}",
+            f"{each.fractal_dimension:.1f}",
+            f"{scaling_exponent(each.fractal_dimension):.3f}",
+            f"{linear_exponent(each.fractal_dimension):.3f}",
+            _estimate_cell(exponent_estimate(each.reduced)),
+            *(f"{law.exponent:.3f}" for law in each.reduced_elsewhere),
+            _estimate_cell(exponent_estimate(each.full)),
+            f"{each.unresolved:.0%}",
         )
-        for s in summaries
+        for each in laws
     ]
     return Table(header, rows, numbers=range(len(header)))
 
 
-def constant_table(summaries: list[DimensionSummary]) -> Table:
-    """Table of prefactors, of the models' ratio and of the area law."""
+def constant_table(laws: list[DimensionLaws]) -> Table:
+    """Return the prefactors, the ratio of the two models and the constants of the area law."""
     header = (
         *("D_f", "ζ 1D", "ζ 3D", "k 3D over 1D", "κ", "A ~ F^"),
         *("κ in cells", "A in cells ~ F^", "κ, first to last load"),
     )
-    rows = [
-        (
-            f"{s.fractal_dimension:.1f}",
-            _with_interval(s.reduced.prefactor, s.reduced.prefactor_interval),
-            _with_interval(s.full.prefactor, s.full.prefactor_interval),
-            *(
-                _with_interval(number.value, (number.low, number.high))
-                for number in (
-                    s.agreement,
-                    *(s.corrected.kappa, s.corrected.exponent),
-                    *(s.cells.kappa, s.cells.exponent),
-                )
-            ),
-            f"{s.corrected.kappa_ends[0]:.2f} to {s.corrected.kappa_ends[1]:.2f}",
+    rows = []
+    for each in laws:
+        estimates = (
+            prefactor_estimate(each.reduced),
+            prefactor_estimate(each.full),
+            each.agreement,
+            *(each.corrected.kappa, each.corrected.exponent),
+            *(each.cells.kappa, each.cells.exponent),
         )
-        for s in summaries
-    ]
+        first, last = each.corrected.kappa_ends
+        rows.append(
+            (
+                f"{each.fractal_dimension:.1f}",
+                *(_estimate_cell(estimate) for estimate in estimates),
+                f"{first:.2f} to {last:.2f}",
+            )
+        )
     return Table(header, rows, numbers=range(len(header)))
 
 
 def sensitivity_table(model: str, rows: list[Sensitivity]) -> Table:
-    """Table of the exponents of one model by window and averaging."""
-    windows = [f"{law.window[0]:g} to {law.window[1]:g}" for law in rows[0].arithmetic]
+    """Return the exponents of one model by window and averaging."""
     header = ["D_f"]
-    for window in windows:
-        header += [f"α {model}, {window}", "geometric", "fixed level"]
+    for law in rows[0].arithmetic:
+        header += [f"α {model}, {law.window[0]:g} to {law.window[1]:g}", "geometric", "fixed level"]
     header += ["automatic window", "α there", "loads left out"]
-    body = []
+    cells = []
     for row in rows:
-        cells = [f"{row.fractal_dimension:.1f}"]
-        for law, other, level in zip(row.arithmetic, row.geometric, row.at_level, strict=True):
-            cells += [
-                _with_interval(law.exponent, law.exponent_interval),
-                f"{other.exponent:.3f}",
-                "-"
-                if np.isnan(level.value)
-                else _with_interval(level.value, (level.low, level.high)),
-            ]
-        found = row.automatic
-        cells += (
+        fits = zip(row.arithmetic, row.geometric, row.at_level, strict=True)
+        cells.append(
             [
-                f"{found.window[0]:.2g} to {found.window[1]:.2g}",
-                _with_interval(found.exponent, found.exponent_interval),
+                f"{row.fractal_dimension:.1f}",
+                *(cell for fit in fits for cell in _fit_cells(*fit)),
+                *_automatic_cells(row.automatic),
+                str(row.unresolved),
             ]
-            if found
-            else ["none", "-"]
         )
-        body.append([*cells, str(row.unresolved)])
-    return Table(header, body, numbers=range(len(header)))
+    return Table(header, cells, numbers=range(len(header)))
+
+
+def _fit_cells(arithmetic: PowerLaw, geometric: PowerLaw, level: IntervalEstimate) -> list[str]:
+    return [
+        _estimate_cell(exponent_estimate(arithmetic)),
+        f"{geometric.exponent:.3f}",
+        "-" if np.isnan(level.value) else _estimate_cell(level),
+    ]
+
+
+def _automatic_cells(law: PowerLaw | None) -> list[str]:
+    if law is None:
+        return ["none", "-"]
+    return [
+        f"{law.window[0]:.2g} to {law.window[1]:.2g}",
+        _estimate_cell(exponent_estimate(law)),
+    ]
 
 
 def paper_grid_table(full: xarray.Dataset, fine: xarray.Dataset) -> Table:
-    """Table of the same surfaces on the paper's grid and on that of the ensemble."""
+    """Return ratios of the same surfaces on the paper's grid and on that of the ensemble."""
     n, n_fine = full.attrs["n"], fine.attrs["n"]
     header = ["D_f", "surfaces"]
     header += [f"k, {n_fine}² over {n}², F̄ = {force:g}" for force in _GRID_FORCES]
     header += [f"α, {n}²", f"α, {n_fine}²", f"A, {n_fine}² over {n}², F̄ = 0.1"]
     rows = []
     for dimension in fine.fractal_dimension.values:
-        at = {"fractal_dimension": dimension, "realisation": fine.realisation}
+        same_bodies = {"fractal_dimension": dimension, "realisation": fine.realisation}
         shared = np.intersect1d(full.force_bar, fine.force_bar)
-        coarse = full.sel(at).sel(force_bar=shared)
-        best = fine.sel(fractal_dimension=dimension).sel(force_bar=shared)
-        cells = [f"{dimension:.1f}", f"{fine.sizes['realisation']}"]
-        for force in _GRID_FORCES:
-            ratio = best.stiffness / coarse.stiffness
-            cells.append(_spread(ratio.sel(force_bar=force, method="nearest").values))
-        for data in (coarse, best):
-            law = fit_power_law(shared, data.stiffness.values, WINDOW_FULL)
-            cells.append(f"{law.exponent:.3f}")
-        ratio = best.area_fraction_corrected / coarse.area_fraction_corrected
-        cells.append(_spread(ratio.sel(force_bar=0.1, method="nearest").values))
-        rows.append(cells)
+        coarse = full.sel(same_bodies).sel(force_bar=shared)
+        finer = fine.sel(fractal_dimension=dimension).sel(force_bar=shared)
+        stiffness_ratio = finer.stiffness / coarse.stiffness
+        area_ratio = finer.area_fraction_corrected / coarse.area_fraction_corrected
+        laws = [
+            fit_power_law(shared, data.stiffness.values, WINDOW_FULL) for data in (coarse, finer)
+        ]
+        rows.append(
+            [
+                f"{dimension:.1f}",
+                f"{fine.sizes['realisation']}",
+                *(_spread_cell(stiffness_ratio, force) for force in _GRID_FORCES),
+                *(f"{law.exponent:.3f}" for law in laws),
+                _spread_cell(area_ratio, 0.1),
+            ]
+        )
     return Table(header, rows, numbers=range(len(header)))
 
 
-def _spread(values: np.ndarray) -> str:
+def _spread_cell(ratio: xarray.DataArray, force_bar: float) -> str:
+    """Mean, least and greatest of a ratio at a load."""
+    values = ratio.sel(force_bar=force_bar, method="nearest").values
     return f"{values.mean():.3f} ({values.min():.3f}-{values.max():.3f})"
 
 
-def _with_interval(value: float, interval: tuple[float, float]) -> str:
-    return f"{value:.3f} ({interval[0]:.3f}-{interval[1]:.3f})"
+def _estimate_cell(number: IntervalEstimate) -> str:
+    return f"{number.value:.3f} ({number.low:.3f}-{number.high:.3f})"
 
 
-def write_data(
-    folder: Path,
-    results: PaperResults,
-    summaries: list[DimensionSummary],
-    claims: list[Claim],
-) -> None:
+def settings_table(results: PaperResults) -> Table:
+    """Return what was computed: an ensemble in each row."""
+    ensembles = [
+        (ROW_REDUCED, results.reduced),
+        (ROW_MATCHED, results.matched),
+        (ROW_FULL, results.full),
+        *((row_of_grid(n), data) for n, data in sorted(results.grids.items())),
+    ]
+    rows = []
+    for name, data in ensembles:
+        # the exponents may come from more fractal dimensions than the lines that are kept
+        dimensions = (results.exponents if name == ROW_REDUCED else data).fractal_dimension.values
+        n, forces = data.attrs["n"], data.force_bar.values
+        rows.append(
+            (
+                name,
+                f"{dimensions.size}, from {dimensions[0]:g} to {dimensions[-1]:g}",
+                f"{data.sizes['realisation']}",
+                f"{n}" if data.attrs["model"] == "reduced" else f"{n} × {n}",
+                f"{forces.size}, F̄ = {forces[0]:g} to {forces[-1]:g}",
+                f"SeedSequence({data.attrs['seed']}, spawn_key=(i,))",
+                *_time_cells(results, name),
+            )
+        )
+    header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")
+    return Table((*header, "One body, one core, at most") if results.core_seconds else header, rows)
+
+
+def _time_cells(results: PaperResults, row: str) -> list[str]:
+    """Computing time of a row of the settings; no cell at all where no times are known."""
+    if not results.core_seconds:
+        return []
+    seconds = results.core_seconds.get(row)
+    return [f"{seconds:.3g} s" if seconds else "-"]
+
+
+def write_data(folder: Path, results: PaperResults, claims: list[Claim]) -> None:
     """Write the ensembles and the gallery as NetCDF, mean curves and tables as CSV."""
     import pandas as pd  # here because it loads slowly
 
@@ -154,10 +211,10 @@ def write_data(
         mean_table(data).to_csv(folder / f"{name}.csv", index=False)
     if results.gallery is not None:
         results.gallery.to_netcdf(folder / "gallery.nc", engine="h5netcdf")
-    for name, shown in (
-        ("exponents", exponent_table(summaries)),
-        ("constants", constant_table(summaries)),
+    for name, table in (
+        ("exponents", exponent_table(results.laws)),
+        ("constants", constant_table(results.laws)),
     ):
-        frame = pd.DataFrame(shown.rows, columns=list(shown.header))
+        frame = pd.DataFrame(table.rows, columns=list(table.header))
         frame.to_csv(folder / f"{name}.csv", index=False)
     pd.DataFrame([vars(claim) for claim in claims]).to_csv(folder / "claims.csv", index=False)

@@ -1,4 +1,4 @@
-"""The page about the map: where the reduced model may be trusted."""
+"""The page about the trust map: where the reduced model may be trusted."""
 
 from __future__ import annotations
 
@@ -25,58 +25,12 @@ def trust_page(trust: TrustMap, fine: TrustMap, folder: str) -> str:
     folder : str
         Folder of the figure, relative to the page.
     """
-    tables = [_table(trust, float(roll_off)) for roll_off in trust.roll_off_ratios]
     sections = [
-        Section(
-            "The map",
-            [
-                f"![The map]({folder}/trust_map.png)",
-                "Raw stiffness k / (E* L) of the full model over that of the reduced one, less 1, "
-                "at the same F̄ = F / (E* h L), over fractal dimension and load, for five roll-off "
-                "ratios q_roll / q_0. Both models have the same self-affine spectrum, from q_0 = "
-                "2π/L to 32 q_0, and the same rms height. Hatched: in some surface, fewer than ten "
-                "cells were in contact. 20 surfaces of 256² points (eight for the shortest wave), "
-                "free half-space, and 200 lines of 65,536 points at each place.",
-            ],
-        ),
-        Section(
-            "In numbers",
-            [
-                "Differences of the means with 95 % intervals; a star where the grid decides.",
-                "The intervals are percentiles of resampled realisations, widened about the "
-                "difference, in the logarithm of the ratio, by 1.0957: Student's t of 19 degrees "
-                "of freedom over the normal 1.96, times √(20 / 19). As they came they held the "
-                "truth in 90 to 93 of 100 ensembles of 20, widened they hold it in 93 to 95 "
-                "([how that was found](how-to/intervals.md)). The realisations behind the map are "
-                "not kept with it; when the study is run again, it writes studentised intervals.",
-            ],
-        ),
-        *(
-            Section(f"q_roll / q_0 = {roll_off:g}", tables=[table])
-            for roll_off, table in zip(trust.roll_off_ratios, tables, strict=True)
-        ),
-        Section(
-            "How much it depends on its cutoff",
-            [
-                "The difference from the map, and from surfaces of 512² points with waves down to "
-                "64 q_0 (20 surfaces, 200 lines)."
-            ],
-            tables=[_cutoff_table(trust, fine)],
-        ),
-        Section(
-            "How to use it",
-            [
-                "`rl.trust_map().at(fractal_dimension=2.3, force_bar=0.05, roll_off_ratio=2)` "
-                "gives the difference of the means, its interval, and the scatter of single "
-                "surfaces: one of your own differs from the mean by so much. Its "
-                '`verdict(tolerance)` is "confirmed" where the whole interval lies within the '
-                'tolerance, "refuted" where it lies outside, and "undecided" else. At 10 % and '
-                f"where the grid resolves it, {_shares(trust)}. `roughline compare` presses both "
-                "models of your own spectrum or surface.",
-                "The map ends at its borders: it says nothing of other boundaries, of bodies that "
-                "are not square, or of heights that are not Gaussian.",
-            ],
-        ),
+        _map_section(folder),
+        _numbers_section(),
+        *(_roll_off_section(trust, float(roll_off)) for roll_off in trust.roll_off_ratios),
+        _cutoff_section(trust, fine),
+        _use_section(trust),
     ]
     lead = (
         "The reduced model gives a stiffness in milliseconds, without interactions between "
@@ -89,24 +43,47 @@ def trust_page(trust: TrustMap, fine: TrustMap, folder: str) -> str:
     return render_markdown("Where may the reduced model be trusted?", lead, sections, folder)
 
 
-def _shares(trust: TrustMap) -> str:
-    """How many places of the map the verdicts are at."""
-    ends = zip(trust.low[trust.resolved], trust.high[trust.resolved], strict=True)
-    found = [verdict(low, high, -_TOLERANCE, _TOLERANCE) for low, high in ends]
-    counts = ", ".join(f"{found.count(each)} {each}" for each in Verdict)
-    return f"the {len(found)} places of the map are {counts}"
+def _map_section(folder: str) -> Section:
+    return Section(
+        "The map",
+        [
+            f"![The map]({folder}/trust_map.png)",
+            "Raw stiffness k / (E* L) of the full model over that of the reduced one, less 1, "
+            "at the same F̄ = F / (E* h L), over fractal dimension and load, for five roll-off "
+            "ratios q_roll / q_0. Both models have the same self-affine spectrum, from q_0 = "
+            "2π/L to 32 q_0, and the same rms height. Hatched: in some surface, fewer than ten "
+            "cells were in contact. 20 surfaces of 256² points (eight for the shortest wave), "
+            "free half-space, and 200 lines of 65,536 points at each place.",
+        ],
+    )
 
 
-def _table(trust: TrustMap, roll_off: float) -> Table:
+def _numbers_section() -> Section:
+    return Section(
+        "In numbers",
+        [
+            "Differences of the means with 95 % intervals; a star where the grid decides.",
+            "The intervals are percentiles of resampled realisations, widened about the "
+            "difference, in the logarithm of the ratio, by 1.0957: Student's t of 19 degrees "
+            "of freedom over the normal 1.96, times √(20 / 19). As they came they held the "
+            "truth in 90 to 93 of 100 ensembles of 20, widened they hold it in 93 to 95 "
+            "([how that was found](how-to/intervals.md)). The realisations behind the map are "
+            "not kept with it; when the study is run again, it writes studentised intervals.",
+        ],
+    )
+
+
+def _roll_off_section(trust: TrustMap, roll_off: float) -> Section:
     header = ("D_f", *(f"F̄ = {force:g}" for force in _TABLE_FORCES))
     rows = [
         (f"{dimension:.1f}", *(_cell(trust, roll_off, dimension, f) for f in _TABLE_FORCES))
         for dimension in _TABLE_DIMENSIONS
     ]
-    return Table(header, rows, numbers=range(len(header)))
+    table = Table(header, rows, numbers=range(len(header)))
+    return Section(f"q_roll / q_0 = {roll_off:g}", tables=[table])
 
 
-def _cutoff_table(trust: TrustMap, fine: TrustMap) -> Table:
+def _cutoff_section(trust: TrustMap, fine: TrustMap) -> Section:
     header = ["q_roll / q_0", "D_f"]
     header += [f"F̄ = {force:g}, {end} q_0" for force in _TABLE_FORCES[1:] for end in (32, 64)]
     rows = []
@@ -118,12 +95,44 @@ def _cutoff_table(trust: TrustMap, fine: TrustMap) -> Table:
                 for of in (trust, fine)
             ]
             rows.append([f"{roll_off:g}", f"{dimension:.1f}", *cells])
-    return Table(header, rows, numbers=range(len(header)))
+    return Section(
+        "How much it depends on its cutoff",
+        [
+            "The difference from the map, and from surfaces of 512² points with waves down to "
+            "64 q_0 (20 surfaces, 200 lines)."
+        ],
+        tables=[Table(header, rows, numbers=range(len(header)))],
+    )
+
+
+def _use_section(trust: TrustMap) -> Section:
+    return Section(
+        "How to use it",
+        [
+            "`rl.trust_map().at(fractal_dimension=2.3, force_bar=0.05, roll_off_ratio=2)` "
+            "gives the difference of the means, its interval, and the scatter of single "
+            "surfaces: one of your own differs from the mean by so much. Its "
+            '`verdict(tolerance)` is "confirmed" where the whole interval lies within the '
+            'tolerance, "refuted" where it lies outside, and "undecided" else. At 10 % and '
+            f"where the grid resolves it, {_counts_of_verdicts(trust)}. `roughline compare` "
+            "presses both models of your own spectrum or surface.",
+            "The map ends at its borders: it says nothing of other boundaries, of bodies that "
+            "are not square, or of heights that are not Gaussian.",
+        ],
+    )
+
+
+def _counts_of_verdicts(trust: TrustMap) -> str:
+    """Say at how many places of the map each verdict stands."""
+    ends = zip(trust.low[trust.resolved], trust.high[trust.resolved], strict=True)
+    verdicts = [verdict(low, high, -_TOLERANCE, _TOLERANCE) for low, high in ends]
+    counts = ", ".join(f"{verdicts.count(each)} {each}" for each in Verdict)
+    return f"the {len(verdicts)} places of the map are {counts}"
 
 
 def _cell(trust: TrustMap, roll_off: float, dimension: float, force_bar: float) -> str:
-    found = trust.at(dimension, force_bar, roll_off)
-    if np.isnan(found.value):
+    difference = trust.at(dimension, force_bar, roll_off)
+    if np.isnan(difference.value):
         return "-"
-    star = "" if found.resolved else " *"
-    return f"{found.value:+.0%} ({found.low:+.0%} to {found.high:+.0%}){star}"
+    star = "" if difference.resolved else " *"
+    return f"{difference.value:+.0%} ({difference.low:+.0%} to {difference.high:+.0%}){star}"

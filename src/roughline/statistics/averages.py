@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
 from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import Resampled
@@ -31,7 +31,7 @@ class Average:
     standard_error : ndarray, shape (loads,)
         Scatter over the square root of the count.
     count : ndarray of int, shape (loads,)
-        Realisations that the mean is of; those that are not finite are left out.
+        Number of realisations averaged; values that are not finite are left out.
     averaging : {"arithmetic", "geometric"}
         Which mean.
     confidence : float
@@ -43,7 +43,7 @@ class Average:
     high: Real
     scatter: Real
     standard_error: Real
-    count: NDArray[np.intp]
+    count: Indices
     averaging: Averaging
     confidence: float
 
@@ -72,14 +72,14 @@ def average(
     InputError
         If the shape is another, or the mean is geometric and a value is not positive.
     """
-    table = _checked(values, averaging, confidence)
-    shown = np.log(table) if averaging == "geometric" else table
+    table = _checked_table(values, averaging, confidence)
+    averaged = np.log(table) if averaging == "geometric" else table
     count = np.count_nonzero(np.isfinite(table), axis=0)
-    found = bootstrap.means(shown, rng)
-    ends = np.array([found.value, *found.interval(confidence)])
+    resampled = bootstrap.means(averaged, rng)
+    ends = np.array([resampled.value, *resampled.interval(confidence)])
     mean, low, high = np.exp(ends) if averaging == "geometric" else ends
-    scatter = found.error * np.sqrt(count)
-    return Average(mean, low, high, scatter, found.error, count, averaging, confidence)
+    scatter = resampled.error * np.sqrt(count)
+    return Average(mean, low, high, scatter, resampled.error, count, averaging, confidence)
 
 
 def relative_difference(
@@ -97,8 +97,9 @@ def relative_difference(
     values, reference : array_like, shape (realisations, loads)
         The two ensembles at the same loads; positive, or NaN where a load did not converge.
     paired : bool
-        Whether realisation i of both belongs together (same seed, same phases): they are then
-        resampled together, and what is not finite in one is left out of both.
+        Whether realisation i of one belongs to realisation i of the other (same seed, same
+        phases). Pairs are resampled together, and a pair is left out where one value is not
+        finite.
     confidence : float, optional
         Level of the interval.
     rng : int, optional
@@ -114,8 +115,8 @@ def relative_difference(
     InputError
         If the shapes do not fit, or a value is not positive.
     """
-    first = _checked(values, "arithmetic", confidence)
-    second = _checked(reference, "arithmetic", confidence)
+    first = _checked_table(values, "arithmetic", confidence)
+    second = _checked_table(reference, "arithmetic", confidence)
     if first.shape[1] != second.shape[1] or (paired and first.shape != second.shape):
         raise InputError(
             f"values have shape {first.shape}, the reference {second.shape}; the same loads are "
@@ -124,20 +125,22 @@ def relative_difference(
     if (first <= 0).any() or (second <= 0).any():
         raise InputError("a relative difference needs positive values; some are zero or negative")
     if paired:
-        both = np.isfinite(first) & np.isfinite(second)
-        found = [_paired(*pair, rng) for pair in zip(first.T, second.T, both.T, strict=True)]
-        ends = [(each.value, *each.interval(confidence)) for each in found]
+        ratios = [_log_ratio_of_pairs(*pair, rng) for pair in zip(first.T, second.T, strict=True)]
+        ends = [(ratio.value, *ratio.interval(confidence)) for ratio in ratios]
         difference, low, high = np.expm1(np.reshape(ends, (-1, 3)).T)
     else:
-        apart = bootstrap.means(first, rng).log() - bootstrap.means(second, rng + 1).log()
-        difference, (low, high) = np.expm1(apart.value), np.expm1(apart.interval(confidence))
+        # two seeds, because the two ensembles are independent
+        log_ratio = bootstrap.means(first, rng).log() - bootstrap.means(second, rng + 1).log()
+        difference = np.expm1(log_ratio.value)
+        low, high = np.expm1(log_ratio.interval(confidence))
     return difference, low, high
 
 
-def _paired(values: Real, reference: Real, both: NDArray[np.bool_], rng: int) -> Resampled:
-    """Difference of the logarithms of two means over the same realisations."""
+def _log_ratio_of_pairs(values: Real, reference: Real, rng: int) -> Resampled:
+    """Logarithm of the ratio of two means over the realisations where both are finite."""
+    both = np.isfinite(values) & np.isfinite(reference)
     pairs = np.column_stack([values[both], reference[both]])
-    return bootstrap.of_log_means(pairs, np.array([1.0, -1.0]), rng=rng)
+    return bootstrap.sum_of_log_means(pairs, np.array([1.0, -1.0]), rng=rng)
 
 
 def at_levels(
@@ -145,9 +148,9 @@ def at_levels(
 ) -> tuple[Real, Real]:
     """Force and stiffness of every realisation at common levels of the rigid plane.
 
-    The level is the height of the plane above the mean of the heights; a realisation whose
-    highest point lies below it bears nothing. Averaged at fixed level, an ensemble shows other
-    exponents than at fixed force, because its highest realisations dominate.
+    The level is the height of the plane above the mean of the heights. A realisation whose
+    highest point lies below the plane carries no force. An ensemble that is averaged at fixed
+    level shows other exponents than at fixed force, because its highest realisations dominate.
 
     Parameters
     ----------
@@ -156,29 +159,29 @@ def at_levels(
     depth, stiffness : array_like, shape (realisations, loads)
         Depth since touch, over h, and stiffness under these forces.
     highest : array_like, shape (realisations,)
-        Highest point of each, above the mean, over h.
+        Height of the highest point of each realisation above the mean, over h.
     levels : int
         Number of levels, evenly spaced over those that all realisations reach.
 
     Returns
     -------
     force, stiffness : ndarray, shape (realisations, levels)
-        Zero where a realisation does not touch, or less than under the smallest load; from the
-        highest level to the lowest.
+        From the highest level to the lowest. Zero where a realisation does not touch, and where
+        it carries less than the smallest load.
     """
     log_force = np.log(np.asarray(force_bar, dtype=np.float64))
     depths, stiffnesses = np.asarray(depth, float), np.asarray(stiffness, float)
     plane = np.asarray(highest, float)[:, np.newaxis] - depths
     common = np.linspace(plane[:, 0].max(), plane[:, -1].max(), levels)
-    forces, at = np.zeros((len(depths), levels)), np.zeros((len(depths), levels))
-    for i, (row, stiff) in enumerate(zip(plane, stiffnesses, strict=True)):
-        touches = common <= row[0]
-        forces[i, touches] = np.exp(np.interp(-common[touches], -row, log_force))
-        at[i, touches] = np.exp(np.interp(-common[touches], -row, np.log(stiff)))
-    return forces, at
+    force_at, stiffness_at = np.zeros((2, len(depths), levels))
+    for i, (heights, stiff) in enumerate(zip(plane, stiffnesses, strict=True)):
+        touches = common <= heights[0]
+        force_at[i, touches] = np.exp(np.interp(-common[touches], -heights, log_force))
+        stiffness_at[i, touches] = np.exp(np.interp(-common[touches], -heights, np.log(stiff)))
+    return force_at, stiffness_at
 
 
-def _checked(values: ArrayLike, averaging: str, confidence: float) -> Real:
+def _checked_table(values: ArrayLike, averaging: str, confidence: float) -> Real:
     table = np.asarray(values, dtype=np.float64)
     if table.ndim != 2 or not table.size:
         raise InputError(f"values have shape {table.shape}; (realisations, loads) is needed")

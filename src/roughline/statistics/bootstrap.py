@@ -1,8 +1,9 @@
 """Studentised intervals from resampling the realisations of an ensemble.
 
-Every resample gives its own standard error, and the interval comes from how far, in these errors,
-the resamples lie from the ensemble. Percentiles of the resamples themselves would be too narrow:
-95 % of them hold the truth in 87 to 92 of 100 ensembles of 10 or 20 realisations.
+Every resample has its own standard error. The interval comes from how many of these errors the
+resamples lie away from the ensemble. Percentiles of the resamples would be too narrow: an interval
+that holds 95 % of the resamples holds the truth in 87 to 92 of 100 ensembles of 10 or 20
+realisations.
 
 References
 ----------
@@ -24,29 +25,30 @@ Statistic = Callable[[Real], tuple[Real, Real]]
 """Takes means, shape (..., loads); returns values, shape (...), and gradients, (..., loads)."""
 
 ROUNDS = 1999
-_ENOUGH = 5.0  # degrees of freedom; of fewer realisations too many resamples are alike
-_STEADY = 1e-12  # relative errors below are rounding: the realisations are all alike
+"""Number of resamples."""
+_LEAST_FREEDOM = 5.0  # with fewer degrees of freedom too many resamples are alike
+_ROUNDING = 1e-12  # relative errors below this are rounding: the realisations are all alike
 
 
 @dataclass(frozen=True)
-class Estimate:
-    """A number with its 95 % interval; NaN where there is none."""
+class IntervalEstimate:
+    """A number with its interval, of 95 % unless said otherwise; NaN where there is none."""
 
     value: float
     low: float
     high: float
 
-    def exp(self) -> Estimate:
-        """Return the number and its interval, of which this is the logarithm."""
-        return Estimate(*np.exp([self.value, self.low, self.high]).tolist())
+    def exp(self) -> IntervalEstimate:
+        """Return the exponential of the number and of the ends of its interval."""
+        return IntervalEstimate(*np.exp([self.value, self.low, self.high]).tolist())
 
-    def __sub__(self, exact: float) -> Estimate:
-        """Return the distance from an exact number."""
-        return Estimate(self.value - exact, self.low - exact, self.high - exact)
+    def __sub__(self, exact: float) -> IntervalEstimate:
+        """Return the difference from a number that is known exactly."""
+        return IntervalEstimate(self.value - exact, self.low - exact, self.high - exact)
 
 
-NOTHING = Estimate(math.nan, math.nan, math.nan)
-"""Where an ensemble says nothing."""
+NO_ESTIMATE = IntervalEstimate(math.nan, math.nan, math.nan)
+"""The estimate of an ensemble that does not determine the number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,11 +58,12 @@ class Resampled:
     Attributes
     ----------
     value, error : ndarray, shape (...)
-        Of the ensemble.
+        The statistic of the ensemble and its standard error.
     values, errors : ndarray, shape (rounds, ...)
-        Of the resamples; NaN where a resample has none.
+        The same of the resamples; NaN where a resample has none.
     freedom : ndarray, shape (...)
-        Degrees of freedom of the error: realisations less 1; of a difference, Welch's.
+        Degrees of freedom of the error: the number of realisations less 1. For a difference of
+        two ensembles, Welch's number.
     """
 
     value: Real
@@ -70,7 +73,7 @@ class Resampled:
     freedom: Real
 
     def log(self) -> Resampled:
-        """Return the logarithm, whose intervals are those of ratios."""
+        """Return the logarithm of the statistic; differences of logarithms are ratios."""
         return Resampled(
             np.log(self.value),
             self.error / self.value,
@@ -91,37 +94,39 @@ class Resampled:
             1 / (share**2 / self.freedom + (1 - share) ** 2 / other.freedom),
         )
 
-    def estimate(self) -> Estimate:
-        """Return a single number with its interval."""
-        return Estimate(float(self.value), *map(float, self.interval()))
+    def interval_estimate(self, confidence: float = 0.95) -> IntervalEstimate:
+        """Return a statistic that is a single number, with its interval."""
+        return IntervalEstimate(float(self.value), *map(float, self.interval(confidence)))
 
     def interval(self, confidence: float = 0.95) -> Real:
-        """Lower and upper ends, shape (2, ...).
+        """Return the lower and upper ends of the interval, shape (2, ...).
 
-        On each side the farther of Student's t, which supposes a normal distribution, and of the
-        resamples, which show how skew it is, but a few of which show too little of it. Of fewer
-        than six realisations Student's t alone.
+        Student's t supposes a normal distribution. The resamples show how skew the distribution
+        is, but those of few realisations show too little of it. On each side the end that lies
+        farther from the value is taken. For fewer than six realisations Student's t alone is
+        taken.
         """
         from scipy.special import stdtrit  # here because it loads slowly
 
         known = np.isfinite(self.value) & np.isfinite(self.error)
-        varied = known & (self.error > _STEADY * np.abs(self.value))
+        varied = known & (self.error > _ROUNDING * np.abs(self.value))
         with np.errstate(divide="ignore", invalid="ignore"):
             steps = np.where(varied, (self.values - self.value) / self.errors, 0.0)
         tails = np.array([(1 + confidence) / 2, (1 - confidence) / 2])
-        # ends that are resamples: between two, one of which may be infinite, nothing is known
+        # each end is one of the resamples: between two of them, one may be infinite
         resampled = np.nanquantile(steps, tails, axis=0, method="nearest")
         student = np.array([stdtrit(self.freedom, tail) for tail in tails])
         farther = np.maximum(resampled[0], student[0]), np.minimum(resampled[1], student[1])
-        quantiles = np.where(self.freedom < _ENOUGH, student, np.array(farther))
+        quantiles = np.where(self.freedom < _LEAST_FREEDOM, student, np.array(farther))
         width = np.where(varied, quantiles, 0.0) * self.error
         return np.where(known, self.value - width, np.nan)
 
 
 def means(values: Real, rng: int = 0) -> Resampled:
-    """Resample the mean over realisations; what is not finite is left out.
+    """Resample the mean over realisations; values that are not finite are left out.
 
-    Ensembles of equally many realisations, resampled with the same seed, take the same ones.
+    Two ensembles with the same number of realisations, resampled with the same seed, draw the
+    same realisations.
 
     Parameters
     ----------
@@ -136,11 +141,11 @@ def means(values: Real, rng: int = 0) -> Resampled:
     weights = _weights(count, rng)
     counts = weights @ finite
     some = np.where(counts > 0, counts, np.nan)
-    # about the ensemble's own mean, so that squares do not cancel
+    # deviations from the mean of the ensemble keep the squares from cancelling
     centre = np.where(finite, flat, 0.0).sum(axis=0) / some[0]
-    about = np.where(finite, flat - centre, 0.0)
-    shift = weights @ about / some
-    variance = np.maximum(weights @ about**2 / some - shift**2, 0.0)
+    deviations = np.where(finite, flat - centre, 0.0)
+    shift = weights @ deviations / some
+    variance = np.maximum(weights @ deviations**2 / some - shift**2, 0.0)
     freedom = np.where(counts[0] > 1, counts[0] - 1, np.nan)
     errors = np.sqrt(variance / freedom)
     shape = values.shape[1:]
@@ -153,7 +158,7 @@ def means(values: Real, rng: int = 0) -> Resampled:
     )
 
 
-def of_means(values: Real, statistic: Statistic, rng: int = 0) -> Resampled:
+def function_of_means(values: Real, statistic: Statistic, rng: int = 0) -> Resampled:
     """Resample a smooth function of the means, with its linearised standard error.
 
     Parameters
@@ -168,19 +173,21 @@ def of_means(values: Real, statistic: Statistic, rng: int = 0) -> Resampled:
     count = values.shape[0]
     weights = _weights(count, rng)
     centre = values.mean(axis=0)
-    about = values - centre
-    shift = weights @ about / count
-    found, gradient = statistic(centre + shift)
+    deviations = values - centre
+    shift = weights @ deviations / count
+    results, gradient = statistic(centre + shift)
     # how far each realisation moves the statistic of each resample
-    moves = gradient @ about.T - (gradient * shift).sum(axis=1)[:, np.newaxis]
+    moves = gradient @ deviations.T - (gradient * shift).sum(axis=1)[:, np.newaxis]
     freedom = max(count - 1, 1)
     errors = np.sqrt((weights * moves**2).sum(axis=1) / count / freedom)
     return Resampled(
-        found[0], errors[0], found[1:], errors[1:], np.asarray(count - 1, dtype=np.float64)
+        results[0], errors[0], results[1:], errors[1:], np.asarray(count - 1, dtype=np.float64)
     )
 
 
-def of_log_means(values: Real, weights: Real, geometric: bool = False, rng: int = 0) -> Resampled:
+def sum_of_log_means(
+    values: Real, weights: Real, geometric: bool = False, rng: int = 0
+) -> Resampled:
     """Resample a weighted sum over loads of the logarithm of the mean, such as an exponent.
 
     Parameters
@@ -188,24 +195,28 @@ def of_log_means(values: Real, weights: Real, geometric: bool = False, rng: int 
     values : ndarray, shape (realisations, loads)
         Positive values.
     weights : ndarray, shape (loads,)
-        One for each load; loads of weight zero do not matter.
+        One weight for each load; values at loads of weight zero are not used.
     geometric : bool, optional
         Whether the mean is the geometric one.
     rng : int, optional
         Seed of the resampling.
     """
     used = weights != 0
-    some = weights[used]
+    factors = weights[used]
     if geometric:
-        return of_means(
-            np.log(values[:, used]), lambda m: (m @ some, np.broadcast_to(some, m.shape)), rng
+        return function_of_means(
+            np.log(values[:, used]),
+            lambda means: (means @ factors, np.broadcast_to(factors, means.shape)),
+            rng,
         )
-    return of_means(values[:, used], lambda m: (np.log(m) @ some, some / m), rng)
+    return function_of_means(
+        values[:, used], lambda means: (np.log(means) @ factors, factors / means), rng
+    )
 
 
 @lru_cache(maxsize=4)
 def _weights(count: int, rng: int) -> Real:
-    """How often each realisation counts in the ensemble, and in each resample below it."""
+    """How often each realisation counts: in the ensemble (row 0) and in each resample."""
     draws = np.random.default_rng(rng).integers(count, size=(ROUNDS, count))
     weights = np.zeros((1 + ROUNDS, count))
     weights[0] = 1.0

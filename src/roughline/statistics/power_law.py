@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.statistics import bootstrap
 from roughline.statistics.averages import Averaging
+from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.window import inside_window
 
 Value = TypeVar("Value", float, Real)
 
@@ -68,9 +70,9 @@ def fit_power_law(
 ) -> PowerLaw:
     """Fit a power law by least squares of the logarithms inside a window.
 
-    Of several realisations the mean at fixed force is fitted, and the intervals come from
-    resampling the realisations. Of a single curve they come from the scatter about the line,
-    which says how straight the curve is rather than how far another surface would differ.
+    For several realisations the mean at fixed force is fitted, and the intervals come from
+    resampling the realisations. For a single curve the intervals come from the scatter about the
+    line: they show how straight the curve is, and not how far another surface would differ.
 
     Parameters
     ----------
@@ -93,6 +95,61 @@ def fit_power_law(
         If the window holds fewer than three loads, or values that are not positive and finite
         (loads that did not converge are NaN: leave them out knowingly).
     """
+    force, stiffness = _loads_in_window(force_bar, stiffness_bar, window, confidence)
+    several = stiffness.shape[0] > 1
+    slope, offset = (
+        _resampled_line(force, stiffness, confidence, rng, averaging)
+        if several
+        else _regression_line(np.log(force), np.log(stiffness[0]), confidence)
+    )
+    return PowerLaw(
+        exponent=slope.value,
+        prefactor=math.exp(offset.value),
+        exponent_interval=(slope.low, slope.high),
+        prefactor_interval=(math.exp(offset.low), math.exp(offset.high)),
+        window=(float(window[0]), float(window[1])),
+        points=force.size,
+        realisations=stiffness.shape[0],
+        confidence=confidence,
+        interval_from="resampled realisations" if several else "regression",
+        averaging=averaging,
+    )
+
+
+def line_weights(x: Real) -> tuple[Real, Real]:
+    """Return weights of y whose sums are slope and offset of the least-squares line over x."""
+    centred = x - x.mean()
+    slope = centred / (centred**2).sum()
+    return slope, 1 / x.size - slope * x.mean()
+
+
+def exponent_weights(force_bar: Real, window: tuple[float, float]) -> Real:
+    """Return weights of the logarithms at all loads whose sum is the exponent in a window.
+
+    The weights are zero outside the window, and NaN if it holds fewer than three loads.
+    """
+    inside = inside_window(force_bar, window)
+    if np.count_nonzero(inside) < 3:
+        return np.full(force_bar.size, np.nan)
+    weights = np.zeros(force_bar.size)
+    weights[inside] = line_weights(np.log(force_bar[inside]))[0]
+    return weights
+
+
+def scaling_exponent(fractal_dimension: Value) -> Value:
+    """Exponent from the scaling argument, alpha = 1 / (H + 1) = 1 / (4 - D_f), eq. 14."""
+    return 1 / (4 - fractal_dimension)
+
+
+def linear_exponent(fractal_dimension: Value) -> Value:
+    """Exponent that the paper reads off its 3D results, alpha = 0.2567 D_f."""
+    return 0.2567 * fractal_dimension
+
+
+def _loads_in_window(
+    force_bar: ArrayLike, stiffness_bar: ArrayLike, window: tuple[float, float], confidence: float
+) -> tuple[Real, Real]:
+    """Forces and stiffness, shape (realisations, loads), inside the window."""
     force = np.asarray(force_bar, dtype=np.float64)
     stiffness = np.atleast_2d(np.asarray(stiffness_bar, dtype=np.float64))
     if force.ndim != 1 or stiffness.ndim != 2 or stiffness.shape[1] != force.size:
@@ -111,7 +168,7 @@ def fit_power_law(
             f"the window {low:g} to {high:g} holds {np.count_nonzero(inside)} loads; at least 3 "
             f"are needed: widen it (the loads span {force.min():g} to {force.max():g})"
         )
-    log_force, stiffness = np.log(force[inside]), stiffness[:, inside]
+    stiffness = stiffness[:, inside]
     bad = ~(np.isfinite(stiffness) & (stiffness > 0))
     if bad.any():
         raise InputError(
@@ -119,153 +176,32 @@ def fit_power_law(
             "finite numbers (loads that did not converge are NaN): leave their loads or "
             "realisations out"
         )
-    exponent, offset = line_weights(log_force)
-    if stiffness.shape[0] > 1:
-        found = [
-            bootstrap.of_log_means(stiffness, weights, averaging == "geometric", rng)
-            for weights in (exponent, offset)
-        ]
-        values = [float(each.value) for each in found]
-        intervals = [each.interval(confidence) for each in found]
-    else:
-        logs = np.log(stiffness[0])
-        values = [float(logs @ weights) for weights in (exponent, offset)]
-        intervals = _regression_intervals(log_force, logs, values[0], values[1], confidence)
-    ends = [(float(low), float(high)) for low, high in intervals]
-    return PowerLaw(
-        exponent=values[0],
-        prefactor=math.exp(values[1]),
-        exponent_interval=ends[0],
-        prefactor_interval=(math.exp(ends[1][0]), math.exp(ends[1][1])),
-        window=(float(low), float(high)),
-        points=log_force.size,
-        realisations=stiffness.shape[0],
-        confidence=confidence,
-        interval_from="resampled realisations" if stiffness.shape[0] > 1 else "regression",
-        averaging=averaging,
+    return force[inside], stiffness
+
+
+def _resampled_line(
+    force: Real, stiffness: Real, confidence: float, rng: int, averaging: Averaging
+) -> list[IntervalEstimate]:
+    """Slope and offset of the logarithm of the mean, from resampled realisations."""
+    geometric = averaging == "geometric"
+    resampled = (
+        bootstrap.sum_of_log_means(stiffness, weights, geometric, rng)
+        for weights in line_weights(np.log(force))
     )
+    return [each.interval_estimate(confidence) for each in resampled]
 
 
-def find_window(
-    force_bar: ArrayLike,
-    stiffness_bar: ArrayLike,
-    confidence: float = 0.95,
-    averaging: Averaging = "arithmetic",
-) -> tuple[float, float] | None:
-    """Find the longest range of loads in which a power law is not rejected.
-
-    In each range of at least five loads, polynomials of second and third degree, orthogonal to
-    the line, are fitted to the logarithms of the mean; the power law is rejected where either
-    coefficient differs from zero, by Student's t with its linearised standard error over the
-    realisations. The larger the ensemble, the smaller the curvature that is noticed, and the
-    shorter the range.
-
-    Parameters
-    ----------
-    force_bar : array_like, shape (loads,)
-        Rising dimensionless forces.
-    stiffness_bar : array_like, shape (realisations, loads)
-        Dimensionless stiffness, positive and finite, of at least two realisations.
-    confidence, averaging
-        As for :func:`fit_power_law`; the two tests share the level.
-
-    Returns
-    -------
-    tuple of float or None
-        Smallest and largest load; None if no range of five loads passes.
-
-    Raises
-    ------
-    InputError
-        If the shapes do not fit, or a value is not positive and finite.
-    """
-    force = np.asarray(force_bar, dtype=np.float64)
-    stiffness = np.asarray(stiffness_bar, dtype=np.float64)
-    if stiffness.ndim != 2 or stiffness.shape[0] < 2 or stiffness.shape[1:] != force.shape:
-        raise InputError(
-            f"force_bar has shape {force.shape} and stiffness_bar {stiffness.shape}; (loads,) and "
-            "(realisations, loads) with two realisations or more are needed"
-        )
-    if not (np.isfinite(stiffness) & (stiffness > 0)).all():
-        raise InputError("stiffness_bar must be positive and finite: leave other loads out")
+def _regression_line(x: Real, y: Real, confidence: float) -> list[IntervalEstimate]:
+    """Slope and offset of a line, with Student's t of the scatter about it."""
     from scipy.special import stdtrit  # here because it loads slowly
 
-    log_force, count = np.log(force), len(stiffness)
-    log_mean, moves = _log_mean(stiffness, averaging)
-    each = 1 - (1 - confidence) / 4  # Bonferroni: two tests, each of two tails
-    largest = stdtrit(count - 1, each) / math.sqrt(count * (count - 1))
-    for points in range(force.size, 4, -1):
-        lengths = log_force[points - 1 :] - log_force[: force.size - points + 1]
-        for first in np.argsort(-lengths, kind="stable"):
-            inside = slice(first, first + points)
-            bends = _bends(log_force[inside])
-            errors = np.sqrt(((moves[:, inside] @ bends) ** 2).sum(axis=0))
-            if (np.abs(log_mean[inside] @ bends) <= largest * errors).all():
-                return float(force[first]), float(force[first + points - 1])
-    return None
-
-
-def inside_window(force_bar: Real, window: tuple[float, float]) -> NDArray[np.bool_]:
-    """Return which loads are in a window; one on its edge belongs to it, rounding or not."""
-    return (force_bar >= window[0] * (1 - 1e-9)) & (force_bar <= window[1] * (1 + 1e-9))
-
-
-def line_weights(x: Real) -> tuple[Real, Real]:
-    """Weights of y(x) whose sums are slope and offset of the least-squares line."""
-    centred = x - x.mean()
-    slope = centred / (centred**2).sum()
-    return slope, 1 / x.size - slope * x.mean()
-
-
-def exponent_weights(force_bar: Real, window: tuple[float, float]) -> Real:
-    """Weights of the logarithms at all loads whose sum is the exponent in a window.
-
-    Zero outside the window; NaN if it holds fewer than three loads.
-    """
-    inside = inside_window(force_bar, window)
-    if np.count_nonzero(inside) < 3:
-        return np.full(force_bar.size, np.nan)
-    weights = np.zeros(force_bar.size)
-    weights[inside] = line_weights(np.log(force_bar[inside]))[0]
-    return weights
-
-
-def _bends(x: Real) -> Real:
-    """Orthonormal polynomials of second and third degree over x, as columns."""
-    scaled = 2 * (x - x[0]) / (x[-1] - x[0]) - 1
-    basis, _ = np.linalg.qr(np.vander(scaled, 4, increasing=True))
-    return basis[:, 2:]
-
-
-def _log_mean(stiffness: Real, averaging: Averaging) -> tuple[Real, Real]:
-    """Logarithm of the mean, and how far each realisation moves it, times their count."""
-    if averaging == "geometric":
-        logs = np.log(stiffness)
-        mean = logs.mean(axis=0)
-        return mean, logs - mean
-    mean = stiffness.mean(axis=0)
-    return np.log(mean), stiffness / mean - 1
-
-
-def scaling_exponent(fractal_dimension: Value) -> Value:
-    """Exponent from the scaling argument, alpha = 1 / (H + 1) = 1 / (4 - D_f), eq. 14."""
-    return 1 / (4 - fractal_dimension)
-
-
-def linear_exponent(fractal_dimension: Value) -> Value:
-    """Exponent that the paper reads off its 3D results, alpha = 0.2567 D_f."""
-    return 0.2567 * fractal_dimension
-
-
-def _regression_intervals(
-    x: Real, y: Real, slope: float, offset: float, confidence: float
-) -> list[Real]:
-    from scipy.special import stdtrit  # here because it loads slowly
-
+    slope, offset = (float(y @ weights) for weights in line_weights(x))
     freedom = x.size - 2
     variance = float(((y - offset - slope * x) ** 2).sum()) / freedom
     spread = ((x - x.mean()) ** 2).sum()
     width = stdtrit(freedom, (1 + confidence) / 2) * np.sqrt(variance / spread)
     offset_width = width * np.sqrt(np.mean(x**2))
-    sides = np.array([-1.0, 1.0])
-    return [slope + sides * width, offset + sides * offset_width]
+    return [
+        IntervalEstimate(value, float(value - half), float(value + half))
+        for value, half in ((slope, width), (offset, offset_width))
+    ]

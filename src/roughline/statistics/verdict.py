@@ -1,4 +1,4 @@
-"""Verdicts on statements: whether an interval lies within what is allowed, outside, or across."""
+"""Verdicts on statements: an interval is compared with the range that a statement allows."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ class Verdict(StrEnum):
     Attributes
     ----------
     CONFIRMED
-        The whole interval lies within what the statement allows.
+        The whole interval lies within the range that the statement allows.
     REFUTED
-        The whole interval lies outside.
+        The whole interval lies outside that range.
     UNDECIDED
-        The interval lies across the limit, or there is none: this sample cannot tell.
+        The interval lies partly within the range, or there is no interval: the sample does not
+        decide.
     """
 
     CONFIRMED = "confirmed"
@@ -25,7 +26,7 @@ class Verdict(StrEnum):
 
 
 def verdict(low: float, high: float, least: float, most: float) -> Verdict:
-    """Judge an interval, low to high, by the range that a statement allows, least to most."""
+    """Judge an interval, low to high, by the range that the statement allows, least to most."""
     if least <= low and high <= most:
         return Verdict.CONFIRMED
     if high < least or low > most:
@@ -33,9 +34,9 @@ def verdict(low: float, high: float, least: float, most: float) -> Verdict:
     return Verdict.UNDECIDED
 
 
-def of_all(verdicts: Iterable[Verdict]) -> Verdict:
-    """Judge a statement about several cases: one that is refuted refutes it."""
-    found = set(verdicts)
-    if Verdict.REFUTED in found:
+def joint_verdict(verdicts: Iterable[Verdict]) -> Verdict:
+    """Judge a statement about several cases: one refuted case refutes the statement."""
+    different = set(verdicts)
+    if Verdict.REFUTED in different:
         return Verdict.REFUTED
-    return Verdict.CONFIRMED if found == {Verdict.CONFIRMED} else Verdict.UNDECIDED
+    return Verdict.CONFIRMED if different == {Verdict.CONFIRMED} else Verdict.UNDECIDED

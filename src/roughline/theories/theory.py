@@ -223,3 +223,9 @@ THEORIES: dict[str, Callable[[SurfaceOrSpectrum, float, Real], TheoryCurve]] = {
     "greenwood-williamson": _greenwood_williamson,
 }
 """By name."""
+
+PERSSON_KAPPA = math.sqrt(8 / math.pi)
+"""A E* rms_slope / F at light loads, in Persson's theory."""
+
+BGT_KAPPA = math.sqrt(2 * math.pi)
+"""A E* rms_slope / F at light loads, in the theory of Bush, Gibson and Thomas."""

@@ -1,0 +1,197 @@
+"""Figures beyond the paper's: area law and theories, both models, several grids, the trust map."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
+
+from roughline.comparison.trust import TrustMap
+from roughline.contact import scaling
+from roughline.paper.laws import DimensionLaws
+from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
+from roughline.report.style import (
+    FORCE_LABEL,
+    MARKERS,
+    PAGE,
+    SHADE,
+    colours,
+    legend_dimensions,
+    new_figure,
+)
+from roughline.statistics.averages import relative_difference
+from roughline.theories.theory import BGT_KAPPA, PERSSON_KAPPA
+
+if TYPE_CHECKING:
+    import xarray
+
+CONVERGENCE_DIMENSIONS = (2.0, 2.4, 2.8)
+LINE_STYLES = (":", "-.", "--", "-")
+
+Colour = tuple[float, float, float, float]
+
+
+def area_law_figure(full: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
+    """Draw the real contact area over force, and κ of eq. 4 over fractal dimension."""
+    figure = new_figure(PAGE, 3.0)
+    left, right = figure.subplots(1, 2)
+    _draw_area(left, full)
+    _draw_kappa(right, laws)
+    return figure
+
+
+def _draw_area(axes: Axes, full: xarray.Dataset) -> None:
+    axes.axvspan(*WINDOW_AREA, **SHADE)
+    dimensions = full.fractal_dimension.values
+    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+        one = full.sel(fractal_dimension=dimension)
+        area = np.nanmean(one.area_fraction_corrected.values, axis=0)
+        resolved = (one.resolved.values == 1).all(axis=0)
+        force = one.force_bar.values
+        axes.loglog(
+            force[resolved], area[resolved], color=colour, marker=marker, label=f"{dimension:.1f}"
+        )
+        axes.loglog(force, area, color=colour, linewidth=0.7, linestyle="--")
+    axes.set(xlabel=FORCE_LABEL, ylabel="real contact area $A/A_0$")
+    legend_dimensions(axes, dimensions)
+
+
+def _draw_kappa(axes: Axes, laws: list[DimensionLaws]) -> None:
+    dimensions = [each.fractal_dimension for each in laws]
+    for area_laws, marks, filled, label in (
+        ([each.corrected for each in laws], "ko", "full", "this study, area corrected"),
+        ([each.cells for each in laws], "k^", "none", "this study, area in cells"),
+    ):
+        kappas = [law.kappa for law in area_laws]
+        axes.errorbar(
+            dimensions,
+            [kappa.value for kappa in kappas],
+            yerr=np.transpose([(k.value - k.low, k.high - k.value) for k in kappas]),
+            fmt=marks,
+            fillstyle=filled,
+            capsize=2,
+            label=label,
+        )
+    for kappa, name, style in (
+        (BGT_KAPPA, "Bush, Gibson, Thomas", "--"),
+        (PERSSON_KAPPA, "Persson", ":"),
+    ):
+        axes.axhline(kappa, color="0.3", linewidth=1, linestyle=style, label=f"{name} {kappa:.2f}")
+    axes.set(xlabel="fractal dimension $D_f$", ylabel=r"$\kappa = A\,E^* \nabla h\,/\,F$")
+    axes.set_ylim(0, 1.45 * max(each.cells.kappa.high for each in laws))
+    axes.legend(loc="upper left")
+
+
+def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
+    """Draw the raw stiffness of both models with the same waves, and their relative difference."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    dimensions = full.fractal_dimension.values
+    force = full.force_bar.values
+    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+        stiffness_1d, stiffness_3d = (
+            data.sel(fractal_dimension=dimension).stiffness.values for data in (matched, full)
+        )
+        resolved = (full.sel(fractal_dimension=dimension).resolved.values == 1).all(axis=0)
+        look = {"color": colour, "marker": marker}
+        left.loglog(force, np.nanmean(stiffness_1d, axis=0), color=colour, linewidth=1)
+        for shown, fill in ((resolved, "full"), (~resolved, "none")):
+            left.loglog(
+                force[shown],
+                np.nanmean(stiffness_3d, axis=0)[shown],
+                linestyle="",
+                fillstyle=fill,
+                label=f"{dimension:.1f}" if fill == "full" else None,
+                **look,
+            )
+        difference, low, high = relative_difference(stiffness_3d, stiffness_1d, paired=False)
+        right.fill_between(
+            force[resolved], low[resolved], high[resolved], color=colour, alpha=0.2, linewidth=0
+        )
+        right.plot(force[resolved], difference[resolved], linewidth=1, **look)
+    left.set(xlabel=FORCE_LABEL, ylabel=r"raw stiffness $k\,/\,(E^* L)$")
+    left.annotate("lines 1D, marks 3D", (0.04, 0.92), xycoords="axes fraction", fontsize=7.5)
+    legend_dimensions(left, dimensions)
+    right.axvspan(*WINDOW_AGREEMENT, **SHADE)
+    right.axhline(0, color="k", linewidth=0.7)
+    right.axhline(scaling.EXACT_PUNCH - 1, color="0.4", linewidth=0.8, linestyle=":")
+    right.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    right.set(xscale="log", xlabel=FORCE_LABEL, ylabel="raw stiffness, 3D over 1D, less 1")
+    return figure
+
+
+def grid_convergence_figure(grids: dict[int, xarray.Dataset]) -> Figure:
+    """Draw stiffness and area of the same surfaces on several grids, relative to the finest."""
+    figure = new_figure(PAGE, 3.3)
+    axes = figure.subplots(1, 2)
+    for panel, name in zip(axes, ("stiffness", "area_fraction_corrected"), strict=True):
+        for dimension, colour in zip(CONVERGENCE_DIMENSIONS, colours(3), strict=True):
+            _draw_ratios_to_finest(panel, grids, dimension, name, colour)
+        panel.axhline(1, color="k", linewidth=0.7)
+        panel.set(xlabel=FORCE_LABEL, xscale="log")
+    finest = max(grids)
+    axes[0].set(ylabel=f"stiffness, over that of {finest}²")
+    axes[1].set(ylabel=f"real area, over that of {finest}²", yscale="log")
+    axes[1].yaxis.set_major_formatter("{x:g}")
+    axes[1].set_yticks([1, 2, 5, 10], minor=False)
+    figure.legend(
+        *axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=6, fontsize=6.5
+    )
+    return figure
+
+
+def _draw_ratios_to_finest(
+    axes: Axes, grids: dict[int, xarray.Dataset], dimension: float, name: str, colour: Colour
+) -> None:
+    """Draw a quantity of one fractal dimension on each grid over that on the finest grid."""
+    surfaces = {
+        n: data.sel(fractal_dimension=dimension).isel(realisation=0)
+        for n, data in sorted(grids.items())
+        if dimension in data.fractal_dimension.values
+    }
+    finest = surfaces.pop(max(surfaces))
+    for (n, surface), style in zip(surfaces.items(), LINE_STYLES, strict=False):
+        shared = np.intersect1d(surface.force_bar, finest.force_bar)
+        coarse, fine = (each.sel(force_bar=shared) for each in (surface, finest))
+        resolved = coarse.resolved.values == 1
+        axes.plot(
+            shared[resolved],
+            (coarse[name].values / fine[name].values)[resolved],
+            color=colour,
+            linestyle=style,
+            label=f"$D_f$ = {dimension:.1f}, {n}²",
+        )
+
+
+def trust_map_figure(trust: TrustMap) -> Figure:
+    """Draw the relative difference of the two models, a panel for each roll-off ratio."""
+    count = trust.roll_off_ratios.size
+    figure = new_figure(PAGE, 2.7)
+    panels = figure.subplots(1, count, sharey=True)
+    levels = np.array([-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4])
+    # colours change in equal steps on both sides of white, where the models agree
+    steps = np.concatenate([np.linspace(0.1, 0.4, 4), [0.5], np.linspace(0.6, 0.95, 5)])
+    scale = ListedColormap(mpl.colormaps["RdBu_r"](steps))
+    norm = BoundaryNorm(levels, levels.size + 1, extend="both")
+    for i, (panel, roll_off) in enumerate(zip(panels, trust.roll_off_ratios, strict=True)):
+        shown = panel.pcolormesh(
+            trust.force_bars, trust.fractal_dimensions, trust.difference[i], cmap=scale, norm=norm
+        )
+        panel.contourf(
+            trust.force_bars,
+            trust.fractal_dimensions,
+            trust.resolved[i],
+            levels=[-1, 0.5],
+            colors="none",
+            hatches=["////"],
+        )
+        panel.set(xscale="log", title=f"$q_r/q_0$ = {roll_off:g}", xlabel=r"$\bar F$")
+    panels[0].set(ylabel="fractal dimension $D_f$")
+    bar = figure.colorbar(shown, ax=panels, label="3D over 1D, less 1", ticks=levels)
+    bar.ax.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    return figure

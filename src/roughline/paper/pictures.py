@@ -1,0 +1,101 @@
+"""The figures of the page about the paper, drawn to files, with their captions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from roughline.paper import added_figures, figures
+from roughline.paper.results import PaperResults
+from roughline.report.page import Picture
+from roughline.report.style import save, styled
+
+_OPEN_MARKS = (
+    " Bands are the standard error of the mean; dashed or open where, in at least one realisation, "
+    "fewer than ten springs or cells are in contact, so that the grid shows. The shaded range is "
+    "the window of the fit."
+)
+_CAPTIONS = {
+    "figure_1": (
+        "Figure 1",
+        "Fractal surfaces of four fractal dimensions: rough line, topography, real contact area "
+        "and deflection of the half-space under the force F̄ = {force_bar:g}. Line and surface of "
+        "a row are one realisation each, with random phases that all rows share.",
+    ),
+    "figure_2": (
+        "Figure 2",
+        "The indented line. Springs under the parts above the level are in contact (black bars); "
+        "their total length gives the stiffness, the shaded area the force.",
+    ),
+    "figure_3": (
+        "Figure 3",
+        "Dimensionless stiffness over force in the reduced model, mean at fixed force."
+        + _OPEN_MARKS,
+    ),
+    "figure_4": (
+        "Figure 4",
+        "Dimensionless stiffness over force in the full model, mean at fixed force, normalised "
+        "by the paper's 1.1419." + _OPEN_MARKS,
+    ),
+    "figure_5": (
+        "Figure 5",
+        "Exponent α over fractal dimension with 95 % intervals from resampled realisations, and "
+        "the two predictions. The windows of the two models differ, as their grids do.",
+    ),
+    "area_law": (
+        "Area law",
+        "Left: real contact area over force, corrected for the steps of its outline, dashed where "
+        "fewer than ten cells touch. Right: κ of eq. 4, every load of the shaded window alike, "
+        "with 95 % intervals, of the corrected area and of the cells in contact. The slope is "
+        "that of the grid (forward differences).",
+    ),
+    "models_compared": (
+        "Both models",
+        "Left: raw stiffness k / (E* L); open marks where fewer than ten cells touch. The lines "
+        "have the waves of the surfaces and no shorter ones. Right: relative difference of the "
+        "means with 95 % intervals. Near saturation the models must differ, by 15.2 % (dotted).",
+    ),
+    "grid_convergence": (
+        "The influence of the grid",
+        "One surface for each fractal dimension, computed on several grids: every grid carries all "
+        "waves down to its own spacing, so a finer one shows more roughness as well as less error. "
+        "Heights are scaled to rms 1 on each grid.",
+    ),
+}
+
+
+def draw_pictures(results: PaperResults, folder: Path) -> list[Picture]:
+    """Draw every figure that the results allow, and write it to a folder as PNG and PDF."""
+    folder.mkdir(parents=True, exist_ok=True)
+    force_bar = results.gallery.attrs["force_bar"] if results.gallery is not None else 0.0
+    pictures = []
+    with styled():
+        for file_name, draw in _drawings(results).items():
+            png, _ = save(draw(), folder, file_name)
+            name, caption = _CAPTIONS[file_name]
+            pictures.append(Picture(png, name, caption.format(force_bar=force_bar)))
+    return pictures
+
+
+def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
+    """How each figure is drawn, by the name of its file and in the order of the page."""
+    reduced, full, gallery, laws = results.reduced, results.full, results.gallery, results.laws
+    drawings: dict[str, Callable[[], Figure]] = {}
+    if gallery is not None:
+        drawings |= {
+            "figure_1": partial(figures.figure_1, gallery),
+            "figure_2": partial(figures.figure_2, gallery),
+        }
+    drawings |= {
+        "figure_3": partial(figures.figure_3, reduced, full.fractal_dimension.values),
+        "figure_4": partial(figures.figure_4, full),
+        "figure_5": partial(figures.figure_5, results.exponents, laws),
+        "area_law": partial(added_figures.area_law_figure, full, laws),
+        "models_compared": partial(added_figures.both_models_figure, full, results.matched),
+    }
+    if results.grids:
+        drawings["grid_convergence"] = partial(added_figures.grid_convergence_figure, results.grids)
+    return drawings

@@ -1,0 +1,85 @@
+"""The page about the paper: its figures, its data, and what it says of failures."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray
+
+import roughline as rl
+from roughline.paper import added_figures
+from roughline.paper.page import compose, write_page
+from roughline.report.page import render_markdown
+
+DIMENSIONS = (2.0, 2.4, 3.0)  # of the study in small
+CLAIMS = 23  # without computing times
+
+
+def test_a_load_that_fails_is_missing_counted_and_said(results, tmp_path):
+    full = results.full.copy(deep=True)
+    full.stiffness[1, 0, 9] = np.nan
+    full.status[1, 0, 9] = rl.Status.STALLED
+    hurt = replace(results, full=full)
+    assert [laws.left_out for laws in hurt.laws] == [0, 1, 0]
+    page = write_page(hurt, tmp_path).read_text(encoding="utf-8")
+    assert "1 loads did not converge" in page
+
+
+def test_the_report_is_one_file_that_needs_no_other(report):
+    page = report.read_text(encoding="utf-8")
+    assert "Every load of every realisation converged" in page
+    assert "<script" not in page
+    assert "http:" not in page
+    assert "https:" not in page
+    assert page.count('src="data:image/png;base64,') == page.count("<img") == 7
+    assert page.count("<tr>") >= 1 + CLAIMS + 2 * (1 + len(DIMENSIONS)) + 3
+    for text in (
+        *("1.1523", "SeedSequence(5, spawn_key=(i,))", "0.2567", "Verdict", "95 % interval"),
+        *("automatic window", "fixed level", "geometric"),
+    ):
+        assert text in page
+
+
+def test_every_figure_comes_as_png_and_pdf(report):
+    names = {path.name for path in (report.parent / "figures").iterdir()}
+    for stem in (*(f"figure_{i}" for i in range(1, 6)), "area_law", "models_compared"):
+        assert {f"{stem}.png", f"{stem}.pdf"} <= names
+
+
+def test_the_data_behind_the_figures_are_there(report, results):
+    folder = report.parent / "data"
+    with xarray.open_dataset(folder / "full.nc", engine="h5netcdf") as data:
+        assert data.identical(results.full)
+        assert data.attrs["seed"] == 5
+    table = pd.read_csv(folder / "full.csv")
+    assert len(table) == len(DIMENSIONS) * results.full.sizes["force_bar"]
+    mean = results.full.stiffness.mean("realisation").values.ravel()
+    assert table.stiffness_mean.values == pytest.approx(mean)
+    assert len(pd.read_csv(folder / "claims.csv")) == CLAIMS
+
+
+def test_equal_results_give_equal_reports(report, results, tmp_path):
+    again = write_page(results, tmp_path)
+    for name in ("report.html", "figures/figure_3.pdf", "figures/figure_1.png", "data/full.csv"):
+        assert (tmp_path / name).read_bytes() == (report.parent / name).read_bytes()
+    assert again.name == "report.html"
+
+
+def test_the_published_page_has_grids_and_times(results, tmp_path):
+    more = replace(
+        results,
+        gallery=None,
+        grids={24: results.full, 48: results.full},
+        paper_grid=results.full,
+        core_seconds={"reduced": 0.02, "full, 2048²": 100.0},
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(added_figures, "CONVERGENCE_DIMENSIONS", DIMENSIONS)
+        text = render_markdown(*compose(more, tmp_path), "figures/paper")
+    assert text.startswith("# The paper, recomputed")
+    assert "today 10 hours for the 60 surfaces of six D_f, on one core: 100 s a surface" in text
+    assert "1D: samples of 2^20 points within minutes (§8) | 0.02 s a line" in text
+    assert "![The influence of the grid](figures/paper/grid_convergence.png)" in text
+    assert "1.000 (1.000-1.000)" in text
+    assert "figure_1" not in text

@@ -1,0 +1,83 @@
+"""The paper's study on its way: its gallery, and an interrupt."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import pytest
+
+import roughline as rl
+from roughline import campaign
+from roughline.paper.plan import ENSEMBLE_FULL
+from small_campaign import hear_interrupts, tree
+
+
+def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, tmp_path):
+    plan = small_plan
+    gallery = campaign.Store(finished).gallery()
+    assert gallery.heights.shape == (2, 24, 24)
+    assert gallery.fractal_dimension.values == pytest.approx([2.0, 3.0])
+    spectrum = rl.SelfAffine(fractal_dimension=3.0, rms_height=1.0)
+    assert (gallery.heights.values[1] == spectrum.surface(24, plan.gallery.seed).heights).all()
+    before = tree(finished)
+    campaign.run(plan, finished)
+    assert tree(finished) == before
+    other = replace(plan, gallery=replace(plan.gallery, force_bar=0.1))
+    with pytest.raises(rl.StoreError, match="a gallery of other settings"):
+        campaign.run(other, finished)
+    # a damaged one is drawn again
+    (tmp_path / "hurt").mkdir()
+    chunk = next(path for path in (finished / "gallery" / "contact").rglob("c/**/*"))
+    content = {path: path.read_bytes() for path in chunk.parent.rglob("*") if path.is_file()}
+    for path in content:
+        path.write_bytes(b"")
+    campaign.run(plan, finished)
+    assert tree(finished) == before
+
+
+def test_an_interrupt_keeps_what_is_done(tmp_path):
+    """Ctrl-C in the middle: exit code 130, no traceback, and the next call ends the work."""
+    command = [sys.executable, "-c", INTERRUPTED, str(tmp_path / "out")]
+    process = subprocess.Popen(
+        command,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=hear_interrupts,
+    )
+    store = tmp_path / "out" / "results.zarr" / ENSEMBLE_FULL / "case_status" / "c"
+    deadline = time.monotonic() + 60
+    while not any(store.rglob("*")) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "what is done is kept" in errors
+    assert "Traceback" not in errors
+    assert sum(1 for path in store.rglob("*") if path.is_file()) >= 1
+    done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "out" / "report.html").exists()
+
+
+INTERRUPTED = """
+import sys
+from dataclasses import replace
+from roughline.paper import study
+original = study.paper_plan
+def slow_but_small(scale, seed):
+    plan = original(scale, seed)
+    sizes = {"lines": (2**14, 20), "lines-of-surfaces": (2**13, 20), "surfaces": (128, 12)}
+    ensembles = tuple(
+        replace(e, n=sizes[e.name][0], realisations=sizes[e.name][1], cutoff_ratio=None)
+        for e in plan.ensembles
+    )
+    return replace(plan, ensembles=ensembles, gallery=replace(plan.gallery, n=48))
+study.paper_plan = slow_but_small
+sys.argv = ["roughline", "paper", "--out", sys.argv[1]]
+from roughline.cli import main
+main()
+"""
