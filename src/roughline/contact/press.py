@@ -12,7 +12,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve, Status
 from roughline.contact.estimates import memory_for
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
-from roughline.contact.loads import Wish, surface_loads
+from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.reduced import press_line
 from roughline.errors import ConvergenceError, InputError, Interrupted
 from roughline.topography.body import Body, Line, Surface
@@ -101,7 +101,7 @@ def press(
                 "periodic, fields and grid_error belong to the full model; the reduced model of a "
                 "Line has none of these: leave them out, or press a Surface"
             )
-        return press_line(body, E_star, Wish(depths, forces, n_loads))
+        return press_line(body, E_star, GivenLoads(depths, forces, n_loads))
     if not isinstance(body, Surface):
         raise InputError(
             f"body is a {type(body).__name__}; a Surface or a Line is needed: wrap heights as "
@@ -109,7 +109,12 @@ def press(
             "SurfaceTopography as Surface(topography)"
         )
     loads = surface_loads(
-        body, E_star, Wish(depths, forces, n_loads), periodic, rtol, single=precision == "float32"
+        body,
+        E_star,
+        GivenLoads(depths, forces, n_loads),
+        periodic,
+        rtol,
+        single=precision == "float32",
     )
     kept = _kept_loads(fields, loads.values.size)
     refuse_beyond_memory(
