@@ -78,7 +78,7 @@ def local(workers: int) -> Iterator[Cluster]:
     # for workers that are started later, too
     settings = _UNDISTURBED | {_ENVIRONMENT: _KEEP_MEMORY}
     with _quiet(), dask.config.set(settings), ExitStack() as ending:
-        with deaf_to_interrupts():
+        with interrupts_held_back():
             try:
                 cluster = ending.enter_context(
                     LocalCluster(
@@ -140,7 +140,7 @@ def _check_versions(client: Any) -> None:
 
 
 @contextmanager
-def deaf_to_interrupts() -> Iterator[None]:
+def interrupts_held_back() -> Iterator[None]:
     """Hold interrupts back until the end of the context, so that what is within is done whole.
 
     Threads and processes that are started meanwhile never get any, so workers leave them to their
@@ -217,7 +217,7 @@ def refuse_unguarded_script() -> None:
             "in a file"
         )
     trial = multiprocessing.get_context("spawn").Process(target=_nothing)
-    with deaf_to_interrupts():
+    with interrupts_held_back():
         trial.start()
         trial.join()
     if trial.exitcode == _IMPORTED:

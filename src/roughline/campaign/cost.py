@@ -8,8 +8,10 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from roughline.campaign.batch import evaluate_case
-from roughline.campaign.layout import PER_BODY, VARIABLES, variables_of
+from roughline.campaign.layout import variables_of
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.computing import fft
 from roughline.computing.memory import refuse_beyond_memory
@@ -50,7 +52,7 @@ class Cost:
     def described(self, workers: int) -> str:
         """Say it, for a number of workers."""
         return (
-            f"{self.cases} cases to compute; about {_spoken(self.core_seconds / workers)} with "
+            f"{self.cases} cases to compute; about {_duration(self.core_seconds / workers)} with "
             f"{workers} worker{'s' if workers > 1 else ''}, {self.memory / 1e9:.2g} GB of memory "
             f"each, up to {self.disk / 1e6:.2g} MB of disk"
         )
@@ -176,13 +178,13 @@ def _bytes_on_disk(ensemble: Ensemble, cases: int) -> int:
     high, wide = chunk_shape(ensemble)
     chunks = math.ceil(cases / (high * wide))
     per_chunk = _BLOCK  # the marks
-    for name in variables_of(ensemble):
-        values = high * wide * (1 if name in PER_BODY else loads)
-        per_chunk += _BLOCK * math.ceil(values * int(VARIABLES[name][0][1:]) / _BLOCK)
+    for variable in variables_of(ensemble):
+        values = high * wide * (1 if variable.per_body else loads)
+        per_chunk += _BLOCK * math.ceil(values * np.dtype(variable.dtype).itemsize / _BLOCK)
     return chunks * per_chunk + _BLOCK * _FILES_OF_METADATA
 
 
-def _spoken(seconds: float) -> str:
+def _duration(seconds: float) -> str:
     """Say a time in the unit that suits it."""
     for size, unit in ((86400, "days"), (3600, "h"), (60, "min")):
         if seconds >= 1.5 * size:

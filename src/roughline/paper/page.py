@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from matplotlib.figure import Figure
 
 from roughline._version import __version__
-from roughline.campaign.run import Progress, run
+from roughline.campaign.progress import EnsembleProgress
+from roughline.campaign.run import run
 from roughline.campaign.store import Store
 from roughline.errors import StoreError
 from roughline.paper import comparisons, figures
@@ -106,7 +107,7 @@ def recompute(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
-    progress: Progress | None = None,
+    progress: EnsembleProgress | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Path:
     """Run the paper's study, or what is left of it, and write its report.

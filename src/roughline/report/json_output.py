@@ -15,7 +15,7 @@ from roughline._version import __version__
 from roughline.assessment.compared import Compared
 from roughline.assessment.described import Described
 from roughline.assessment.pressed import Pressed
-from roughline.campaign.run import Summary
+from roughline.campaign.progress import Summary
 from roughline.campaign.store import Store
 from roughline.contact.curve import Status
 from roughline.topography.body import Body, Surface

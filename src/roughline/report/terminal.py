@@ -27,7 +27,7 @@ from rich.text import Text
 from roughline.assessment.compared import Compared, compared_table, verdict
 from roughline.assessment.described import Described, described_table, missing_map
 from roughline.assessment.pressed import Pressed
-from roughline.campaign.run import Summary
+from roughline.campaign.progress import Summary
 from roughline.campaign.store import Store
 from roughline.contact.curve import Status
 from roughline.report.contact_tables import (
