@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -60,19 +60,12 @@ def press_surface(
         On Ctrl-C.
     """
     scaled = _Scaled.of(surface, E_star, loads)
-    path = follow(
-        _operator(scaled, periodic),
-        scaled.separation,
-        surface.rms_height / scaled.height,
-        loads.control,
-        loads.values / (scaled.force if loads.control == "forces" else scaled.height),
-        method,
-    )
     solutions: list[_Solution] = []
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
         with threadpool_limits(limits=1, user_api="blas"):
+            path = _path(scaled, surface.rms_height, loads, method, periodic)
             for i, (contact, tangent) in enumerate(path):
                 solutions.append(_solution(contact, tangent, scaled, periodic, i in kept))
                 del contact, tangent  # so that the next load finds their memory free
@@ -89,10 +82,19 @@ def press_surface(
     return curve
 
 
-def _operator(scaled: _Scaled, periodic: bool) -> operators.Operator:
-    """Return the half-space under the grid, for E* = 1."""
+def _path(
+    scaled: _Scaled, rms_height: float, loads: Loads, method: Method, periodic: bool
+) -> Iterator[tuple[Contact, Tangent | None]]:
+    """Solve the contact under each load in turn, in the units of `scaled`."""
     make_operator = operators.periodic if periodic else operators.free
-    return make_operator(scaled.separation.shape, scaled.spacing, 1.0)
+    return follow(
+        make_operator(scaled.separation.shape, scaled.spacing, 1.0),
+        scaled.separation,
+        rms_height / scaled.height,
+        loads.control,
+        loads.values / (scaled.force if loads.control == "forces" else scaled.height),
+        method,
+    )
 
 
 @dataclass(frozen=True, eq=False)

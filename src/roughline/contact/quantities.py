@@ -134,7 +134,7 @@ _DECLARED = (
         "stiffness",
         "k",
         "force/length",
-        "exact $dF/dd$",
+        "contact stiffness, the exact $dF/dd$",
         long_name="normal contact stiffness dF/dd",
         column=2,
     ),
@@ -154,9 +154,7 @@ _DECLARED = (
         long_name="the same, corrected for the outline's steps",
         column=8,
     ),
-    _of_surfaces(
-        "area_fraction_most", "", "1", "what the area fraction does not exceed on finer grids"
-    ),
+    _of_surfaces("area_fraction_most", "", "1", "upper bound of the area fraction on finer grids"),
     _of_surfaces(
         "stiffness_error",
         "",
