@@ -20,7 +20,7 @@ from roughline.errors import ClusterError
 
 _BATCHES_PER_CORE = 4  # that are sent out at a time, so that no core waits for work
 _CHECK_INTERVAL = 5.0  # between two looks at the cluster [s]
-_PATIENCE = 60.0  # without any worker [s]
+_LONGEST_WITHOUT_WORKERS = 60.0  # [s]
 
 
 class Dispatch:
@@ -110,9 +110,9 @@ class Dispatch:
         self._checked, self.cores = now, self._cluster.cores()
         if self.cores:
             self._last_with_workers = now
-        elif now - self._last_with_workers > _PATIENCE:
+        elif now - self._last_with_workers > _LONGEST_WITHOUT_WORKERS:
             raise ClusterError(
-                f"there has been no worker for {_PATIENCE:g} s; what is done is kept: start "
+                f"there has been no worker for {_LONGEST_WITHOUT_WORKERS:g} s; what is done is kept: start "
                 "workers, and run the same command"
             )
 

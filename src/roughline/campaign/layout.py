@@ -1,7 +1,7 @@
-"""What a store holds, and where.
+"""The arrays of a store.
 
-Each ensemble is a group with arrays over (fractal_dimension, realisation, force_bar); the root's
-attributes say which version made it.
+Each ensemble is a group with arrays over (fractal_dimension, realisation, force_bar). The
+attributes of the root say which version made the store.
 """
 
 from __future__ import annotations

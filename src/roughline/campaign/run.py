@@ -32,9 +32,9 @@ def run(
 ) -> Summary:
     """Compute what a store lacks of a plan.
 
-    Interrupting keeps every batch that was finished; a further call goes on from there. Results
-    do not depend on the number of workers, on threads, or on the order. A case that fails is
-    recorded with its reason, stops no other, and is tried again by the next call.
+    An interrupted run keeps every batch that was finished, and a further call goes on from there.
+    Results do not depend on the number of workers, on threads, or on the order. A case that fails
+    is recorded with its reason, stops no other case, and is tried again by the next call.
 
     Parameters
     ----------
@@ -51,9 +51,10 @@ def run(
         Threads for each case; default: the cores of this machine shared out among the workers,
         1 with a scheduler.
     progress : callable, optional
-        Called with (ensemble, cases done, cases failed, cases in all), at the start too.
+        Called with (ensemble, cases done, cases failed, cases in all) after each batch, and once
+        at the start.
     announce : callable, optional
-        Called with lines worth reading: what there is to do, and the dashboard's address.
+        Called with lines for the user: what there is to do, and the dashboard's address.
 
     Returns
     -------
@@ -90,16 +91,16 @@ def _computed(
     report: EnsembleProgress,
     say: Callable[[str], None],
 ) -> Summary:
-    """Compute what a store lacks; as :func:`run`."""
+    """Compute what a store lacks, as :func:`run` does, once its arguments are checked."""
     if scheduler is None:
         clusters.refuse_unguarded_script()
     refuse_countless(plan)
     if not store.exists():  # what an existing store lacks is known below
         whole = {ensemble.name: ensemble.cases for ensemble in plan.ensembles}
         refuse_beyond_disk(plan, whole, store)
-    with ExitStack() as ending:
+    with ExitStack() as stack:
         with clusters.interrupts_held_back():
-            writer = ending.enter_context(writing(store, plan))
+            writer = stack.enter_context(writing(store, plan))
             batches = {ensemble.name: writer.missing(ensemble) for ensemble in plan.ensembles}
         missing = {name: sum(len(batch.cells) for batch in each) for name, each in batches.items()}
         with_gallery = plan.gallery is not None and not writer.has_gallery
@@ -108,15 +109,9 @@ def _computed(
             return Summary()
         cost = cost_of(plan, missing)
         refuse_beyond_disk(plan, missing, store)
-        cores = fft.available_cores()
         if scheduler is None:
             workers = workers_that_fit(max(cost.memory, 1), workers)
-            threads = threads or max(1, cores // workers)
-            if threads * workers > cores:
-                raise InputError(
-                    f"{workers} workers with {threads} threads each are more than the {cores} "
-                    "cores of this machine: take fewer of one"
-                )
+            threads = _threads_that_fit(workers, threads)
         say(f"{plan.name}: {cost.described(workers or 1)}")
         cluster: AbstractContextManager[clusters.Cluster] = (
             clusters.remote(scheduler) if scheduler else clusters.local(workers or 1)
@@ -131,6 +126,18 @@ def _computed(
             finally:
                 _log(store, started, dispatch)
         return dispatch.summary
+
+
+def _threads_that_fit(workers: int, wanted: int | None) -> int:
+    """Return how many threads each worker on this machine may have."""
+    cores = fft.available_cores()
+    threads = wanted or max(1, cores // workers)
+    if threads * workers > cores:
+        raise InputError(
+            f"{workers} workers with {threads} threads each are more than the {cores} "
+            "cores of this machine: take fewer of one"
+        )
+    return threads
 
 
 def _check(scheduler: str | None, workers: int | None, threads: int | None) -> None:
