@@ -112,8 +112,8 @@ class Dispatch:
             self._last_with_workers = now
         elif now - self._last_with_workers > _LONGEST_WITHOUT_WORKERS:
             raise ClusterError(
-                f"there has been no worker for {_LONGEST_WITHOUT_WORKERS:g} s; what is done is kept: start "
-                "workers, and run the same command"
+                f"there has been no worker for {_LONGEST_WITHOUT_WORKERS:g} s; what is done is "
+                "kept: start workers, and run the same command"
             )
 
     def _take(self, future: Any) -> None:
