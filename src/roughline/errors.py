@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from roughline.contact.curve import Curve
+from typing import Any
 
 
 class RoughlineError(Exception):
@@ -37,11 +34,11 @@ class ConvergenceError(RoughlineError):
 
     Attributes
     ----------
-    curve : Curve or None
-        What was solved; the loads that were not are NaN and say why in ``curve.status``.
+    curve : roughline.Curve or None
+        What was solved. Loads that were not are NaN, and ``curve.status`` says why.
     """
 
-    def __init__(self, message: str, curve: Curve | None = None) -> None:
+    def __init__(self, message: str, curve: Any = None) -> None:
         super().__init__(message)
         self.curve = curve
 
@@ -51,11 +48,11 @@ class Interrupted(KeyboardInterrupt):
 
     Attributes
     ----------
-    curve : Curve
-        The loads that were solved before; the others are NaN and marked in ``curve.status``.
+    curve : roughline.Curve
+        The loads that were solved before. The others are NaN and marked in ``curve.status``.
     """
 
-    def __init__(self, curve: Curve) -> None:
+    def __init__(self, curve: Any) -> None:
         super().__init__(curve)
         self.curve = curve
 

@@ -12,7 +12,7 @@ import time
 import psutil
 import pytest
 
-from roughline.campaign.cluster import deaf_to_interrupts
+from roughline.campaign.cluster import interrupts_held_back
 from small_campaign import PLAN, finish, hear_interrupts, run, start, tree
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="signals of POSIX")
@@ -137,7 +137,7 @@ def test_ctrl_c_in_a_script_ends_in_one_line(plan, tmp_path):
 def test_interrupts_wait_for_what_must_be_whole():
     done = []
 
-    @deaf_to_interrupts()
+    @interrupts_held_back()
     def interrupted():
         signal.raise_signal(signal.SIGINT)
         done.append(1)
@@ -148,7 +148,7 @@ def test_interrupts_wait_for_what_must_be_whole():
             interrupted()
         assert done == [1]
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # as a shell's background jobs have it
-        with deaf_to_interrupts():
+        with interrupts_held_back():
             signal.raise_signal(signal.SIGINT)
         assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
     finally:

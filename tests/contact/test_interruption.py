@@ -51,8 +51,8 @@ def test_an_interruption_inside_a_load_loses_that_load_alone(monkeypatch):
             raise KeyboardInterrupt
         return original(*arguments)
 
-    original = surface_contact._edge_share
-    monkeypatch.setattr(surface_contact, "_edge_share", stopping)
+    original = surface_contact.border_share
+    monkeypatch.setattr(surface_contact, "border_share", stopping)
     with pytest.raises(rl.Interrupted) as caught:
         pressed()
     assert caught.value.curve.converged.tolist() == [True, True, False, False]

@@ -8,7 +8,8 @@
 
 from roughline.campaign.plan import Ensemble, Gallery, Plan
 from roughline.campaign.plan_file import plan_from, read_plan
-from roughline.campaign.run import Summary, run
+from roughline.campaign.progress import Summary
+from roughline.campaign.run import run
 from roughline.campaign.store import Store
 
 __all__ = ["Ensemble", "Gallery", "Plan", "Store", "Summary", "plan_from", "read_plan", "run"]

@@ -18,9 +18,10 @@ from roughline._version import __version__
 from roughline.campaign.batch import check_version
 from roughline.errors import ClusterError, InputError
 
-_PATIENCE = 30.0  # for a scheduler to answer and a first worker to appear [s]
+_PATIENCE = 30.0  # until a scheduler has answered and a first worker has appeared [s]
 _ENVIRONMENT = "distributed.nanny.pre-spawn-environ"
-# Dask has its workers give back freed memory at once; to get it again takes longer than an FFT.
+# Dask makes its workers give freed memory back to the system at once; to get it again takes longer
+# than an FFT, so here they keep it.
 _KEEP_MEMORY = {
     "MALLOC_ARENA_MAX": "1",
     "MALLOC_MMAP_THRESHOLD_": str(2**30),
@@ -29,28 +30,28 @@ _KEEP_MEMORY = {
     "MKL_NUM_THREADS": "1",
     "OPENBLAS_NUM_THREADS": "1",
 }
-# Dask samples the stacks of its workers and counts its own ticks, for pages of its dashboard
-# that say nothing about cases; with short cases that costs more than to send and to store them.
-_UNDISTURBED = {
+# For some pages of its dashboard, Dask samples the stacks of its workers and counts the ticks of
+# its event loop. With short cases, this costs more than to send them and to store their results.
+_WITHOUT_PROFILES = {
     "distributed.worker.profile.enabled": False,
     "distributed.admin.tick.interval": "1s",
     "distributed.admin.tick.limit": "10s",
 }
-_IMPORTED = 77  # exit code of a process that found itself importing its parent's script
+_CAMPAIGN_AT_IMPORT = 77  # exit code of a process in which to import a script starts a campaign
 
 
 @dataclass(frozen=True)
 class Cluster:
-    """A cluster at work.
+    """A cluster that is ready to compute.
 
     Attributes
     ----------
     client : distributed.Client
-        The way to it.
+        The connection to it.
     dashboard : str
         Address of the page that shows what it does.
     restore : callable
-        Starts workers anew that are gone for good.
+        Starts new workers in place of those that are gone for good.
     """
 
     client: Any
@@ -58,14 +59,14 @@ class Cluster:
     restore: Callable[[], object]
 
     def cores(self) -> int:
-        """Return how many cases can be computed at a time now."""
+        """Return how many cases it can compute at a time now."""
         self.restore()
         return sum(self.client.ncores().values())
 
 
 @contextmanager
 def local(workers: int) -> Iterator[Cluster]:
-    """Start workers on this machine, one case each at a time; they end with the context.
+    """Start workers on this machine, for one case each at a time; they end with the context.
 
     Raises
     ------
@@ -75,12 +76,12 @@ def local(workers: int) -> Iterator[Cluster]:
     import dask  # here because they load slowly
     from distributed import Client, LocalCluster
 
-    # for workers that are started later, too
-    settings = _UNDISTURBED | {_ENVIRONMENT: _KEEP_MEMORY}
-    with _quiet(), dask.config.set(settings), ExitStack() as ending:
-        with deaf_to_interrupts():
+    # these hold for workers that are started later, too
+    settings = _WITHOUT_PROFILES | {_ENVIRONMENT: _KEEP_MEMORY}
+    with _quiet(), dask.config.set(settings), ExitStack() as stack:
+        with interrupts_held_back():
             try:
-                cluster = ending.enter_context(
+                cluster = stack.enter_context(
                     LocalCluster(
                         n_workers=workers,
                         threads_per_worker=1,
@@ -92,8 +93,8 @@ def local(workers: int) -> Iterator[Cluster]:
                 )
             except (OSError, RuntimeError, TimeoutError) as error:
                 raise ClusterError(f"workers on this machine do not start ({error})") from error
-            client = ending.enter_context(Client(cluster, set_as_default=False))
-        # a worker that dies while it starts is given up by Dask, unless asked again
+            client = stack.enter_context(Client(cluster, set_as_default=False))
+        # Dask gives up a worker that dies while it starts, unless it is asked for it again
         yield Cluster(client, client.dashboard_link, lambda: cluster.scale(workers))
 
 
@@ -110,7 +111,7 @@ def remote(address: str) -> Iterator[Cluster]:
 
     with _quiet():
         try:
-            # a default one that fails leaves its mark on whatever asks Dask for a scheduler later
+            # as the default, a client that fails would break later calls that ask for a scheduler
             client = Client(address, timeout=_PATIENCE / 3, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             raise ClusterError(
@@ -131,7 +132,7 @@ def remote(address: str) -> Iterator[Cluster]:
 
 def _check_versions(client: Any) -> None:
     for worker, answer in client.run(check_version, __version__, on_error="return").items():
-        if "ModuleNotFoundError" in repr(answer):  # wrapped in an exception of no kind
+        if "ModuleNotFoundError" in repr(answer):  # Dask wraps it in a plain Exception
             raise ClusterError(
                 f"the worker at {worker} has no roughline; install version {__version__} there"
             )
@@ -140,27 +141,28 @@ def _check_versions(client: Any) -> None:
 
 
 @contextmanager
-def deaf_to_interrupts() -> Iterator[None]:
+def interrupts_held_back() -> Iterator[None]:
     """Hold interrupts back until the end of the context, so that what is within is done whole.
 
-    Threads and processes that are started meanwhile never get any, so workers leave them to their
-    parent. Dask starts its workers, later ones too, from a thread that begins with the first.
+    Threads and processes that are started meanwhile never get an interrupt, so that their parent
+    alone handles it. Dask starts all its workers, also later ones, from a thread that it starts
+    with the first.
     """
-    heard = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or not callable(heard):
+    handler = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
         with _blocked_for_children():
             yield
         return
     came: list[int] = []
-    # a thread of some library may take the signal, whatever this one blocks: so it is noted
+    # a thread of some library may take the signal, whatever this thread blocks: so it is noted
     signal.signal(signal.SIGINT, lambda number, _: came.append(number))
     try:
         with _blocked_for_children():
             yield
     finally:
-        signal.signal(signal.SIGINT, heard)
+        signal.signal(signal.SIGINT, handler)
     if came:
-        heard(signal.SIGINT, None)
+        handler(signal.SIGINT, None)
 
 
 @contextmanager
@@ -179,7 +181,7 @@ def _blocked_for_children() -> Iterator[None]:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """Keep the cluster's talk of joining, leaving and lost workers off the terminal."""
+    """Keep Dask's messages on workers that join, leave or get lost off the terminal."""
     # Dask gives some of its loggers handlers and levels of their own
     loggers = [
         logging.getLogger(name)
@@ -197,17 +199,18 @@ def _quiet() -> Iterator[None]:
 
 
 def refuse_unguarded_script() -> None:
-    """Refuse a script that starts a campaign whenever it is imported, as each worker would do.
+    """Refuse a script that starts a campaign when it is imported, because every worker imports it.
 
-    One process imports it on trial. In there, this function is reached again, and ends it.
+    A trial process imports the script first. If it reaches this function there, it ends with an
+    exit code of its own.
 
     Raises
     ------
     InputError
-        If that happened.
+        If the trial process ended so, or if there is no file to import.
     """
     if getattr(multiprocessing.current_process(), "_inheriting", False):
-        sys.exit(_IMPORTED)
+        sys.exit(_CAMPAIGN_AT_IMPORT)
     main = sys.modules["__main__"]
     if getattr(main, "__spec__", None) is not None or not hasattr(main, "__file__"):
         return  # a module run with -m, a notebook, a prompt
@@ -216,16 +219,16 @@ def refuse_unguarded_script() -> None:
             "a program from standard input cannot start workers, as they must import it: save it "
             "in a file"
         )
-    trial = multiprocessing.get_context("spawn").Process(target=_nothing)
-    with deaf_to_interrupts():
+    trial = multiprocessing.get_context("spawn").Process(target=_do_nothing)
+    with interrupts_held_back():
         trial.start()
         trial.join()
-    if trial.exitcode == _IMPORTED:
+    if trial.exitcode == _CAMPAIGN_AT_IMPORT:
         raise InputError(
             "this script starts the campaign again whenever a worker imports it: put what it does "
             'under `if __name__ == "__main__":`'
         )
 
 
-def _nothing() -> None:
+def _do_nothing() -> None:
     pass

@@ -1,4 +1,4 @@
-"""What a campaign will cost in time, memory and disk, and how its cases are put into batches."""
+"""What a campaign will cost in time, memory and disk, and how many cases make a batch."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from roughline.campaign.batch import evaluate_case
-from roughline.campaign.layout import PER_BODY, VARIABLES, variables_of
+from roughline.campaign.layout import variables_of
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.computing import fft
 from roughline.computing.memory import refuse_beyond_memory
@@ -19,8 +21,8 @@ from roughline.errors import InputError, StoreError
 _BATCH_SECONDS = 1.0  # sending, receiving and writing a batch takes some ten milliseconds
 _MOST_PER_CHUNK = 2**20  # values of one variable, so that one chunk is some megabytes
 _GENERATION_BYTES = 40  # per point of a surface, while it is generated
-_LINE_BYTES = 60  # per point, all in all
-_BYTES_PER_CASE = 500  # in the client, which lists them all
+_LINE_BYTES = 60  # per point of a line, to generate and to press it
+_BYTES_PER_CASE = 500  # in the process that runs the campaign, which lists all cases
 _BLOCK = 4096  # of a file system [bytes]
 _FILES_OF_METADATA = 30  # of an ensemble
 _WORKER_BYTES = 300_000_000  # of the interpreter and its libraries
@@ -48,9 +50,9 @@ class Cost:
     disk: int
 
     def described(self, workers: int) -> str:
-        """Say it, for a number of workers."""
+        """Return the cost in words, shared among a number of workers."""
         return (
-            f"{self.cases} cases to compute; about {_spoken(self.core_seconds / workers)} with "
+            f"{self.cases} cases to compute; about {_duration(self.core_seconds / workers)} with "
             f"{workers} worker{'s' if workers > 1 else ''}, {self.memory / 1e9:.2g} GB of memory "
             f"each, up to {self.disk / 1e6:.2g} MB of disk"
         )
@@ -59,8 +61,8 @@ class Cost:
 def chunk_shape(ensemble: Ensemble) -> tuple[int, int]:
     """Return how many fractal dimensions and realisations make a batch, and a chunk of the store.
 
-    Enough for a second on a nominal core; it depends on the plan alone, so that equal plans
-    give equal stores on all machines.
+    A batch takes about a second on a nominal core. Its size depends on the plan alone, so that
+    equal plans give equal stores on all machines.
     """
     loads = len(ensemble.force_bars)
     most = max(1, min(round(_BATCH_SECONDS / _nominal(ensemble)), _MOST_PER_CHUNK // loads))
@@ -69,7 +71,7 @@ def chunk_shape(ensemble: Ensemble) -> tuple[int, int]:
 
 
 def cost_of(plan: Plan, missing: dict[str, int]) -> Cost:
-    """Estimate the cost of what is missing; one small problem of each kind is timed.
+    """Estimate the cost of what is missing, from the time of one small problem of each kind.
 
     Parameters
     ----------
@@ -120,7 +122,7 @@ def refuse_countless(plan: Plan) -> None:
     Raises
     ------
     InputError
-        If there are so many.
+        If memory cannot list them.
     """
     needed = _BYTES_PER_CASE * plan.cases
     refuse_beyond_memory(needed, f"a campaign of {plan.cases} cases", "split the plan")
@@ -176,14 +178,14 @@ def _bytes_on_disk(ensemble: Ensemble, cases: int) -> int:
     high, wide = chunk_shape(ensemble)
     chunks = math.ceil(cases / (high * wide))
     per_chunk = _BLOCK  # the marks
-    for name in variables_of(ensemble):
-        values = high * wide * (1 if name in PER_BODY else loads)
-        per_chunk += _BLOCK * math.ceil(values * int(VARIABLES[name][0][1:]) / _BLOCK)
+    for variable in variables_of(ensemble):
+        values = high * wide * (1 if variable.per_body else loads)
+        per_chunk += _BLOCK * math.ceil(values * np.dtype(variable.dtype).itemsize / _BLOCK)
     return chunks * per_chunk + _BLOCK * _FILES_OF_METADATA
 
 
-def _spoken(seconds: float) -> str:
-    """Say a time in the unit that suits it."""
+def _duration(seconds: float) -> str:
+    """Return a time in words, in the unit that suits it."""
     for size, unit in ((86400, "days"), (3600, "h"), (60, "min")):
         if seconds >= 1.5 * size:
             return f"{seconds / size:.1f} {unit}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.campaign.layout import DONE
+from roughline.campaign.layout import CASE_STATUS, DONE, VARIABLES
 from roughline.campaign.store import Store
 from roughline.errors import InputError, StoreError
 from roughline.statistics.averages import average
@@ -74,26 +74,26 @@ def write_netcdf(data: xarray.Dataset, path: Path) -> None:
 
 
 def mean_table(data: xarray.Dataset) -> pd.DataFrame:
-    """Means over realisations with 95 % intervals, a row for each fractal dimension and load."""
+    """Return means over realisations with 95 % intervals, a row for each D_f and load."""
     import pandas as pd  # here because it loads slowly
 
-    quantities = [name for name in ("stiffness", "depth", "area_fraction") if name in data]
+    names = [each.name for each in VARIABLES.values() if each.averaged and each.name in data]
     tables = []
     for dimension in data.fractal_dimension.values:
         one = data.sel(fractal_dimension=dimension)
         force = one.force_bar.values
         columns = {"fractal_dimension": np.full(force.size, dimension), "force_bar": force}
-        for name in quantities:
-            found = average(one[name].values)
+        for name in names:
+            mean = average(one[name].values)
             columns |= {
-                f"{name}_mean": found.mean,
-                f"{name}_low": found.low,
-                f"{name}_high": found.high,
-                f"{name}_standard_deviation": found.scatter,
+                f"{name}_mean": mean.mean,
+                f"{name}_low": mean.low,
+                f"{name}_high": mean.high,
+                f"{name}_standard_deviation": mean.scatter,
             }
         columns["realisations_converged"] = np.isfinite(one.stiffness.values).sum(axis=0)
         columns["realisations_resolved"] = (one.resolved.values == 1).sum(axis=0)
-        done = int((one.case_status.values == DONE).sum())
+        done = int((one[CASE_STATUS.name].values == DONE).sum())
         columns["realisations_done"] = np.full(force.size, done)
         tables.append(pd.DataFrame(columns))
     return pd.concat(tables, ignore_index=True)

@@ -1,14 +1,17 @@
-"""What a store holds, and where.
+"""The arrays of a store.
 
-Each ensemble is a group with arrays over (fractal_dimension, realisation, force_bar); the root's
-attributes say which version made it.
+Each ensemble is a group with arrays over (fractal_dimension, realisation, force_bar). The
+attributes of the root say which version made the store.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from roughline.campaign.plan import Ensemble
+from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
 
 FORMAT = 1
 """Changes when older stores can no longer be read."""
@@ -16,35 +19,97 @@ FORMAT = 1
 PENDING, DONE, FAILED = 0, 1, 2
 
 DIMENSIONS = ("fractal_dimension", "realisation", "force_bar")
-COORDINATES = {
-    "fractal_dimension": "D_f = 3 - H",
-    "realisation": "body i has the seed SeedSequence(seed, spawn_key=(i,))",
-    "force_bar": "F / (E* h L)",
-}
-GALLERY_DIMENSIONS = {
-    "heights": ("fractal_dimension", "x", "y"),
-    "contact": ("fractal_dimension", "x", "y"),
-    "displacement": ("fractal_dimension", "x", "y"),
-    "line_heights": ("fractal_dimension", "s"),
-    "line_depth": ("fractal_dimension",),
-}
 GALLERY = "gallery"
-
-VARIABLES: dict[str, tuple[str, float, str]] = {
-    # name: (dtype, fill value, meaning); no fill value is one that a finished case can have
-    "stiffness": ("f8", np.nan, "raw stiffness k / (E* L)"),
-    "depth": ("f8", np.nan, "depth since touch / h"),
-    "area_fraction": ("f8", np.nan, "real over nominal contact area, cells in contact"),
-    "area_fraction_corrected": ("f8", np.nan, "the same, corrected for the outline's steps"),
-    "status": ("i1", -1, "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"),
-    "resolved": ("i1", -1, "1 where at least 10 springs or cells are in contact, -1 not done"),
-    "rms_slope": ("f8", np.nan, "rms slope L / h of the grid, forward differences"),
-    "highest": ("f8", np.nan, "highest point above the mean / h"),
-}
-PER_BODY = ("rms_slope", "highest")
-_OF_SURFACES = ("area_fraction", "area_fraction_corrected")
+GALLERY_DONE = "gallery_done"  # attribute of the root
 
 
-def variables_of(ensemble: Ensemble) -> list[str]:
-    """Names of what is kept of an ensemble; areas of lines predict nothing."""
-    return [name for name in VARIABLES if ensemble.model == "full" or name not in _OF_SURFACES]
+@dataclass(frozen=True)
+class Variable:
+    """An array of a store.
+
+    Attributes
+    ----------
+    name : str
+        Its name.
+    dtype : str
+        NumPy's name of the type of its values.
+    fill : float
+        What it holds where nothing was written; no finished case has this value.
+    meaning : str
+        What it is, for its attributes. Everything in a store is dimensionless.
+    dims : tuple of str
+        What it extends over.
+    of_lines : bool
+        Whether the reduced model gives it.
+    averaged : bool
+        Whether tables of means over the realisations have it.
+    """
+
+    name: str
+    dtype: str
+    fill: float
+    meaning: str
+    dims: tuple[str, ...] = DIMENSIONS
+    of_lines: bool = True
+    averaged: bool = False
+
+    @property
+    def per_body(self) -> bool:
+        """Whether a body has one value, rather than one for each load."""
+        return "force_bar" not in self.dims
+
+
+def _of_curve(name: str, meaning: str = "", *, averaged: bool = False) -> Variable:
+    """Declare that stores keep a quantity of the curve; flags are small integers there."""
+    quantity = QUANTITIES[name]
+    dtype, fill = ("f8", np.nan) if quantity.dtype == "f8" else ("i1", -1)
+    meaning = meaning or quantity.long_name
+    return Variable(name, dtype, fill, meaning, of_lines=quantity.of_lines, averaged=averaged)
+
+
+def _of_body(name: str, meaning: str) -> Variable:
+    return Variable(name, "f8", np.nan, meaning, DIMENSIONS[:2])
+
+
+_DECLARED = (
+    _of_curve("stiffness", "raw stiffness k / (E* L)", averaged=True),
+    _of_curve("depth", "depth since touch / h", averaged=True),
+    _of_curve("area_fraction", "real over nominal contact area, cells in contact", averaged=True),
+    _of_curve("area_fraction_corrected"),
+    _of_curve("status", "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"),
+    _of_curve(
+        "resolved",
+        f"1 where at least {RESOLVED_FROM} springs or cells are in contact, -1 not done",
+    ),
+    _of_body("rms_slope", "rms slope L / h of the grid, forward differences"),
+    _of_body("highest", "highest point above the mean / h"),
+)
+
+VARIABLES = {variable.name: variable for variable in _DECLARED}
+"""What is computed of each case, by name."""
+
+CASE_STATUS = Variable(
+    "case_status",
+    "i1",
+    PENDING,
+    "0 not done, 1 done, 2 failed (reasons in the group's attribute failures)",
+    DIMENSIONS[:2],
+)
+"""The mark of each case."""
+
+COORDINATES = (
+    Variable("fractal_dimension", "f8", np.nan, "D_f = 3 - H", DIMENSIONS[:1]),
+    Variable(
+        "realisation",
+        "i8",
+        -1,
+        "body i has the seed SeedSequence(seed, spawn_key=(i,))",
+        DIMENSIONS[1:2],
+    ),
+    Variable("force_bar", "f8", np.nan, QUANTITIES["force_bar"].long_name, DIMENSIONS[2:]),
+)
+
+
+def variables_of(ensemble: Ensemble) -> list[Variable]:
+    """Return what is kept of an ensemble; the reduced model gives no contact area."""
+    return [each for each in _DECLARED if ensemble.model == "full" or each.of_lines]

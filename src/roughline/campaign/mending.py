@@ -9,34 +9,36 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.campaign.layout import DONE, PENDING, PER_BODY, VARIABLES
+from roughline.campaign.layout import CASE_STATUS, DONE, PENDING, VARIABLES
+from roughline.contact.curve import Status
 
 
 def mend(arrays: Mapping[str, Any]) -> None:
     """Empty chunks that cannot be read, and take back the marks of all that is not whole."""
     values = {name: _read_mended(array) for name, array in arrays.items()}
-    status = values["case_status"]
-    whole = np.ones(status.shape, dtype=bool)
-    for name in VARIABLES:
+    marks = values[CASE_STATUS.name]
+    whole = np.ones(marks.shape, dtype=bool)
+    for name, variable in VARIABLES.items():
         if name not in arrays:
             continue
-        if name in ("status", "resolved"):
-            whole &= (values[name] >= 0).all(axis=-1)
-        elif name in PER_BODY:
+        if variable.per_body:
             whole &= np.isfinite(values[name])
+        elif variable.dtype == "f8":
+            solved = values["status"] == Status.CONVERGED
+            whole &= (np.isfinite(values[name]) == solved).all(axis=-1)
         else:
-            whole &= (np.isfinite(values[name]) == (values["status"] == 0)).all(axis=-1)
-    lost = (status == DONE) & ~whole
+            whole &= (values[name] >= 0).all(axis=-1)
+    lost = (marks == DONE) & ~whole
     if lost.any():
-        status[lost] = PENDING
-        arrays["case_status"][:] = status
+        marks[lost] = PENDING
+        arrays[CASE_STATUS.name][:] = marks
 
 
 def _read_mended(array: Any) -> NDArray[Any]:
-    """Values of an array; chunks that cannot be read get their fill value again."""
-    found = read_or_none(array)
-    if found is not None:
-        return found
+    """Return the values of an array; chunks that cannot be read get their fill value again."""
+    values = read_or_none(array)
+    if values is not None:
+        return values
     steps = [range(0, size, chunk) for size, chunk in zip(array.shape, array.chunks, strict=True)]
     for corner in product(*steps):
         region = tuple(slice(a, a + b) for a, b in zip(corner, array.chunks, strict=True))
@@ -52,7 +54,7 @@ def _read_mended(array: Any) -> NDArray[Any]:
 
 
 def read_or_none(array: Any) -> NDArray[Any] | None:
-    """Values of an array, or None if a chunk is damaged."""
+    """Return the values of an array, or None if a chunk is damaged."""
     try:
         return array[:]
     except (OSError, ValueError, RuntimeError):

@@ -114,11 +114,14 @@ class Ensemble:
         )
 
     def seed_of(self, realisation: int) -> np.random.SeedSequence:
-        """Return the seed of one body, which does not depend on how many there are."""
+        """Return the seed of one body; it does not depend on the number of bodies."""
         return np.random.SeedSequence(self.seed, spawn_key=(realisation,))
 
     def identity(self) -> dict[str, Any]:
-        """All that a body's results depend on; how many there are is not among it."""
+        """Return all settings that the results of a body depend on.
+
+        The number of bodies is not among them.
+        """
         settings = asdict(self)
         for extent in ("name", "fractal_dimensions", "realisations"):
             del settings[extent]
@@ -134,7 +137,7 @@ class Ensemble:
 
 @dataclass(frozen=True)
 class Gallery:
-    """Single bodies of both models to look at, as in the paper's Figures 1 and 2.
+    """Single bodies of both models for pictures, as in the paper's Figures 1 and 2.
 
     Attributes
     ----------
@@ -143,9 +146,9 @@ class Gallery:
     n, n_line : int
         Points along a side of the surface, points of the line.
     force_bar : float
-        The dimensionless force that all are pressed with.
+        Dimensionless force on each body.
     seed : int
-        Seed of all; the surfaces share their phases.
+        Seed of all bodies; the surfaces share their phases.
     """
 
     fractal_dimensions: tuple[float, ...]
@@ -162,7 +165,7 @@ class Plan:
     Attributes
     ----------
     name : str
-        What it is called.
+        Name of the campaign.
     ensembles : tuple of Ensemble
         What is computed, in this order; no two of one name.
     gallery : Gallery or None
@@ -205,5 +208,5 @@ def decades(low: float, high: float, per_decade: int) -> tuple[float, ...]:
 
 
 def evenly(low: float, high: float, count: int) -> tuple[float, ...]:
-    """Evenly spaced values, rounded to what a person would have typed."""
+    """Evenly spaced values, rounded to decimals such as a person types."""
     return tuple(round(float(value), 12) for value in np.linspace(low, high, count))

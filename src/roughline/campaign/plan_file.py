@@ -16,7 +16,7 @@ from typing import Any
 from roughline.campaign.plan import Ensemble, Plan, decades, evenly
 from roughline.errors import InputError
 
-_MOST_VALUES = 10_000  # of one grid: more is a slip of the pen
+_MOST_VALUES = 10_000  # of one range; more values are a slip of the pen
 
 
 def read_plan(path: str | Path) -> Plan:
@@ -30,8 +30,8 @@ def read_plan(path: str | Path) -> Plan:
     Raises
     ------
     InputError
-        If it cannot be read, is no TOML, or asks for something that does not exist; the message
-        names the place and the nearest known key.
+        If the file cannot be read, is no TOML, or has a key that is not known; the message names
+        the place and the nearest known key.
     """
     path = Path(path)
     try:
@@ -110,7 +110,7 @@ _NEEDED: Any = object()
 
 
 class _Table:
-    """A table of the file, from which keys are taken one by one."""
+    """A table of the file; keys are taken from it one by one, and none may be left."""
 
     def __init__(self, content: dict[str, Any], place: str) -> None:
         self.place = place

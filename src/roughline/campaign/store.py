@@ -4,12 +4,20 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from roughline._version import __version__
-from roughline.campaign.layout import DONE, FAILED, FORMAT, GALLERY, VARIABLES
+from roughline.campaign.layout import (
+    CASE_STATUS,
+    DONE,
+    FAILED,
+    FORMAT,
+    GALLERY,
+    GALLERY_DONE,
+    VARIABLES,
+)
 from roughline.errors import StoreError
 
 if TYPE_CHECKING:
@@ -31,26 +39,8 @@ class Store:
     """
 
     def __init__(self, path: str | Path) -> None:
-        import zarr  # here because it loads slowly
-
         self.path = Path(path)
-        if not self.path.is_dir():
-            raise StoreError(f"{path} does not exist; a store made by a campaign is needed")
-        try:
-            self._root: Any = zarr.open_group(self.path, mode="r+", use_consolidated=False)
-            marks = dict(self._root.attrs)
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            raise damaged_or_foreign(self.path) from error
-        if "roughline_store" not in marks:
-            raise StoreError(
-                f"{path} is no store of roughline; choose another folder for the campaign"
-            )
-        version = marks.get("roughline_version")
-        if marks["roughline_store"] != FORMAT or version != __version__:
-            raise StoreError(
-                f"{path} was made by roughline {version}, this is {__version__}: its results do "
-                "not mix with those of this version; use that version, or another folder"
-            )
+        self._root = opened(self.path, "r")
 
     @property
     def names(self) -> list[str]:
@@ -59,7 +49,7 @@ class Store:
 
     def counts(self, name: str) -> tuple[int, int, int]:
         """Return the number of cases that are done, have failed, and are there in all."""
-        status = self._group(name)["case_status"][:]
+        status = self._group(name)[CASE_STATUS.name][:]
         done, failed = (int(np.count_nonzero(status == value)) for value in (DONE, FAILED))
         return done, failed, status.size
 
@@ -77,13 +67,13 @@ class Store:
         self._group(name)
         data = xarray.open_zarr(self.path, group=name, consolidated=False, chunks=None).load()
         data.attrs["failures"] = json.dumps(data.attrs["failures"])
-        names = [key for key in (*VARIABLES, "case_status") if key in data]
+        names = [key for key in (*VARIABLES, CASE_STATUS.name) if key in data]
         return data[names].sortby("fractal_dimension")
 
     @property
     def has_gallery(self) -> bool:
         """Whether the gallery is on disk, whole."""
-        return bool(self._root.attrs.get("gallery_done", False))
+        return bool(self._root.attrs.get(GALLERY_DONE, False))
 
     def gallery(self) -> xarray.Dataset:
         """Return the gallery over (fractal_dimension, x, y) and (fractal_dimension, s)."""
@@ -98,11 +88,39 @@ class Store:
         return self._root[name]
 
 
+def opened(path: Path, mode: Literal["r", "r+"]) -> Any:
+    """Open the root group of a store, for reading or for writing too.
+
+    Raises
+    ------
+    StoreError
+        If it does not exist, is no store of ours and of this version, or is damaged.
+    """
+    import zarr  # here because it loads slowly
+
+    if not path.is_dir():
+        raise StoreError(f"{path} does not exist; a store made by a campaign is needed")
+    try:
+        root = zarr.open_group(path, mode=mode, use_consolidated=False)
+        marks = dict(root.attrs)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise damaged_or_foreign(path) from error
+    if "roughline_store" not in marks:
+        raise StoreError(f"{path} is no store of roughline; choose another folder for the campaign")
+    version = marks.get("roughline_version")
+    if marks["roughline_store"] != FORMAT or version != __version__:
+        raise StoreError(
+            f"{path} was made by roughline {version}, this is {__version__}: its results do "
+            "not mix with those of this version; use that version, or another folder"
+        )
+    return root
+
+
 def damaged_or_foreign(path: Path) -> StoreError:
     """Say what is wrong with a folder that cannot be opened."""
     what = (
         "is damaged (its zarr.json cannot be read)"
         if (path / "zarr.json").exists()
-        else ("is no store of roughline")
+        else "is no store of roughline"
     )
     return StoreError(f"{path} {what}; choose another folder for the campaign")

@@ -1,4 +1,4 @@
-"""What a pressed body answers: depth, force, stiffness and real contact area over the loads."""
+"""The result of pressing a body: depth, force, stiffness and real contact area over the loads."""
 
 from __future__ import annotations
 
@@ -6,21 +6,18 @@ import enum
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
+from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
 from roughline.errors import InputError, StoreError
 
 if TYPE_CHECKING:
     import xarray
-
-
-RESOLVED_FROM = 10
-"""Springs or cells in contact from which on a stiffness is physics rather than grid."""
 
 
 class Status(enum.IntEnum):
@@ -44,6 +41,12 @@ class Status(enum.IntEnum):
         }[self]
 
 
+_STATUS_FLAGS: dict[str, Any] = {
+    "flag_values": [int(status) for status in Status],
+    "flag_meanings": " ".join(status.name.lower() for status in Status),
+}
+
+
 @dataclass(frozen=True, eq=False)
 class Fields:
     """Fields of one load on the grid.
@@ -63,7 +66,7 @@ class Fields:
     pressure: Real
     displacement: Real
     gap: Real
-    contact: NDArray[np.bool_]
+    contact: Mask
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,15 +82,17 @@ class Curve:
     stiffness : ndarray, shape (loads,)
         Exact k = dF/dd. [force / length]
     area_fraction : ndarray, shape (loads,), or None
-        Real over nominal contact area; None for a line, whose area predicts nothing.
+        Real over nominal contact area. None for a line: the contact area of the reduced model does
+        not predict that of the surface.
     area_fraction_corrected : ndarray, shape (loads,), or None
         The same without what whole cells overstate along the outline of the contact
-        (Yastrebov, Anciaux and Molinari 2017). Under a summit that is some per cent; on a plateau,
-        where pressure and gap rise at the outline, cells count as they are.
+        (Yastrebov, Anciaux and Molinari 2017). Under a summit that is some per cent. On a plateau,
+        where pressure and gap rise at the outline, nothing is taken off.
     status : ndarray of int8, shape (loads,)
-        A :class:`Status` for each load; where it is not converged the other values are NaN.
+        A :class:`Status` for each load; where a load did not converge, the other values are NaN.
     resolved : ndarray of bool, shape (loads,)
-        Whether at least ten springs or cells are in contact; below, a stiffness carries the grid.
+        Whether at least ten springs or cells are in contact; with fewer, the grid decides the
+        stiffness.
     residual : ndarray, shape (loads,)
         Largest residual of the returned solution, each relative to its scale. [1]
     E_star : float
@@ -103,13 +108,13 @@ class Curve:
     convolutions : ndarray of int, shape (loads,), or None
         Convolutions that each load took, its stiffness included; None for a line.
     area_fraction_most : ndarray, shape (loads,), or None
-        What the area fraction does not exceed on finer grids: `area_fraction` where all of the
-        outline is of summits, as much over it as the correction leaves out where it is of plateaus.
+        Upper bound of the area fraction on finer grids: `area_fraction_corrected` and the whole
+        correction, as it would be if all of the outline lay under summits.
     stiffness_error, area_fraction_error : ndarray, shape (loads,), or None
         Estimated discretisation errors of `stiffness` and `area_fraction_corrected`, if asked
         for; a value v with error e lies between v / (1 + e / v) and v + e.
     warnings : sequence of str
-        What to know before the numbers are used; empty where there is nothing to say.
+        What a user of the numbers has to know; empty if there is nothing to say.
     fields : sequence of Fields
         One for each load if asked for, else empty; None for a load that did not converge.
     """
@@ -120,7 +125,7 @@ class Curve:
     area_fraction: Real | None
     area_fraction_corrected: Real | None
     status: NDArray[np.int8]
-    resolved: NDArray[np.bool_]
+    resolved: Mask
     residual: Real
     E_star: float
     rms_height: float
@@ -157,7 +162,7 @@ class Curve:
         return scaling.stiffness_bar(self.stiffness, self.E_star, self.length, punch)
 
     @property
-    def converged(self) -> NDArray[np.bool_]:
+    def converged(self) -> Mask:
         """Whether each load was solved to the tolerance."""
         return self.status == Status.CONVERGED
 
@@ -170,80 +175,39 @@ class Curve:
         """
         import xarray  # here because it loads slowly
 
-        lengths = self.unit or "length"
-        forces = "N" if self.unit == "m" else "force"
-        pressures = "Pa" if self.unit == "m" else "pressure"
-        variables: dict[str, tuple[object, ...]] = {
-            "depth": ("load", self.depth, {"units": lengths, "long_name": "depth since touch"}),
-            "force": ("load", self.force, {"units": forces, "long_name": "normal force"}),
-            "stiffness": (
-                "load",
-                self.stiffness,
-                {"units": f"{forces}/{lengths}", "long_name": "normal contact stiffness dF/dd"},
-            ),
-            "status": (
-                "load",
-                self.status,
-                {
-                    "flag_values": [int(status) for status in Status],
-                    "flag_meanings": " ".join(status.name.lower() for status in Status),
-                },
-            ),
-            "resolved": (
-                "load",
-                self.resolved.astype(np.int8),
-                {"long_name": f"at least {RESOLVED_FROM} springs or cells in contact"},
-            ),
-            "residual": ("load", self.residual, {"units": "1", "long_name": "largest residual"}),
-        }
-        if self.area_fraction is not None:
-            variables["area_fraction"] = (
-                "load",
-                self.area_fraction,
-                {"units": "1", "long_name": "real contact area over nominal area"},
-            )
-        if self.convolutions is not None:
-            variables["convolutions"] = (
-                "load",
-                self.convolutions,
-                {"units": "1", "long_name": "convolutions spent"},
-            )
-        if self.area_fraction_corrected is not None:
-            variables["area_fraction_corrected"] = (
-                "load",
-                self.area_fraction_corrected,
-                {"units": "1", "long_name": "the same, corrected for the outline's steps"},
-            )
-        if self.stiffness_error is not None:
-            variables["stiffness_error"] = (
-                "load",
-                self.stiffness_error,
-                {"units": f"{forces}/{lengths}", "long_name": "discretisation error of stiffness"},
-            )
-        if self.area_fraction_error is not None:
-            variables["area_fraction_error"] = (
-                "load",
-                self.area_fraction_error,
-                {"units": "1", "long_name": "discretisation error of area_fraction_corrected"},
-            )
-        units = {"pressure": pressures, "displacement": lengths, "gap": lengths, "contact": "1"}
-        found = [fields for fields in self.fields if fields is not None]
-        for name, unit in units.items() if found else ():
-            missing = np.full(found[0].gap.shape, np.nan)
-            stack = [getattr(fields, name) if fields else missing for fields in self.fields]
-            variables[name] = (("load", "x", "y"), np.array(stack, float), {"units": unit})
+        variables = {}
+        for quantity in IN_FILES:
+            values = self._values(quantity)
+            if values is not None:
+                flags = _STATUS_FLAGS if quantity.name == "status" else {}
+                attributes = quantity.attributes(self.unit) | flags
+                variables[quantity.name] = (quantity.dims, values, attributes)
         attrs = {
             "E_star": self.E_star,
-            "E_star_units": pressures,
+            "E_star_units": unit_of("pressure", self.unit),
             "rms_height": self.rms_height,
             "length": self.length,
-            "length_units": lengths,
+            "length_units": unit_of("length", self.unit),
             **self.settings,
         }
         if self.warnings:
             attrs["warnings"] = "; ".join(self.warnings)
         prescribed = "depth" if self.settings.get("control") == "depths" else "force"
         return xarray.Dataset(variables, attrs=attrs).swap_dims(load=prescribed)
+
+    def _values(self, quantity: Quantity) -> NDArray[Any] | None:
+        """Return a quantity as files hold it, or None if this curve does not have it."""
+        if quantity.dims == OVER_LOADS:
+            values: NDArray[Any] | None = getattr(self, quantity.name)
+            if values is not None and values.dtype == bool:
+                return values.astype(np.int8)  # NetCDF has no booleans
+            return values
+        kept = [fields for fields in self.fields if fields is not None]
+        if not kept:
+            return None
+        missing = np.full(kept[0].gap.shape, np.nan)
+        stack = [getattr(fields, quantity.name) if fields else missing for fields in self.fields]
+        return np.array(stack, float)
 
     def write(self, path: str | Path) -> None:
         """Write the curve to a file.
@@ -271,7 +235,7 @@ class Curve:
             if path.suffix == ".nc":
                 data.to_netcdf(path, engine="h5netcdf")
                 return
-            over_loads = data.drop_dims([name for name in ("x", "y") if name in data.dims])
+            over_loads = data.drop_dims(["x", "y"], errors="ignore")
             table = over_loads.to_dataframe().reset_index()
             units = {name: over_loads[name].attrs.get("units") for name in table}
             table.columns = [f"{name} [{units[name]}]" if units[name] else name for name in table]

@@ -6,18 +6,22 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from roughline.contact.curve import RESOLVED_FROM
+from roughline.computing.arrays import Real
+from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
+
+Control = Literal["depths", "forces"]
+"""What is prescribed."""
 
 _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
 _SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
-_SMALLEST_SPAN = 1e-3  # of spaced forces, where few points leave less between touch and saturation
+_LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few points touch early
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,32 +36,40 @@ class Loads:
         Rising and positive. [length] or [force]
     """
 
-    control: Literal["depths", "forces"]
-    values: NDArray[np.float64]
+    control: Control
+    values: Real
 
 
 @dataclass(frozen=True)
-class Wish:
-    """What the caller gave, of which exactly one is to be not None."""
+class GivenLoads:
+    """The loads as the caller gave them, not checked yet; exactly one may be other than None.
+
+    Attributes
+    ----------
+    depths, forces : array_like or None
+        Values one by one. [length] or [force]
+    n_loads : int or None
+        How many forces to space evenly on a logarithmic scale.
+    """
 
     depths: ArrayLike | None
     forces: ArrayLike | None
     n_loads: int | None
 
 
-def line_loads(line: Line, springs: Springs, wish: Wish) -> Loads:
+def line_loads(line: Line, springs: Springs, given: GivenLoads) -> Loads:
     """Return the loads of a line; spaced ones run from ten springs in contact to all of them."""
-    if wish.n_loads is None:
-        return _given_loads(wish)
-    _refuse_constant(line, wish)
+    if given.n_loads is None:
+        return _checked_loads(given)
+    _refuse_constant(line, given)
     few = min(RESOLVED_FROM, line.heights.size - 1)
     highest_points = int(np.count_nonzero(line.heights == line.heights.max()))
     lowest = springs.touch_force(max(few, highest_points))
-    return _spaced_loads(wish, lowest, springs.touch_force(line.heights.size - 1))
+    return _spaced_loads(given, lowest, springs.touch_force(line.heights.size - 1))
 
 
 def surface_loads(
-    surface: Surface, E_star: float, wish: Wish, periodic: bool, rtol: float, *, single: bool
+    surface: Surface, E_star: float, given: GivenLoads, periodic: bool, rtol: float, *, single: bool
 ) -> Loads:
     """Return the loads of a surface; spaced ones run from about ten cells to saturation.
 
@@ -68,13 +80,13 @@ def surface_loads(
             f"rtol is {rtol:g}; single precision tells gaps to {_GAP_ROUNDING_SINGLE:g} at best: "
             'give a larger rtol, or precision="mixed"'
         )
-    if wish.n_loads is None:
-        loads = _given_loads(wish)
+    if given.n_loads is None:
+        loads = _checked_loads(given)
         if periodic and loads.control == "depths":
             _refuse_beyond_full_contact(surface, loads.values[-1])
         _refuse_beyond_precision(surface, E_star, loads, rtol, single)
         return loads
-    _refuse_constant(surface, wish)
+    _refuse_constant(surface, given)
     if periodic:
         # Persson: 95 % contact at a mean pressure of E* times the rms slope
         highest = E_star * surface.rms_slope * surface.area
@@ -87,17 +99,17 @@ def surface_loads(
         # so many cells as one disc, pressed down to the last of them: F = 2 E* a d
         radius = np.sqrt(few * surface.spacing[0] * surface.spacing[1] / np.pi)
         lowest = 2 * E_star * radius * separation[few]
-    loads = _spaced_loads(wish, float(lowest), highest)
+    loads = _spaced_loads(given, float(lowest), highest)
     _refuse_beyond_precision(surface, E_star, loads, rtol, single)
     return loads
 
 
-def _given_loads(wish: Wish) -> Loads:
-    depths, forces = wish.depths, wish.forces
+def _checked_loads(given: GivenLoads) -> Loads:
+    depths, forces = given.depths, given.forces
     if (depths is None) == (forces is None):
-        given = "no loads" if depths is None else "both depths and forces"
-        raise InputError(f"{given} given; give one of depths, forces and n_loads")
-    control: Literal["depths", "forces"] = "forces" if depths is None else "depths"
+        count = "no loads" if depths is None else "both depths and forces"
+        raise InputError(f"{count} given; give one of depths, forces and n_loads")
+    control: Control = "forces" if depths is None else "depths"
     try:
         values = np.atleast_1d(np.asarray(forces if depths is None else depths, np.float64))
     except (TypeError, ValueError) as error:
@@ -114,6 +126,11 @@ def _given_loads(wish: Wish) -> Loads:
                 f"{control}[{wrong.argmax()}] is {values[wrong][0]}, {what}; give positive, "
                 "rising numbers"
             )
+    _refuse_falling(control, values)
+    return Loads(control, values)
+
+
+def _refuse_falling(control: Control, values: Real) -> None:
     falling = np.diff(values) <= 0
     if falling.any():
         i = int(falling.argmax())
@@ -121,24 +138,23 @@ def _given_loads(wish: Wish) -> Loads:
             f"{control}[{i + 1}] = {values[i + 1]:g} does not exceed {control}[{i}] = "
             f"{values[i]:g}; sort them and give each once"
         )
-    return Loads(control, values)
 
 
-def _spaced_loads(wish: Wish, lowest: float, highest: float) -> Loads:
-    if wish.depths is not None or wish.forces is not None:
+def _spaced_loads(given: GivenLoads, lowest: float, highest: float) -> Loads:
+    if given.depths is not None or given.forces is not None:
         raise InputError("n_loads given beside depths or forces; give one of the three")
-    n_loads = wish.n_loads
+    n_loads = given.n_loads
     if not isinstance(n_loads, int | np.integer) or n_loads < 2:
         raise InputError(f"n_loads is {n_loads!r}; a whole number of at least 2 is needed")
-    lowest = min(lowest, _SMALLEST_SPAN * highest)
+    lowest = min(lowest, _LARGEST_FIRST * highest)
     return Loads("forces", np.geomspace(lowest, highest, int(n_loads)))
 
 
-def _refuse_constant(body: Body, wish: Wish) -> None:
+def _refuse_constant(body: Body, given: GivenLoads) -> None:
     if body.rms_height == 0:
         raise InputError(
             f"all heights are {body.heights.flat[0]:g}: a flat punch has no range of loads from "
-            f"which to choose n_loads = {wish.n_loads}; give depths or forces"
+            f"which to choose n_loads = {given.n_loads}; give depths or forces"
         )
 
 

@@ -12,7 +12,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve, Status
 from roughline.contact.estimates import memory_for
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
-from roughline.contact.loads import Wish, surface_loads
+from roughline.contact.loads import GivenLoads, surface_loads
 from roughline.contact.reduced import press_line
 from roughline.errors import ConvergenceError, InputError, Interrupted
 from roughline.topography.body import Body, Line, Surface
@@ -38,7 +38,7 @@ def press(
 
     A :class:`~roughline.Surface` is solved with the full model (every interaction, the
     half-space free around the surface unless `periodic`), a :class:`~roughline.Line` with the
-    reduced model (independent springs, exact). Units are any coherent set.
+    reduced model (independent springs, solved exactly). Units are any coherent set.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def press(
     depths, forces : array_like, shape (loads,), optional
         Rising, positive depths since first touch [length] or total forces [force].
     n_loads : int, optional
-        Or so many forces, log-spaced from about ten springs or cells in contact to saturation.
+        Number of forces, log-spaced from about ten springs or cells in contact to saturation.
     periodic : bool, optional
         Repeat the surface periodically. Depths then count the approach of the mean planes, k is
         the stiffness of the interface alone and is infinite in full contact.
@@ -65,9 +65,9 @@ def press(
     max_iterations : int, optional
         Bound on the convolutions of one load.
     precision : {"mixed", "float64", "float32"}, optional
-        Of the convolutions: "mixed" steps in single precision and certifies in double, and
-        returns what "float64" returns, to the tolerance; "float32" does without double
-        precision where memory is short, and refuses tolerances that it cannot reach.
+        Precision of the convolutions. "mixed" takes its steps in single precision, computes the
+        residuals in double, and returns what "float64" returns, to the tolerance. "float32" saves
+        memory and refuses tolerances that it cannot reach.
     throw : bool, optional
         Whether a load that is not solved raises; if not, it is marked in ``status``.
     progress : callable, optional
@@ -101,7 +101,7 @@ def press(
                 "periodic, fields and grid_error belong to the full model; the reduced model of a "
                 "Line has none of these: leave them out, or press a Surface"
             )
-        return press_line(body, E_star, Wish(depths, forces, n_loads))
+        return press_line(body, E_star, GivenLoads(depths, forces, n_loads))
     if not isinstance(body, Surface):
         raise InputError(
             f"body is a {type(body).__name__}; a Surface or a Line is needed: wrap heights as "
@@ -109,7 +109,12 @@ def press(
             "SurfaceTopography as Surface(topography)"
         )
     loads = surface_loads(
-        body, E_star, Wish(depths, forces, n_loads), periodic, rtol, single=precision == "float32"
+        body,
+        E_star,
+        GivenLoads(depths, forces, n_loads),
+        periodic,
+        rtol,
+        single=precision == "float32",
     )
     kept = _kept_loads(fields, loads.values.size)
     refuse_beyond_memory(
@@ -120,7 +125,7 @@ def press(
     )
     if grid_error:
         refuse_few_points(body)
-    # compiled loops load slowly, so only here
+    # imported here because compiled loops load slowly
     from roughline.contact.full import press_surface
     from roughline.halfspace.state import Method
 
@@ -151,7 +156,7 @@ def press(
 
 
 def _kept_loads(fields: bool | Sequence[int], count: int) -> frozenset[int]:
-    """Numbers of the loads whose fields are kept."""
+    """Return the numbers of the loads whose fields are kept."""
     if isinstance(fields, bool):
         return frozenset(range(count)) if fields else frozenset()
     if not all(isinstance(i, int | np.integer) and 0 <= i < count for i in fields):
@@ -171,7 +176,7 @@ def _check_number(name: str, value: float, low: float, high: float, allowed: str
 
 
 def _failure_message(curve: Curve) -> str:
-    """One line for all loads that failed, equal reasons together."""
+    """Return one line on all loads that failed, equal reasons together."""
     parts = []
     for status in Status:
         failed = np.flatnonzero(curve.status == status)

@@ -5,14 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from roughline._version import __version__
-from roughline.contact.curve import RESOLVED_FROM, Curve
-from roughline.contact.loads import Wish, line_loads
+from roughline.contact.curve import Curve
+from roughline.contact.loads import GivenLoads, line_loads
+from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Line
 
 
-def press_line(line: Line, E_star: float, wish: Wish) -> Curve:
+def press_line(line: Line, E_star: float, given: GivenLoads) -> Curve:
     """Press a reduced line.
 
     Parameters
@@ -21,7 +22,7 @@ def press_line(line: Line, E_star: float, wish: Wish) -> Curve:
         The line. [length]
     E_star : float
         Contact modulus. [pressure]
-    wish : Wish
+    given : GivenLoads
         The loads as the caller gave them.
 
     Raises
@@ -36,7 +37,7 @@ def press_line(line: Line, E_star: float, wish: Wish) -> Curve:
             "reduced line from its spectrum with SelfAffine(...).line(n)"
         )
     springs = Springs.under(line.heights, line.spacing, E_star)
-    loads = line_loads(line, springs, wish)
+    loads = line_loads(line, springs, given)
     if loads.control == "forces":
         force, touching = loads.values, springs.under_forces(loads.values)
         depth = touching.depth_under(force)

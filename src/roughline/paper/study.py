@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from roughline.campaign.run import Progress, run
+from roughline.campaign.progress import EnsembleProgress
+from roughline.campaign.run import run
 from roughline.campaign.store import Store
 from roughline.errors import StoreError
 from roughline.paper.page import write_page
@@ -20,7 +21,7 @@ def recompute(
     *,
     workers: int | None = None,
     scheduler: str | None = None,
-    progress: Progress | None = None,
+    progress: EnsembleProgress | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Path:
     """Run the paper's study, or what is left of it, and write its report.

@@ -8,7 +8,7 @@ from typing import Any
 
 from rich.console import Console
 
-from roughline.campaign.run import Summary
+from roughline.campaign.progress import Summary
 from roughline.campaign.store import Store
 from roughline.report.terminal import table
 

@@ -1,0 +1,152 @@
+"""Sending batches to workers, and writing what comes back."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import CancelledError
+from contextlib import suppress
+from functools import partial
+from typing import Any
+
+from roughline._version import __version__
+from roughline.campaign.batch import Batch, BatchResult, VersionError, evaluate
+from roughline.campaign.cluster import Cluster, interrupts_held_back
+from roughline.campaign.gallery import evaluate_gallery
+from roughline.campaign.plan import Plan
+from roughline.campaign.progress import EnsembleProgress, Summary
+from roughline.campaign.writer import Writer
+from roughline.errors import ClusterError
+
+_BATCHES_PER_CORE = 4  # that are sent out at a time, so that no core waits for work
+_CHECK_INTERVAL = 5.0  # between two looks at the cluster [s]
+_LONGEST_WITHOUT_WORKERS = 60.0  # [s]
+
+
+class Dispatch:
+    """One run of a campaign: batches go out as workers ask for more, results are written.
+
+    Attributes
+    ----------
+    summary : Summary
+        What was done so far.
+    cores : int
+        Cases that the cluster computes at a time.
+    threads : int
+        Threads for each case.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        writer: Writer,
+        cluster: Cluster,
+        threads: int,
+        missing: dict[str, int],
+        report: EnsembleProgress,
+    ) -> None:
+        self._plan, self._writer, self._cluster = plan, writer, cluster
+        self.threads, self._missing, self._report = threads, missing, report
+        self.summary = Summary()
+        self._pending: dict[Any, Batch | None] = {}
+        # cases of batches whose workers died: each is computed alone, which shows the one to blame
+        self._suspects: list[Batch] = []
+        self._alone = False
+        self.cores = cluster.cores()
+        self._checked = self._last_with_workers = time.monotonic()
+
+    def work(self, batches: dict[str, list[Batch]], with_gallery: bool) -> None:
+        """Compute and write all batches, and the gallery if it is wanted."""
+        waiting = iter([batch for each in batches.values() for batch in each])
+        if with_gallery and self._plan.gallery is not None:
+            self._pending[self._submit(partial(evaluate_gallery, self._plan.gallery))] = None
+        try:
+            self._send(waiting)
+            while self._pending or self._suspects:
+                if not self._pending:
+                    alone = self._suspects.pop()
+                    self._alone = True
+                    self._pending[self._submit(partial(evaluate, alone))] = alone
+                for future in self._finished():
+                    self._take(future)
+                self._send(waiting)
+        finally:
+            with suppress(Exception):  # a cluster that is gone has nothing to cancel
+                self._cluster.client.cancel(list(self._pending), force=True)
+
+    def _send(self, waiting: Iterator[Batch]) -> None:
+        while len(self._pending) < _BATCHES_PER_CORE * max(self.cores, 1):
+            batch = next(waiting, None)
+            if batch is None:
+                return
+            self._pending[self._submit(partial(evaluate, batch))] = batch
+
+    def _submit(self, work: Callable[..., object]) -> Any:
+        return self._cluster.client.submit(work, self.threads, __version__, pure=False)
+
+    def _finished(self) -> list[Any]:
+        """Wait until something has finished; raise if the cluster is lost."""
+        from distributed import wait
+
+        while True:
+            # the states of the futures tell what either exception means
+            with self._cluster.client.as_current(), suppress(TimeoutError, CancelledError):
+                wait(list(self._pending), timeout=_CHECK_INTERVAL, return_when="FIRST_COMPLETED")
+            finished = [future for future in self._pending if future.status != "pending"]
+            if any(future.status in ("cancelled", "lost") for future in finished):
+                raise ClusterError(
+                    "the Dask scheduler is gone; what is done is kept: start it again, and run the "
+                    "same command"
+                )
+            self._check_cluster()
+            if finished:
+                return finished
+
+    def _check_cluster(self) -> None:
+        """Count the cores of the cluster now and then; it may grow, shrink, or vanish."""
+        now = time.monotonic()
+        if now - self._checked < _CHECK_INTERVAL:
+            return
+        self._checked, self.cores = now, self._cluster.cores()
+        if self.cores:
+            self._last_with_workers = now
+        elif now - self._last_with_workers > _LONGEST_WITHOUT_WORKERS:
+            raise ClusterError(
+                f"there has been no worker for {_LONGEST_WITHOUT_WORKERS:g} s; what is done is "
+                "kept: start workers, and run the same command"
+            )
+
+    def _take(self, future: Any) -> None:
+        """Write what a worker sent back, or record why it did not."""
+        batch = self._pending.pop(future)
+        error = future.exception() if future.status == "error" else None
+        if isinstance(error, VersionError | ImportError):
+            raise ClusterError(f"{error}; install version {__version__} on every worker")
+        if batch is None:
+            if error is not None:
+                raise error
+            assert self._plan.gallery is not None
+            self._writer.put_gallery(self._plan.gallery, future.result())
+            return
+        if type(error).__name__ == "KilledWorker" and not self._alone:
+            self._suspects += batch.split()
+            return
+        result = _failed(batch, error) if error is not None else future.result()
+        future.release()
+        with interrupts_held_back():  # so that what is written is counted too
+            self._writer.put(batch, result)
+            self.summary.add(batch, result)
+        name, total = batch.ensemble.name, batch.ensemble.cases
+        done = total - self._missing[name] + self.summary.done[name]
+        self._report(name, done, self.summary.failed[name], total)
+
+
+def _failed(batch: Batch, error: BaseException) -> BatchResult:
+    """Return the result of a batch of which nothing came back."""
+    killed = type(error).__name__ == "KilledWorker"
+    why = (
+        "its worker died again and again, perhaps for want of memory"
+        if killed
+        else f"{type(error).__name__}: {error}".splitlines()[0]
+    )
+    return BatchResult({}, dict.fromkeys(range(len(batch.cells)), why))

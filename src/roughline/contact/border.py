@@ -1,0 +1,49 @@
+"""How much of the load the border carries of a surface that was cut out of a larger one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.halfspace.state import Contact
+from roughline.topography.body import Surface
+
+# A surface that was cut out of a larger one ends where the larger goes on. Where the outer frame
+# of this width carries this share of the force, what lies beyond is missed.
+BORDER_WIDTH = 0.05
+BORDER_SHARE = 0.05
+
+
+def border_share(contact: Contact) -> float:
+    """Share of the force that the outer frame carries. [1]"""
+    nx, ny = contact.gap.shape
+    x, y = np.divmod(contact.nodes, ny)
+    within = np.minimum(np.minimum(x, nx - 1 - x) / nx, np.minimum(y, ny - 1 - y) / ny)
+    return float(contact.pressure[within < BORDER_WIDTH].sum() / contact.pressure.sum())
+
+
+def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:
+    """Say at which loads the border carries too much.
+
+    Parameters
+    ----------
+    surface : Surface
+        The surface; only one that was cut out of a larger one is warned of.
+    force : ndarray, shape (loads,)
+        Total force. [force]
+    shares : ndarray, shape (loads,)
+        Share of the force that the border carries; NaN where a load was not solved. [1]
+    """
+    beyond = np.flatnonzero(shares > BORDER_SHARE)
+    if not surface.is_cut_out or not beyond.size:
+        return ()
+    ends = [f"{force[i]:.3g}" for i in (beyond[0], beyond[-1])]
+    unit = " N" if surface.unit == "m" else ""
+    at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
+    return (
+        f"at {at}{unit}, up to {shares[beyond].max():.0%} of the force is carried within "
+        f"{BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: what "
+        "lies beyond would share the load, so depth, stiffness and area are those of the piece "
+        "alone, a punch with this outline. Take a larger piece, lower loads, or the periodic "
+        "half-space",
+    )

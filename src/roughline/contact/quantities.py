@@ -1,0 +1,235 @@
+"""The output quantities of a curve, each declared once.
+
+:class:`~roughline.contact.curve.Curve`, its files, the stores of campaigns, JSON and the glossary
+read what is declared here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import partial
+from operator import attrgetter
+from types import MappingProxyType
+
+RESOLVED_FROM = 10
+"""Springs or cells in contact from which on a stiffness is physics rather than grid."""
+
+OVER_LOADS = ("load",)
+ON_THE_GRID = ("load", "x", "y")
+
+_SI = {"length": "m", "force": "N", "pressure": "Pa", "1": "1"}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One output quantity.
+
+    Attributes
+    ----------
+    name : str
+        Name of the attribute of a curve, and of the variable in files.
+    symbol : str
+        What formulas call it, in LaTeX; empty where they do not name it.
+    dimension : str or None
+        Its unit in any coherent units: "1", "length", "force", "pressure" or a quotient of two of
+        them; None for a flag, which has no unit.
+    meaning : str
+        What it is, for the glossary.
+    long_name : str
+        What it is in a few words, for the attributes of files; empty where they do without.
+    column : int or None
+        Its place among the variables of a file; None for what files do not hold. Tables are read
+        by position too, so a new quantity takes the next number.
+    dims : tuple of str
+        What it extends over: the loads, or the loads and the grid.
+    dtype : str
+        NumPy's name of the type of its values.
+    of_lines : bool
+        Whether the reduced model gives it.
+
+    Raises
+    ------
+    ValueError
+        If the dimension is not known.
+    """
+
+    name: str
+    symbol: str
+    dimension: str | None
+    meaning: str
+    long_name: str = ""
+    column: int | None = None
+    dims: tuple[str, ...] = OVER_LOADS
+    dtype: str = "f8"
+    of_lines: bool = True
+
+    def __post_init__(self) -> None:
+        self.unit_in("m")
+
+    def unit_in(self, length_unit: str | None) -> str | None:
+        """Return the unit where lengths have this one; None for a flag.
+
+        Parameters
+        ----------
+        length_unit : str or None
+            Unit of lengths; "m" gives SI units, None the dimension itself.
+        """
+        return None if self.dimension is None else unit_of(self.dimension, length_unit)
+
+    def attributes(self, length_unit: str | None) -> dict[str, str]:
+        """Return what files say of it: ``units`` and ``long_name``, as far as it has them."""
+        unit = self.unit_in(length_unit)
+        attributes = {} if unit is None else {"units": unit}
+        return attributes | ({"long_name": self.long_name} if self.long_name else {})
+
+
+def unit_of(dimension: str, length_unit: str | None) -> str:
+    """Return the unit of a dimension where lengths have a given unit.
+
+    Parameters
+    ----------
+    dimension : str
+        "1", "length", "force", "pressure" or a quotient of two of them.
+    length_unit : str or None
+        Unit of lengths; "m" gives SI units, None the dimension itself. Of any other unit, forces
+        are not known.
+
+    Raises
+    ------
+    ValueError
+        If the dimension is not one of these.
+    """
+    parts = dimension.split("/")
+    for part in parts:
+        if part not in _SI:
+            raise ValueError(f"dimension is {dimension!r}; known are {', '.join(_SI)}")
+    if length_unit == "m":
+        return "/".join(_SI[part] for part in parts)
+    lengths = {"length": length_unit or "length"}
+    return "/".join(lengths.get(part, part) for part in parts)
+
+
+_of_surfaces = partial(Quantity, of_lines=False)
+_on_the_grid = partial(Quantity, of_lines=False, dims=ON_THE_GRID)
+
+_DECLARED = (
+    Quantity(
+        "depth",
+        "d",
+        "length",
+        "approach since first touch of the highest point",
+        long_name="depth since touch",
+        column=0,
+    ),
+    Quantity(
+        "force",
+        "F",
+        "force",
+        "total normal force, compression positive",
+        long_name="normal force",
+        column=1,
+    ),
+    Quantity(
+        "stiffness",
+        "k",
+        "force/length",
+        "contact stiffness, the exact $dF/dd$",
+        long_name="normal contact stiffness dF/dd",
+        column=2,
+    ),
+    _of_surfaces(
+        "area_fraction",
+        "A/A_0",
+        "1",
+        "real over nominal contact area, cells that touch",
+        long_name="real contact area over nominal area",
+        column=6,
+    ),
+    _of_surfaces(
+        "area_fraction_corrected",
+        "",
+        "1",
+        "`area_fraction` without what whole cells overstate under summits",
+        long_name="the same, corrected for the outline's steps",
+        column=8,
+    ),
+    _of_surfaces("area_fraction_most", "", "1", "upper bound of the area fraction on finer grids"),
+    _of_surfaces(
+        "stiffness_error",
+        "",
+        "force/length",
+        "estimated discretisation error of `stiffness`",
+        long_name="discretisation error of stiffness",
+        column=9,
+    ),
+    _of_surfaces(
+        "area_fraction_error",
+        "",
+        "1",
+        "estimated discretisation error of `area_fraction_corrected`",
+        long_name="discretisation error of area_fraction_corrected",
+        column=10,
+    ),
+    Quantity(
+        "residual",
+        "",
+        "1",
+        "largest violation of the contact conditions, each relative to its scale",
+        long_name="largest residual",
+        column=5,
+    ),
+    Quantity(
+        "resolved",
+        "",
+        None,
+        f"whether at least {RESOLVED_FROM} springs or cells are in contact",
+        long_name=f"at least {RESOLVED_FROM} springs or cells in contact",
+        column=4,
+        dtype="?",
+    ),
+    Quantity("status", "", None, "how the solution ended, a `Status`", column=3, dtype="i1"),
+    _of_surfaces(
+        "convolutions",
+        "",
+        "1",
+        "convolutions that the load took, its stiffness included",
+        long_name="convolutions spent",
+        column=7,
+        dtype="i8",
+    ),
+    Quantity(
+        "force_bar",
+        r"\bar F",
+        "1",
+        "dimensionless force $F/(E^* h L)$, the paper's eq. 2",
+        long_name="F / (E* h L)",
+    ),
+    Quantity(
+        "stiffness_bar",
+        r"\bar k",
+        "1",
+        r"dimensionless stiffness $k/(1.1419\,E^* L)$, the paper's eq. 1; of a line $k/(E^* L)$",
+    ),
+    _on_the_grid("pressure", "p", "pressure", "contact pressure, compression positive", column=11),
+    _on_the_grid(
+        "displacement", "u", "length", "normal displacement of the half-space's surface", column=12
+    ),
+    _on_the_grid("gap", "g", "length", "distance of the two bodies", column=13),
+    _on_the_grid("contact", "", "1", "1 where the bodies touch, else 0", column=14, dtype="?"),
+)
+
+QUANTITIES: Mapping[str, Quantity] = MappingProxyType({each.name: each for each in _DECLARED})
+"""All output quantities by name, in the order in which people read them."""
+
+IN_FILES = tuple(
+    sorted((each for each in _DECLARED if each.column is not None), key=attrgetter("column"))
+)
+"""The variables of a curve's file, in their order."""
+
+IN_JSON = tuple(
+    each
+    for each in _DECLARED
+    if each.column is not None and each.dims == OVER_LOADS and each.name != "convolutions"
+)
+"""What JSON gives of a curve, in its order; what a load took in computing is left out."""

@@ -1,0 +1,120 @@
+"""Output quantities: declared once, the same in curves, files, JSON and the glossary."""
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.contact.quantities import IN_FILES, IN_JSON, OVER_LOADS, QUANTITIES, Quantity
+
+GLOSSARY = Path(__file__).parents[2] / "docs" / "conventions.md"
+OVER_THE_LOADS = [each for each in QUANTITIES.values() if each.dims == OVER_LOADS]
+ON_THE_GRID = [each for each in QUANTITIES.values() if each.dims != OVER_LOADS]
+
+
+@pytest.fixture(scope="module")
+def surface():
+    return rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(32, 7)
+
+
+@pytest.fixture(scope="module")
+def curve(surface):
+    return rl.press(surface, E_star=1.0, forces=[0.1, 0.3], fields=True, grid_error=True)
+
+
+@pytest.fixture(scope="module")
+def line_curve():
+    line = rl.SelfAffine(hurst=0.8, rms_height=1.0).line(1024, 7)
+    return rl.press(line, E_star=1.0, forces=[0.1, 0.3])
+
+
+def row_of(quantity):
+    """The row of the glossary's table that a declaration gives."""
+    symbol = f"${quantity.symbol}$ |" if quantity.symbol else "|"
+    unit, dims = quantity.dimension or "-", ", ".join(quantity.dims)
+    return f"| `{quantity.name}` | {symbol} {quantity.meaning} | {unit} | {dims} |"
+
+
+def test_the_glossary_lists_what_is_declared():
+    _, _, section = GLOSSARY.read_text("utf-8").partition("## Output quantities of a curve\n")
+    section, _, _ = section.partition("\n## ")
+    rows = [line for line in section.splitlines() if line.startswith("| `")]
+    assert rows == [row_of(each) for each in QUANTITIES.values()]
+
+
+def test_a_curve_has_what_is_declared_and_no_more(curve):
+    arrays = {
+        each.name
+        for each in dataclasses.fields(curve)
+        if isinstance(getattr(curve, each.name), np.ndarray)
+    }
+    derived = {"force_bar", "stiffness_bar"}
+    assert arrays == {each.name for each in OVER_THE_LOADS} - derived
+    assert {each.name for each in dataclasses.fields(rl.Fields)} == {
+        each.name for each in ON_THE_GRID
+    }
+
+
+@pytest.mark.parametrize("quantity", OVER_THE_LOADS, ids=lambda each: each.name)
+def test_values_have_the_declared_type(curve, line_curve, quantity):
+    for one in (curve, line_curve):
+        values = getattr(one, quantity.name)
+        if values is not None:
+            assert values.shape == (2,)
+            assert values.dtype == np.dtype(quantity.dtype)
+    assert (getattr(line_curve, quantity.name) is not None) == quantity.of_lines
+
+
+def test_files_hold_the_declared_variables(curve, line_curve):
+    for one in (curve, line_curve):
+        data = one.to_dataset()
+        expected = [each for each in IN_FILES if one is curve or each.of_lines]
+        assert list(data.variables) == [each.name for each in expected]
+        for each in expected:
+            assert data[each.name].dims == ("force", *each.dims[1:])
+            assert data[each.name].attrs.get("units") == each.dimension
+            assert data[each.name].attrs.get("long_name", "") == each.long_name
+
+
+def test_columns_of_files_stay_in_their_places(curve, tmp_path):
+    """Programs read tables by position too."""
+    assert [each.column for each in IN_FILES] == list(range(len(IN_FILES)))
+    curve.write(tmp_path / "curve.csv")
+    header, *_ = (tmp_path / "curve.csv").read_text("utf-8").splitlines()
+    assert header == (
+        "force [force],depth [length],stiffness [force/length],status,resolved,residual [1],"
+        "area_fraction [1],convolutions [1],area_fraction_corrected [1],"
+        "stiffness_error [force/length],area_fraction_error [1]"
+    )
+
+
+@pytest.mark.parametrize(
+    ("dimension", "in_metres", "in_micrometres"),
+    [
+        ("length", "m", "um"),
+        ("force", "N", "force"),
+        ("pressure", "Pa", "pressure"),
+        ("force/length", "N/m", "force/um"),
+        ("1", "1", "1"),
+        (None, None, None),
+    ],
+)
+def test_units_follow_that_of_lengths(dimension, in_metres, in_micrometres):
+    quantity = Quantity("some", "s", dimension, "some quantity")
+    assert quantity.unit_in("m") == in_metres
+    assert quantity.unit_in("um") == in_micrometres
+    assert quantity.unit_in(None) == dimension
+
+
+def test_an_unknown_dimension_is_refused():
+    with pytest.raises(ValueError, match="dimension is 'mass/length'; known are length, force"):
+        Quantity("density", "", "mass/length", "mass per length")
+
+
+def test_json_gives_results_and_no_fields():
+    assert [each.name for each in IN_JSON] == [
+        *("depth", "force", "stiffness", "area_fraction", "area_fraction_corrected"),
+        *("stiffness_error", "area_fraction_error", "residual", "resolved", "status"),
+    ]
