@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from roughline.assessment.assessment import Assessment
 from roughline.contact.curve import Status
+from roughline.contact.quantities import QUANTITIES
 from roughline.engineering.answer import Answer, Ends
 from roughline.report.values import with_interval
 from roughline.units import engineering
 
 _SHARES = ("contact_area_fraction",)  # keys of what is written in per cent
+
+_SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
 UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
 """What the star behind a load means."""
@@ -30,9 +33,9 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
             continue
         row = [
             heading,
-            engineering(curve.depth[i], "m"),
-            engineering(curve.force[i], "N"),
-            with_interval(curve.stiffness[i], _at(stiffness, i), "N/m"),
+            engineering(curve.depth[i], _SI["depth"]),
+            engineering(curve.force[i], _SI["force"]),
+            with_interval(curve.stiffness[i], _at(stiffness, i), _SI["stiffness"]),
         ]
         if curve.area_fraction is not None and curve.area_fraction_corrected is not None:
             corrected = with_interval(curve.area_fraction_corrected[i], _at(area, i), "%")

@@ -16,6 +16,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import ModelComparison
 from roughline.assessment.description import Description
 from roughline.contact.curve import Status
+from roughline.contact.quantities import IN_JSON
 from roughline.topography.body import Body, Surface
 
 
@@ -37,20 +38,9 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "nominal_area": assessment.area,
         "loads": assessment.headings,
         "curve": {
-            name: getattr(curve, name)
-            for name in (
-                "depth",
-                "force",
-                "stiffness",
-                "area_fraction",
-                "area_fraction_corrected",
-                "stiffness_error",
-                "area_fraction_error",
-                "residual",
-                "resolved",
-            )
-        }
-        | {"status": [Status(value).name.lower() for value in curve.status]},
+            **{quantity.name: getattr(curve, quantity.name) for quantity in IN_JSON},
+            "status": [Status(value).name.lower() for value in curve.status],
+        },
         "stiffness_interval": assessment.stiffness_interval_as_asked,
         "area_fraction_interval": assessment.area_interval_as_asked,
         "answers": {
