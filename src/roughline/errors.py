@@ -13,7 +13,17 @@ class RoughlineError(Exception):
 
 
 class InputError(RoughlineError, ValueError):
-    """The input is not usable; the message says what came, what is allowed and what to do."""
+    """The input is not usable; the message says what came, what is allowed and what to do.
+
+    Attributes
+    ----------
+    argument : str or None
+        Name of the Python argument that would mend it, for those to whom it goes by another name.
+    """
+
+    def __init__(self, *message: object, argument: str | None = None) -> None:
+        super().__init__(*message)
+        self.argument = argument
 
 
 class UnitError(InputError):

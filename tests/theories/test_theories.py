@@ -8,7 +8,8 @@ from scipy import integrate
 
 import roughline as rl
 from roughline.spectra.isotropic import isotropic_spectrum
-from roughline.theories.theory import THEORIES, moments, theory
+from roughline.spectra.moments import moments
+from roughline.theories.theory import THEORIES, theory
 
 SPECTRUM = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=4 * 2 * math.pi, q_high=64 * 2 * math.pi)
 FOUND = moments(SPECTRUM)

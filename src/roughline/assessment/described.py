@@ -136,7 +136,7 @@ def missing_map(described: Described) -> list[str]:
 def _rows_of_file(described: Described) -> list[tuple[str, str]]:
     """What the file holds, and of the body its points and sizes."""
     found, body, missing = described.measurement, described.body, described.missing
-    channel = "own format" if found.is_own else found.channel
+    channel = "own format" if found.by_roughline else found.channel
     rows = [("file", ", ".join(filter(None, (described.source.file.name, channel))))]
     if len(found.channels) > 1:
         rows.append(("channels", ", ".join(found.channels)))

@@ -13,8 +13,8 @@ from roughline.assessment.loading import nominal_area
 from roughline.assessment.source import Source
 from roughline.contact.curve import Curve
 from roughline.engineering.answers import Answer, Ends
-from roughline.engineering.materials import Interface
-from roughline.theories.theory import TheoryCurve
+from roughline.engineering.pair import MaterialPair
+from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 
 
@@ -42,7 +42,7 @@ class Pressed:
         the grid's error is not known.
     interrupted : bool
         Whether Ctrl-C came before the last load was solved, or its errors estimated.
-    pair : Interface or None
+    pair : MaterialPair or None
         The materials.
     answers : list of Answer
         For the materials, over the loads that were asked for.
@@ -66,7 +66,7 @@ class Pressed:
     stiffness_interval: Ends | None = None
     area_interval: Ends | None = None
     interrupted: bool = False
-    pair: Interface | None = None
+    pair: MaterialPair | None = None
     answers: list[Answer] = field(default_factory=list)
     theories: list[TheoryCurve] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)

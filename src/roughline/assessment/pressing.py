@@ -40,13 +40,15 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.estimates import estimate, memory_for
 from roughline.engineering.answers import Answer, answers, elastic_warnings, left_out
 from roughline.engineering.formulas import plasticity_index
-from roughline.engineering.materials import Interface, Material
+from roughline.engineering.materials import Material
+from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
 from roughline.files.read import suspicions
 from roughline.report.folder import make_folder
 from roughline.spectra.moments import moments
 from roughline.spectra.roughness import ALIKE, isotropy
-from roughline.theories.theory import TheoryCurve, refuse_unknown, theory
+from roughline.theories.theory import refuse_unknown, theory
+from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import Preparation
 
@@ -118,7 +120,7 @@ def press_file(
         raise InputError("give either a contact modulus (--modulus) or two materials (--materials)")
     for name in theories:
         refuse_unknown(name)
-    pair = Interface(*materials) if materials else None
+    pair = MaterialPair(*materials) if materials else None
     modulus = pair.E_star if pair else E_star
     assert modulus is not None
     sources = [each for each in (source, against) if each is not None]

@@ -64,7 +64,7 @@ class Source:
     def missing_points(self) -> Body | None:
         """Where points are missing, as heights of 1; None where they were filled before."""
         found = measurement(self.file, self.channel)
-        if found.is_own:
+        if found.by_roughline:
             return None
         marked = replace(found, heights=found.unknown.astype(np.float64))
         body = marked.body(self.unit, self.sizes, Missing(), "none")

@@ -13,7 +13,7 @@ from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.engineering import formulas
-from roughline.engineering.materials import Interface
+from roughline.engineering.pair import MaterialPair
 from roughline.topography.body import Surface
 from roughline.units import decimal
 
@@ -73,7 +73,7 @@ def saturated_stiffness(surface: Surface, E_star: float) -> float:
 def answers(
     curve: Curve,
     area: float,
-    pair: Interface,
+    pair: MaterialPair,
     *,
     interface_stiffness: Answer | None = None,
     rms_height: float | None = None,
@@ -92,7 +92,7 @@ def answers(
         In SI units, with the contact modulus of the pair.
     area : float
         Nominal contact area. [m²]
-    pair : Interface
+    pair : MaterialPair
         The materials.
     interface_stiffness : Answer, optional
         Of the interface alone, with its own interval, for a free surface or one that was cut out of
@@ -171,7 +171,7 @@ def _answer(
     return Answer(name, symbol, unit, values, low, high, formula, validity, source)
 
 
-def _areas(force: Real, share: Real, area: float, pair: Interface) -> list[Answer]:
+def _areas(force: Real, share: Real, area: float, pair: MaterialPair) -> list[Answer]:
     with np.errstate(divide="ignore", invalid="ignore"):
         pressure = force / (share * area)
     found = [
@@ -208,7 +208,7 @@ def _areas(force: Real, share: Real, area: float, pair: Interface) -> list[Answe
     return found
 
 
-def _electric(force: Real, k: Real, pair: Interface) -> list[Answer]:
+def _electric(force: Real, k: Real, pair: MaterialPair) -> list[Answer]:
     resistivities = pair.both("resistivity")
     if resistivities is None:
         return []
@@ -246,7 +246,7 @@ def _thermal(
     k: Real,
     own_per_area: Real,
     whose: str,
-    pair: Interface,
+    pair: MaterialPair,
     amplitudes: tuple[float | None, float | None],
 ) -> list[Answer]:
     conductivities = pair.both("conductivity")
@@ -331,12 +331,12 @@ def elastic_warnings(found: Sequence[Answer], plasticity: float | None) -> list[
     return warnings
 
 
-def left_out(pair: Interface, frequency: float | None) -> list[str]:
+def left_out(pair: MaterialPair, frequency: float | None) -> list[str]:
     """Say which answers :func:`answers` leaves out because a material lacks a value.
 
     Parameters
     ----------
-    pair : Interface
+    pair : MaterialPair
         The materials.
     frequency : float or None
         Of an ultrasonic wave, if its reflection is wanted. [Hz]

@@ -16,7 +16,7 @@ import numpy as np
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, RoughlineError
 from roughline.files.measurement import Measurement
-from roughline.topography.body import MEASURED
+from roughline.topography.settings import MEASURED
 
 _BYTES_PER_POINT = 24  # raw, scaled and masked
 

@@ -37,7 +37,7 @@ from roughline.report.contact_tables import (
     star_is_shown,
 )
 from roughline.report.page import value_and_interval
-from roughline.theories.theory import TheoryCurve
+from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 

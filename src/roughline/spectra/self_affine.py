@@ -28,7 +28,8 @@ from roughline.spectra.lattice import (
     LatticeSpectrum,
     sum_over_integral,
 )
-from roughline.topography.body import Line, Settings, Surface
+from roughline.topography.body import Line, Surface
+from roughline.topography.settings import Settings
 
 Amplitudes = Literal["fixed", "gaussian"]
 Normalisation = Literal["rms_height", "C_0"]

@@ -88,8 +88,8 @@ class Missing:
         return InputError(
             f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
             f"up to {self.most:.0%} are filled: crop it with the instrument's software to where "
-            "points are known, or allow more (most_missing; command line: --max-missing, and "
-            "--crop)"
+            "points are known, or allow more with most_missing",
+            argument="most_missing",
         )
 
     def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> NDArray[np.float64]:

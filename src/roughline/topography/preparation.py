@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import get_args
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
-from roughline.topography.body import Body, BodyType, Line, Surface, with_heights
+from roughline.topography.body import Body, BodyType, Surface, with_heights
 from roughline.topography.missing import Missing
 from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
 
@@ -81,7 +79,7 @@ class Preparation:
         elif count:
             body = with_heights(body, body.heights, outliers_kept=count)
         changed = self.crop is not None or (count > 0 and self.remove_outliers)
-        trend = self.trend or (_trend_removed(body) if changed else "none")
+        trend = self.trend or (body.removed_trend if changed else "none")
         if trend != "none":
             body = body.detrended(trend)
         if self.low_pass is not None:
@@ -119,11 +117,11 @@ def tilt_warnings(surface: Surface) -> tuple[str, ...]:
     return (
         f"this surface is tilted: without its mean plane the rms height would be {lower:.0%} "
         "lower, and the side that the tilt lifts carries the load. Unless that is meant, remove it "
-        "(rl.read does by default; surface.detrended(); command line: --trend tilt)",
+        "(rl.read does by default; surface.detrended())",
     )
 
 
-def outliers(body: Body) -> NDArray[np.bool_]:
+def outliers(body: Body) -> Mask:
     """Mark spikes: points that stick far out of their neighbours.
 
     A point is marked if it is farther from the median of its neighbours than five times what
@@ -150,12 +148,6 @@ def outliers(body: Body) -> NDArray[np.bool_]:
     return marked
 
 
-def _trend_removed(body: Body) -> Trend:
-    """Which trend was removed from a body before."""
-    names: tuple[Trend, ...] = get_args(Trend)
-    return next((name for name in names if name == body.settings.get("detrended")), "none")
-
-
 def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:
     sides = body.sizes if isinstance(body, Surface) else (body.length,)
     spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
@@ -177,9 +169,12 @@ def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:
     if isinstance(body, Surface):
         return body.cropped(*ranges)
     (first, end) = ranges[0]
-    settings = {**body.settings, "cropped": f"{first}:{end}"}
-    piece = body.heights[first:end]
-    return Line(piece, spacings[0] * (end - first), body.unit, settings, body.kind)
+    return replace(
+        body,
+        heights=body.heights[first:end],
+        length=spacings[0] * (end - first),
+        settings={**body.settings, "cropped": f"{first}:{end}"},
+    )
 
 
 def _low_passed(body: BodyType, cutoff: float) -> BodyType:

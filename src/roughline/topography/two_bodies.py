@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.errors import InputError
-from roughline.topography.body import MEASURED, Surface
+from roughline.topography.body import Surface
+from roughline.topography.settings import MEASURED
 
 
 def facing(first: Surface, second: Surface) -> Surface:
@@ -52,8 +53,9 @@ def facing(first: Surface, second: Surface) -> Surface:
         other = ndimage.map_coordinates(
             turned, np.meshgrid(x, y, indexing="ij"), order=3, mode="nearest"
         )
+    is_cut_out = first.is_cut_out or second.is_cut_out
     settings: dict[str, str | int | float] = {
-        "origin": MEASURED if first.is_cut_out or second.is_cut_out else "two surfaces",
+        "origin": MEASURED if is_cut_out else "two surfaces",
         **{f"first_{key}": value for key, value in first.settings.items()},
         **{f"second_{key}": value for key, value in second.settings.items()},
     }
@@ -66,4 +68,5 @@ def facing(first: Surface, second: Surface) -> Surface:
     if not same_grid:
         settings["second_resampled_to"] = f"{shape[0]} x {shape[1]}"
     heights = first.heights[: shape[0], : shape[1]] + other
-    return Surface(heights, (dx * shape[0], dy * shape[1]), first.unit, settings)
+    sizes = (dx * shape[0], dy * shape[1])
+    return Surface(heights, sizes, first.unit, settings, is_cut_out=is_cut_out)
