@@ -62,7 +62,7 @@ def theory(
     if not ((pressures > 0) & np.isfinite(pressures)).all():
         raise InputError(f"pressures must be positive and finite; {pressures.min()} is among them")
     curve = THEORIES[name](roughness, E_star, pressures)
-    if isinstance(roughness, SelfAffine) and (difference := roughness.off_its_surfaces()):
+    if isinstance(roughness, SelfAffine) and (difference := roughness.difference_from_surfaces()):
         validity = (
             f"{curve.validity}; of the continuum, with {difference} of the surfaces that this "
             "spectrum generates: take spectrum.lattice(n) for these"
