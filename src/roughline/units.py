@@ -36,7 +36,7 @@ _PREFIXES = {
     18: "E",
 }
 _SIGNS = {"ohm": "Ω"}
-_EXACT = 15  # digits that a double always keeps
+_EXACT = 15  # decimal digits that double precision always keeps
 
 _EXAMPLES = {
     "Pa": "110 GPa",
@@ -65,9 +65,9 @@ def in_si(text: str, unit: str, name: str) -> float:
     text : str
         Number and unit.
     unit : str
-        SI unit of the result: one for which there is an example in this module.
+        SI unit of the result: one of those with an example in this module.
     name : str
-        What the quantity is, for the message.
+        Name of the quantity, for the message.
 
     Raises
     ------
@@ -84,8 +84,8 @@ def in_si(text: str, unit: str, name: str) -> float:
             raise ValueError("no number with a unit")
         units = _registry().parse_units(_EXPONENT.sub(r"**\1", parts["unit"].replace("·", "*")))
         value = _registry().Quantity(float(parts["number"]), units).to(unit).magnitude
-        return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without what prefixes round
-    except Exception as error:  # the parser raises whatever a senseless unit leads it to
+        return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without the prefix's rounding
+    except Exception as error:  # of a senseless unit the parser raises errors of any type
         raise UnitError(
             f'{name} is "{text}", which is no quantity in {unit}; such as "{example}" is'
         ) from error
@@ -97,9 +97,9 @@ def refuse_decimal_comma(text: str, name: str) -> None:
     Parameters
     ----------
     text : str
-        What was given.
+        Number, with or without a unit.
     name : str
-        What it is, for the message.
+        Name of the quantity, for the message.
 
     Raises
     ------
@@ -163,11 +163,11 @@ def prefix(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
     Parameters
     ----------
     value : float
-        In the unit.
+        Value in the unit.
     unit : str
         Without prefix, such as "N/m" or "m²".
     digits : int, optional
-        What rounds to 1000 gets the next prefix.
+        Significant digits; a value that rounds to 1000 gets the next prefix.
 
     Returns
     -------

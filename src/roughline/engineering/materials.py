@@ -1,4 +1,4 @@
-"""Bulk materials: what contact stiffness, conductance and ultrasound need of them."""
+"""Bulk materials: their properties for contact stiffness, conductance and ultrasound."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Material:
     Parameters
     ----------
     name : str
-        What it is called.
+        Name of the material.
     E : float
         Young's modulus; infinite for a rigid body. [Pa]
     nu : float
@@ -80,7 +80,7 @@ class Material:
 
     @property
     def carries_sound(self) -> bool:
-        """Whether longitudinal waves have a finite speed: not if it is rigid or incompressible."""
+        """Whether longitudinal waves have a finite speed; in rigid or incompressible bodies not."""
         return not math.isinf(self.E) and self.nu != 0.5
 
     @property

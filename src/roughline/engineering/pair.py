@@ -1,4 +1,4 @@
-"""Two materials in contact: what follows from both of them."""
+"""Two materials in contact: moduli and properties of the pair."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class MaterialPair:
     Parameters
     ----------
     first, second : Material
-        The rough body and the one that it is pressed into; which is which does not matter.
+        The rough body and the one that it is pressed into, in any order.
     """
 
     first: Material
@@ -42,7 +42,7 @@ class MaterialPair:
         return min(value for value in known if value) if known and all(known) else None
 
     def lacking(self, quantity: str) -> list[str]:
-        """Name the bodies of which a property is not known; a rigid one needs no hardness."""
+        """Name the bodies whose property is not known; a rigid one needs no hardness."""
         return [
             f"the {which} body ({each.name})"
             for which, each in (("first", self.first), ("second", self.second))

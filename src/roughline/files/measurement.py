@@ -1,4 +1,4 @@
-"""What a file with a topography holds, before anything is done to it."""
+"""Heights as a file has them, before anything is done to them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from roughline.topography.trend import Trend, remove_trend
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """Heights as a file has them, and what it says of them.
+    """Heights as a file has them, and what it states of them.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Surfaces and lines in NetCDF files of our own."""
+"""Surfaces and lines in the NetCDF files that roughline writes."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def write(body: Body, path: str | Path) -> None:
 
 
 def read_body_file(path: Path) -> Measurement | None:
-    """Read what a file of our own format holds; None if the file has another.
+    """Read a file that roughline wrote; None if it has another format.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def read_body_file(path: Path) -> Measurement | None:
         kind=attrs["kind"],
         by_roughline=True,
         settings={**settings, "file": path.name},
-        # files of earlier versions lack both, and their settings say so instead
+        # files of earlier versions state both in their settings alone
         is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else AS_RECORDED,
         removed_trend=attrs.get("removed_trend", AS_RECORDED),
     )

@@ -36,8 +36,8 @@ def read(
     Our own NetCDF files and the formats of SurfaceTopography are understood, plain arrays (NPY,
     text) included. A measured line scan is returned as a Line of kind "profile"; one with uneven
     spacing is interpolated linearly to as many even points. Points that the instrument could not
-    measure are filled, and the tilt of its stage is removed; both stand in the settings of the
-    result. Our own files are kept as they were written.
+    measure are filled, and the tilt of its stage is removed; the settings of the result record
+    both. Our own files are kept as they were written.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def read(
 
 
 def measurement(path: str | Path, channel: int | str | None = None) -> Measurement:
-    """Read what a file holds, whether or not there is enough in it for a body.
+    """Read the heights of a file, whether or not they suffice for a body.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def _read_array(path: Path) -> Measurement:
 
 
 def suspicions(body: Body) -> list[str]:
-    """List what about the scales of a measured body suggests a wrong unit or a wrong file.
+    """List what suggests a wrong unit or a wrong file about the scales of a measured body.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from roughline.spectra.band import Band
 from roughline.spectra.lattice import BodyName, LatticeSpectrum
 
 _SUMMED = 64  # waves along L from which on the lattice's sum is its integral
-_ALIKE = 0.05  # of either, up to which they count as alike
+_CLOSE = 0.05  # relative difference up to which they count as equal
 
 
 @lru_cache(maxsize=256)
@@ -33,9 +33,9 @@ def sum_over_integral(band: Band, order: int, body: BodyName) -> float:
     return 1 + (summed.moment(order) - rest) / whole
 
 
-def are_alike(factor: float) -> bool:
+def are_close(factor: float) -> bool:
     """Whether a quantity of the continuum, so many times that of the bodies, is within 5 %."""
-    return abs(factor - 1) <= _ALIKE
+    return abs(factor - 1) <= _CLOSE
 
 
 def warn_of_difference(name: str, factor: float, body: BodyName) -> None:
@@ -52,7 +52,7 @@ def warn_of_difference(name: str, factor: float, body: BodyName) -> None:
     body : {"surface", "line"}
         Which bodies.
     """
-    if are_alike(factor):
+    if are_close(factor):
         return
     which = 'n, "line"' if body == "line" else "n"
     warnings.warn(

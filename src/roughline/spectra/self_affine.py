@@ -17,7 +17,7 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.spectra import synthesis
 from roughline.spectra.band import Band
-from roughline.spectra.difference import are_alike, sum_over_integral, warn_of_difference
+from roughline.spectra.difference import are_close, sum_over_integral, warn_of_difference
 from roughline.spectra.lattice import BodyName, ContinuumSpectrum, LatticeSpectrum
 from roughline.spectra.realisation import (
     Amplitudes,
@@ -206,7 +206,7 @@ class SelfAffine:
     def difference_from_surfaces(self) -> str:
         """Say how the continuum differs from the surfaces generated; empty within 5 %."""
         factor = sum_over_integral(self._band, 0, "surface")
-        if are_alike(factor):
+        if are_close(factor):
             return ""
         if self.normalisation == "rms_height":
             return f"{factor:.2f} times the C_2d"

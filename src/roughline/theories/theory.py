@@ -1,6 +1,6 @@
-"""Analytical theories of rough contact, evaluated for a roughness: to lie beside the full model.
+"""Analytical theories of rough contact by their names, to be compared with the full model.
 
-None of them knows the half-space's edges: they hold per nominal area, for periodic or very large
+They neglect the edges of the half-space: they hold per nominal area, for periodic or very large
 surfaces.
 """
 
@@ -42,10 +42,9 @@ def theory(
     name : {"persson", "bush-gibson-thomas", "greenwood-williamson"}
         Name of the theory.
     roughness : Surface, LatticeSpectrum, IsotropicSpectrum, ContinuumSpectrum or SelfAffine
-        A surface, with its own waves; ``spectrum.lattice(n)``, with those that generated surfaces
-        have; ``spectrum.continuum``, or the spectrum itself, with integrals up to ``q_high``.
-        ``validity`` says so where a SelfAffine's integrals are more than 5 % off its surfaces.
-        [length]
+        A surface, for its own waves; ``spectrum.lattice(n)``, for those of generated surfaces;
+        ``spectrum.continuum``, or the spectrum itself, for integrals up to ``q_high``. Where the
+        integrals of a SelfAffine are more than 5 % off its surfaces, ``validity`` says so. [length]
     E_star : float
         Contact modulus. [pressure]
     pressure : array_like, shape (loads,)
