@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -13,7 +12,7 @@ from roughline.errors import InputError
 from roughline.files.scale import Scale, Sizes
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Missing
-from roughline.topography.settings import AS_RECORDED
+from roughline.topography.settings import AS_RECORDED, Settings
 from roughline.topography.trend import Trend, remove_trend
 
 
@@ -56,7 +55,7 @@ class Measurement:
     channel: str = ""
     channels: tuple[str, ...] = ()
     positions: Real | None = None
-    settings: Mapping[str, str | int | float] = field(default_factory=dict)
+    settings: Settings = field(default_factory=dict)
     is_cut_out: bool = AS_RECORDED
     removed_trend: Trend = AS_RECORDED
 
@@ -132,7 +131,16 @@ class Measurement:
         if removed != "none":
             remove_trend(heights, removed)
             settings["detrended"] = removed
-        removed = self.removed_trend if self.by_roughline else removed
+        return self._body(heights, sides, settings, removed)
+
+    def _body(
+        self,
+        heights: Real,
+        sides: tuple[float, ...],
+        settings: Settings,
+        removed: Trend,
+    ) -> Body:
+        removed_trend = self.removed_trend if self.by_roughline else removed
         if self.kind == "surface":
             return Surface(
                 heights,
@@ -140,9 +148,9 @@ class Measurement:
                 "m",
                 settings,
                 is_cut_out=self.is_cut_out,
-                removed_trend=removed,
+                removed_trend=removed_trend,
             )
-        return Line(heights, sides[0], "m", settings, self.kind, removed_trend=removed)
+        return Line(heights, sides[0], "m", settings, self.kind, removed_trend=removed_trend)
 
     def _scale(self, unit: str | None, sizes: Sizes | None) -> Scale:
         return Scale(self.file, self.heights.shape, self.unit, unit, self.sizes, sizes)
