@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
     from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
     from roughline.engineering.materials import Material as Material
-    from roughline.engineering.materials import contact_modulus as contact_modulus
     from roughline.engineering.materials import material as material
+    from roughline.engineering.pair import contact_modulus as contact_modulus
     from roughline.errors import ClusterError as ClusterError
     from roughline.errors import ContinuumWarning as ContinuumWarning
     from roughline.errors import ConvergenceError as ConvergenceError
@@ -71,7 +71,7 @@ _HOMES = {
     "prepared": "topography.preparation",
     "Preparation": "topography.preparation",
     "material": "engineering.materials",
-    "contact_modulus": "engineering.materials",
+    "contact_modulus": "engineering.pair",
     "Material": "engineering.materials",
     "Curve": "contact.curve",
     "Fields": "contact.curve",

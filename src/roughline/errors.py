@@ -10,7 +10,10 @@ class RoughlineError(Exception):
 
 
 class InputError(RoughlineError, ValueError):
-    """The input is not usable; the message says what came, what is allowed and what to do."""
+    """The input is not usable; the message says what came, what is allowed and what to do.
+
+    An argument that would mend it stands in the message with an equals sign, such as unit="um".
+    """
 
 
 class UnitError(InputError):

@@ -5,18 +5,12 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from roughline.errors import InputError, UnitError
+from roughline.errors import UnitError
 
 if TYPE_CHECKING:
     import pint
-
-Sizes = float | str | Sequence[float | str]
-"""Sides of a file as a caller gives them."""
 
 _NUMBER_AND_UNIT = re.compile(
     r"\s*(?P<number>[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|[-+]?(inf|nan))\s*"
@@ -42,7 +36,7 @@ _PREFIXES = {
     18: "E",
 }
 _SIGNS = {"ohm": "Ω"}
-_EXACT = 15  # digits that a double always keeps
+_EXACT = 15  # decimal digits that double precision always keeps
 
 _EXAMPLES = {
     "Pa": "110 GPa",
@@ -71,9 +65,9 @@ def in_si(text: str, unit: str, name: str) -> float:
     text : str
         Number and unit.
     unit : str
-        SI unit of the result: one for which there is an example in this module.
+        SI unit of the result: one of those with an example in this module.
     name : str
-        What the quantity is, for the message.
+        Name of the quantity, for the message.
 
     Raises
     ------
@@ -90,8 +84,8 @@ def in_si(text: str, unit: str, name: str) -> float:
             raise ValueError("no number with a unit")
         units = _registry().parse_units(_EXPONENT.sub(r"**\1", parts["unit"].replace("·", "*")))
         value = _registry().Quantity(float(parts["number"]), units).to(unit).magnitude
-        return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without what prefixes round
-    except Exception as error:  # the parser raises whatever a senseless unit leads it to
+        return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without the prefix's rounding
+    except Exception as error:  # of a senseless unit the parser raises errors of any type
         raise UnitError(
             f'{name} is "{text}", which is no quantity in {unit}; such as "{example}" is'
         ) from error
@@ -103,9 +97,9 @@ def refuse_decimal_comma(text: str, name: str) -> None:
     Parameters
     ----------
     text : str
-        What was given.
+        Number, with or without a unit.
     name : str
-        What it is, for the message.
+        Name of the quantity, for the message.
 
     Raises
     ------
@@ -169,11 +163,11 @@ def prefix(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
     Parameters
     ----------
     value : float
-        In the unit.
+        Value in the unit.
     unit : str
         Without prefix, such as "N/m" or "m²".
     digits : int, optional
-        What rounds to 1000 gets the next prefix.
+        Significant digits; a value that rounds to 1000 gets the next prefix.
 
     Returns
     -------
@@ -204,99 +198,3 @@ def decimal(value: float, digits: int) -> str:
         if 1e-4 <= abs(value) < 1e6
         else f"{value:.{digits}g}"
     )
-
-
-def metres_per_file_unit(name: str, stated: str | None, given: str | None) -> float:
-    """Return the metres in the unit that a file states, or else in the one that is given.
-
-    Parameters
-    ----------
-    name : str
-        Of the file, for the message.
-    stated, given : str or None
-        By the file, by the caller.
-
-    Raises
-    ------
-    UnitError
-        If both or neither says a unit, or it is none of length.
-    """
-    if stated and given:
-        raise UnitError(f"{name} states its unit, {stated}; leave unit = {given} out")
-    if not stated and not given:
-        raise unit_needed(name)
-    return metres_per(stated or str(given))
-
-
-def unit_needed(name: str) -> UnitError:
-    """Return what is to be said of a file without a unit."""
-    return UnitError(
-        f"{name} states no unit; say which its lengths have, such as unit = um "
-        "(command line: --unit um)"
-    )
-
-
-def sizes_needed(name: str, points: tuple[int, ...]) -> InputError:
-    """Return what is to be said of a file without sizes."""
-    example = _example_of_sizes(points)
-    return InputError(
-        f"{name} states no sizes for its {' x '.join(map(str, points))} points; give them, such "
-        f"as sizes = {example} (command line: --size {example})"
-    )
-
-
-def given_sizes(
-    name: str, points: tuple[int, ...], given: Sizes | None, unit: str | None
-) -> tuple[float, ...]:
-    """Return the sides of a file that states none, one for each axis; one length makes a square.
-
-    Parameters
-    ----------
-    name : str
-        Of the file, for the message.
-    points : tuple of int
-        Along each axis.
-    given : float, str, sequence of them, or None
-        What the caller says: texts have units, numbers are in `unit`.
-    unit : str or None
-        Unit of the file that the caller gives; None: numbers are in metres.
-
-    Returns
-    -------
-    tuple of float
-        Sides. [m]
-
-    Raises
-    ------
-    UnitError
-        If a text is no length with a unit.
-    InputError
-        If nothing, or not as many positive lengths as there are axes, is given.
-    """
-    if given is None:
-        raise sizes_needed(name, points)
-    if isinstance(given, str):
-        refuse_decimal_comma(given, "sizes")
-    each = given.split(",") if isinstance(given, str) else np.atleast_1d(np.array(given, object))
-    factor = metres_per(unit) if unit else 1.0
-    try:
-        sizes = tuple(
-            in_si(size, "m", "sizes") if isinstance(size, str) else factor * float(size)
-            for size in each
-        )
-    except TypeError:
-        sizes = ()
-    if len(sizes) == 1 and len(set(points)) == 1:
-        sizes *= len(points)
-    if len(sizes) != len(points) or not all(0 < size < math.inf for size in sizes):
-        lengths = "a positive length" if len(points) == 1 else f"{len(points)} positive lengths"
-        raise InputError(
-            f"sizes is {given!r}; {name} has {' x '.join(map(str, points))} points: give "
-            f"{lengths}, such as {_example_of_sizes(points)}; numbers without a unit are in "
-            f"{unit or 'm'}"
-        )
-    return sizes
-
-
-def _example_of_sizes(points: tuple[int, ...]) -> str:
-    return '"1 mm, 0.5 mm"' if len(points) == 2 else '"1 mm"'

@@ -15,9 +15,9 @@ from roughline.assessment.larger_surface import (
 from roughline.engineering.answers import answers, saturated_stiffness
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.limits import elastic_warnings
-from roughline.engineering.materials import Interface
+from roughline.engineering.pair import MaterialPair
 
-PAIR = Interface(rl.material("steel"), rl.material("copper"))
+PAIR = MaterialPair(rl.material("steel"), rl.material("copper"))
 
 
 def by_key(found):
@@ -257,7 +257,7 @@ def test_both_uncertainties_are_combined():
 
 def test_what_is_not_known_of_a_material_is_left_out():
     surface = sphere(32)
-    glass = Interface(rl.material("glass"), rl.material("rigid"))
+    glass = MaterialPair(rl.material("glass"), rl.material("rigid"))
     curve = rl.press(surface, E_star=glass.E_star, forces=[1.0])
     found = by_symbol(answers(curve, surface.area, glass, frequency=1e6))
     assert not {"R", "R_Holm", "G", "h_c", "|R|"} & found.keys()
@@ -268,7 +268,7 @@ def test_what_is_not_known_of_a_material_is_left_out():
 def test_the_elastic_assumption_is_watched():
     surface = sphere(64)
     soft, hard = (
-        Interface(rl.material(f"steel hardness={hardness} GPa"), rl.material("rigid"))
+        MaterialPair(rl.material(f"steel hardness={hardness} GPa"), rl.material("rigid"))
         for hardness in (1, 1000)
     )
     curve = rl.press(surface, E_star=soft.E_star, forces=[100.0])

@@ -5,14 +5,8 @@ import math
 import pytest
 
 import roughline as rl
-from roughline.engineering.materials import (
-    Interface,
-    Material,
-    contact_modulus,
-    material,
-    materials,
-    tangential_modulus,
-)
+from roughline.engineering.materials import Material, material, materials
+from roughline.engineering.pair import MaterialPair, contact_modulus, tangential_modulus
 
 
 def test_every_material_is_whole_and_says_where_it_is_from():
@@ -80,14 +74,14 @@ def test_pairs():
 
 def test_a_pair_says_what_it_lacks():
     steel, glass, rigid = (materials()[name] for name in ("steel", "glass", "rigid"))
-    assert Interface(steel, glass).lacking("resistivity") == ["the second body (glass)"]
-    assert Interface(glass, glass).lacking("resistivity") == [
+    assert MaterialPair(steel, glass).lacking("resistivity") == ["the second body (glass)"]
+    assert MaterialPair(glass, glass).lacking("resistivity") == [
         "the first body (glass)",
         "the second body (glass)",
     ]
-    assert Interface(steel, glass).lacking("hardness") == []
-    assert Interface(steel, rigid).lacking("hardness") == []  # a rigid body never yields
-    assert Interface(steel, rigid).lacking("conductivity") == ["the second body (rigid)"]
+    assert MaterialPair(steel, glass).lacking("hardness") == []
+    assert MaterialPair(steel, rigid).lacking("hardness") == []  # a rigid body never yields
+    assert MaterialPair(steel, rigid).lacking("conductivity") == ["the second body (rigid)"]
 
 
 def test_impedance_of_steel_is_the_textbook_value():

@@ -69,7 +69,7 @@ def tilted_piece(rng, n, seed, hursts, amplitudes="gaussian"):
     piece = (
         heights[first : first + n, second : second + n] + tilt[0] * x[:, np.newaxis] + tilt[1] * x
     )
-    surface = rl.Surface(piece, (1.0, 1.0), settings={"origin": "instrument file"})
+    surface = rl.Surface(piece, (1.0, 1.0), is_cut_out=True)
     return surface, (hurst, roll, cutoff), lattice_rms(hurst, roll, cutoff, 1.0)
 
 

@@ -68,7 +68,7 @@ def test_pieces_of_surfaces_have_the_expected_spectrum(hurst, roll):
         for i in range(0, longer * n, n):
             for j in range(0, longer * n, n):
                 tilted = heights[i : i + n, j : j + n] + 3 * x - 2 * x[:, np.newaxis]
-                piece = rl.Surface(tilted, (1.0, 1.0), settings={"origin": "instrument file"})
+                piece = rl.Surface(tilted, (1.0, 1.0), is_cut_out=True)
                 powers.append(isotropic_spectrum(piece).C_2d)
     leakage = map_leakage()
     levels = np.maximum(1, leakage.waves / roll) ** (-2.0 * (hurst + 1)) * (leakage.waves < 24)

@@ -8,7 +8,9 @@ from scipy import integrate
 
 import roughline as rl
 from roughline.spectra.isotropic import isotropic_spectrum
-from roughline.theories.theory import THEORIES, moments, theory
+from roughline.spectra.moments import moments
+from roughline.theories import bush_gibson_thomas, persson
+from roughline.theories.theory import THEORIES, theory
 
 SPECTRUM = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=4 * 2 * math.pi, q_high=64 * 2 * math.pi)
 FOUND = moments(SPECTRUM)
@@ -50,6 +52,13 @@ def test_persson_at_its_ends():
     assert curve.area_fraction[-1] == pytest.approx(1.0)
     assert (np.diff(curve.mean_gap) <= 0).all()
     assert curve.mean_gap[-1] == pytest.approx(0, abs=1e-6)
+
+
+def test_areas_at_light_loads_are_in_proportion_to_the_pressure():
+    p = 1e-6 * SLOPE
+    for module, name in ((persson, "persson"), (bush_gibson_thomas, "bush-gibson-thomas")):
+        share = theory(name, SPECTRUM, 1.0, p).area_fraction[0]
+        assert share == pytest.approx(module.KAPPA * p / SLOPE, rel=1e-6)
 
 
 def test_persson_stiffness_is_the_slope_of_its_gap():
@@ -128,8 +137,8 @@ def test_bush_gibson_and_thomas_bound_persson_and_numerics_lie_between():
     high = theory("bush-gibson-thomas", own, 1.0, p).area_fraction[0]
     assert low < curve.area_fraction_corrected[0] < high
     # and the full model's stiffness is within a quarter of Persson's on a periodic surface
-    persson = theory("persson", own, 1.0, p)
-    assert curve.stiffness[0] == pytest.approx(persson.stiffness[0], rel=0.25)
+    of_persson = theory("persson", own, 1.0, p)
+    assert curve.stiffness[0] == pytest.approx(of_persson.stiffness[0], rel=0.25)
 
 
 @pytest.mark.parametrize("name", THEORIES)
@@ -171,12 +180,12 @@ def test_persson_against_the_full_model_with_a_roll_off_at_2_waves_or_more(hurst
     surface = spectrum.surface(256, 3)
     p = surface.rms_slope * np.array([0.02, 0.05, 0.1, 0.2, 0.4])
     curve = rl.press(surface, E_star=1.0, forces=p, periodic=True)
-    persson = rl.theory("persson", surface, 1.0, p)
+    of_persson = rl.theory("persson", surface, 1.0, p)
     assert 0.04 < curve.area_fraction_corrected[0] < 0.05
     assert 0.6 < curve.area_fraction_corrected[-1] < 0.66
-    ratio = persson.stiffness / curve.stiffness
+    ratio = of_persson.stiffness / curve.stiffness
     assert ((ratio > 0.8) & (ratio < 1.2)).all()
-    area = persson.area_fraction / curve.area_fraction_corrected
+    area = of_persson.area_fraction / curve.area_fraction_corrected
     assert ((area > 0.68) & (area < 0.93)).all()
     assert area[-1] > area[0] + 0.1  # it comes nearer towards full contact
 

@@ -1,5 +1,7 @@
 """Surface and Line: what they hold, and what they refuse."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -69,6 +71,49 @@ def test_a_topography_of_surfacetopography_is_taken(unit, metres):
     assert found.is_cut_out
     assert not rl.Surface(Topography(wave(), (1.0, 1.0), periodic=True)).is_cut_out
     assert found.scaled(2.0).sizes == found.sizes
+
+
+def test_a_piece_stays_a_piece_whatever_is_done_to_it():
+    whole = rl.Surface(wave(), (1.0, 1.0))
+    piece = rl.Surface(wave(), (1.0, 1.0), is_cut_out=True)
+    for change in (
+        rl.Surface.coarsened,
+        rl.Surface.detrended,
+        lambda surface: surface.scaled(2.0),
+        lambda surface: rl.prepared(surface, rl.Preparation(low_pass=0.1, points=32)),
+        lambda surface: rl.facing(surface, whole),
+        lambda surface: rl.facing(whole, surface),
+    ):
+        assert change(piece).is_cut_out is True
+        assert change(whole).is_cut_out is False
+    assert whole.cropped((0, 8), (0, 8)).is_cut_out
+    assert rl.prepared(whole, rl.Preparation(crop=(0, 0.5, 0, 0.5))).is_cut_out
+    with pytest.raises(rl.InputError, match="is_cut_out is 'yes'; True or False is needed"):
+        rl.Surface(wave(), (1.0, 1.0), is_cut_out="yes")
+
+
+@pytest.mark.parametrize(
+    ("settings", "is_cut_out"),
+    [
+        ({}, False),
+        ({"origin": "self-affine surface"}, False),
+        ({"origin": "instrument file"}, True),
+        ({"origin": "self-affine surface", "cropped": "x 0:8, y 0:8"}, True),
+    ],
+)
+def test_what_is_not_given_is_as_the_settings_record(settings, is_cut_out):
+    assert rl.Surface(wave(), (1.0, 1.0), None, settings).is_cut_out is is_cut_out
+    assert not rl.Surface(wave(), (1.0, 1.0), None, settings, is_cut_out=False).is_cut_out
+
+
+def test_the_trend_that_was_removed_is_known():
+    for body in (rl.Surface(wave(), (1.0, 1.0)), rl.Line(wave()[0], 1.0)):
+        assert body.removed_trend == "none"
+        assert body.detrended("curvature").scaled(2.0).removed_trend == "curvature"
+        assert replace(body, settings={"detrended": "tilt"}).removed_trend == "none"
+    assert rl.Line(wave()[0], 1.0, settings={"detrended": "mean"}).removed_trend == "mean"
+    with pytest.raises(rl.InputError, match="trend is 'cubic'"):
+        rl.Line(wave()[0], 1.0, removed_trend="cubic")
 
 
 def test_what_is_no_map_or_says_things_twice_is_refused():

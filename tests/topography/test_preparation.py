@@ -14,7 +14,7 @@ X, Y = np.meshgrid(np.linspace(-1, 1, 96), np.linspace(-1, 1, 96), indexing="ij"
 
 
 def as_measured(heights, sizes=(1e-3, 1e-3)):
-    return rl.Surface(heights, sizes, "m", {"origin": "instrument file"})
+    return rl.Surface(heights, sizes, "m", is_cut_out=True)
 
 
 @pytest.mark.parametrize(
@@ -86,7 +86,7 @@ def test_wide_spikes_of_line_scans_are_found():
     rng = np.random.default_rng(3)
     clean = np.cumsum(rng.normal(size=x.size)) * 1e-9 + 1e-7 * np.sin(x / 700)
     dust = sum(2e-7 * np.exp(-(((x - at) / 4) ** 2)) for at in (500, 1730, 3100))
-    scan = rl.Line(clean + dust, 1e-3, "m", {"origin": "instrument file"}, "profile")
+    scan = rl.Line(clean + dust, 1e-3, "m", kind="profile")
     assert not outliers(rl.Line(clean, 1e-3, kind="profile")).any()
     found = outliers(scan)
     assert all(found[at - 3 : at + 4].all() for at in (500, 1730, 3100))

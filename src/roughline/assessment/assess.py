@@ -31,7 +31,8 @@ from roughline.engineering.formulas import partial_slip
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
-from roughline.theories.theory import TheoryCurve, theory
+from roughline.theories.theory import theory
+from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
 
 Announce = Callable[[str], None]

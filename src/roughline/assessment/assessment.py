@@ -17,7 +17,7 @@ from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve, Fields
 from roughline.engineering.answer import Answer, Ends
 from roughline.spectra.roughness import Roughness, roughness
-from roughline.theories.theory import TheoryCurve
+from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 
 

@@ -8,13 +8,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from roughline.engineering.materials import Interface, Material, material
+from roughline.engineering.materials import Material, material
+from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
+from roughline.files.scale import Sizes
 from roughline.theories.theory import refuse_unknown
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation
-from roughline.units import Sizes, engineering, in_si, load_in_newtons, refuse_decimal_comma
+from roughline.units import engineering, in_si, load_in_newtons, refuse_decimal_comma
 
 DEFAULT_LOADS = 20
 
@@ -129,9 +131,9 @@ class Question:
                 self.refuse_misfit(body)
 
     @property
-    def pair(self) -> Interface | None:
+    def pair(self) -> MaterialPair | None:
         """Both materials; None if a contact modulus is given instead."""
-        return None if self.materials is None else Interface(*self.materials)
+        return None if self.materials is None else MaterialPair(*self.materials)
 
     @property
     def modulus(self) -> float:

@@ -59,7 +59,7 @@ class Topography:
             return cls(prepared(given, preparation), None, None, reading, preparation)
         content = measurement(given, reading.channel)
         kept = None
-        if not content.is_own and content.unknown.any():
+        if not content.by_roughline and content.unknown.any():
             kept = replace(content, heights=np.ma.array(content.heights, copy=True))
         body = measured_body(content, reading, preparation)
         return cls(prepared(body, preparation), given, kept, reading, preparation)

@@ -12,7 +12,7 @@ from roughline.contact.press import press
 from roughline.engineering import formulas
 from roughline.engineering.answer import Answer, Ends, answer
 from roughline.engineering.declared import DECLARED
-from roughline.engineering.materials import Interface
+from roughline.engineering.pair import MaterialPair
 from roughline.topography.body import Surface
 
 
@@ -26,7 +26,7 @@ def saturated_stiffness(surface: Surface, E_star: float) -> float:
 def answers(
     curve: Curve,
     area: float,
-    pair: Interface,
+    pair: MaterialPair,
     *,
     interface_stiffness: Answer | None = None,
     amplitudes: tuple[float | None, float | None] = (None, None),
@@ -44,7 +44,7 @@ def answers(
         In SI units, with the contact modulus of the pair.
     area : float
         Nominal contact area. [m²]
-    pair : Interface
+    pair : MaterialPair
         The materials.
     interface_stiffness : Answer, optional
         Of the interface alone, with its own interval, for a free surface or one that was cut out of
@@ -82,7 +82,7 @@ def answers(
     return given
 
 
-def _areas(force: Real, share: Real, area: float, pair: Interface) -> list[Answer]:
+def _areas(force: Real, share: Real, area: float, pair: MaterialPair) -> list[Answer]:
     """Real contact area, and the pressure on it."""
     with np.errstate(divide="ignore", invalid="ignore"):
         pressure = force / (share * area)
@@ -96,7 +96,7 @@ def _areas(force: Real, share: Real, area: float, pair: Interface) -> list[Answe
     return given
 
 
-def _electric(force: Real, k: Real, pair: Interface) -> list[Answer]:
+def _electric(force: Real, k: Real, pair: MaterialPair) -> list[Answer]:
     """Constriction resistance, and Holm's estimate of it."""
     resistivities = pair.both("resistivity")
     if resistivities is None:
@@ -110,7 +110,7 @@ def _electric(force: Real, k: Real, pair: Interface) -> list[Answer]:
     return given
 
 
-def _thermal(k: Real, k_i_per_area: Real, of_what: str, pair: Interface) -> list[Answer]:
+def _thermal(k: Real, k_i_per_area: Real, of_what: str, pair: MaterialPair) -> list[Answer]:
     """Thermal conductance of the contact, and of the interface alone."""
     conductivities = pair.both("conductivity")
     if conductivities is None:
@@ -125,7 +125,7 @@ def _thermal(k: Real, k_i_per_area: Real, of_what: str, pair: Interface) -> list
 
 
 def _thermal_estimates(
-    pressure: Real, pair: Interface, amplitudes: tuple[float | None, float | None]
+    pressure: Real, pair: MaterialPair, amplitudes: tuple[float | None, float | None]
 ) -> list[Answer]:
     """Estimates of the literature for the thermal conductance of the interface."""
     conductivities = pair.both("conductivity")
@@ -142,7 +142,7 @@ def _thermal_estimates(
 
 
 def _reflection(
-    k_i_per_area: Real, of_what: str, pair: Interface, frequency: float | None
+    k_i_per_area: Real, of_what: str, pair: MaterialPair, frequency: float | None
 ) -> list[Answer]:
     """Reflection of an ultrasonic wave by the interface."""
     impedances = pair.both("impedance")

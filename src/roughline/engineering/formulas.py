@@ -16,7 +16,7 @@ from roughline.errors import InputError
 
 Value = TypeVar("Value", float, NDArray[np.float64])
 
-_FULL = 1e-6  # of the saturated stiffness that is missing in what counts as full contact
+_FULL = 1e-6  # of the saturated stiffness, which may be missing in full contact
 
 ELASTIC_UP_TO = 0.4
 """Mean contact pressure over hardness at which yield begins under a smooth asperity."""
@@ -25,9 +25,10 @@ ELASTIC_UP_TO = 0.4
 def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
     """Stiffness of the interface alone, 1 / k_interface = 1 / k - 1 / k_s.
 
-    A free surface in full contact is as stiff as its flat punch, k_s, and that compliance belongs
-    to the bodies; what is left belongs to the roughness. Exact under a uniform mean pressure, which
-    a punch has not: see :mod:`roughline.assessment.larger_surface` for a piece of a larger surface.
+    A free surface in full contact is as stiff as its flat punch, k_s. That compliance belongs to
+    the bodies, and the rest to the roughness. This is exact under a uniform mean pressure, which a
+    punch does not have: see :mod:`roughline.assessment.larger_surface` for a piece of a larger
+    surface.
 
     Parameters
     ----------
@@ -44,8 +45,8 @@ def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
     k = np.asarray(stiffness, dtype=np.float64)
     left = saturated - k
     with np.errstate(divide="ignore", invalid="ignore"):
-        own = np.where(left > _FULL * saturated, k * saturated / left, np.inf)
-    return np.where(np.isnan(left), np.nan, own)
+        of_interface = np.where(left > _FULL * saturated, k * saturated / left, np.inf)
+    return np.where(np.isnan(left), np.nan, of_interface)
 
 
 def electrical_resistance(

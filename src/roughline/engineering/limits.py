@@ -8,7 +8,7 @@ import numpy as np
 
 from roughline.engineering import formulas
 from roughline.engineering.answer import Answer
-from roughline.engineering.materials import Interface
+from roughline.engineering.pair import MaterialPair
 from roughline.units import decimal
 
 
@@ -40,12 +40,12 @@ def elastic_warnings(answers: Mapping[str, Answer], plasticity: float | None) ->
     return warnings
 
 
-def left_out(pair: Interface, frequency: float | None) -> list[str]:
+def left_out(pair: MaterialPair, frequency: float | None) -> list[str]:
     """Say which answers :func:`answers` leaves out because a material lacks a value.
 
     Parameters
     ----------
-    pair : Interface
+    pair : MaterialPair
         The materials.
     frequency : float or None
         Of an ultrasonic wave, if its reflection is wanted. [Hz]

@@ -1,4 +1,4 @@
-"""Bulk materials: what contact stiffness, conductance and ultrasound need of them."""
+"""Bulk materials: their properties for contact stiffness, conductance and ultrasound."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Material:
     Parameters
     ----------
     name : str
-        What it is called.
+        Name of the material.
     E : float
         Young's modulus; infinite for a rigid body. [Pa]
     nu : float
@@ -80,7 +80,7 @@ class Material:
 
     @property
     def carries_sound(self) -> bool:
-        """Whether longitudinal waves have a finite speed: not if it is rigid or incompressible."""
+        """Whether longitudinal waves have a finite speed; in rigid or incompressible bodies not."""
         return not math.isinf(self.E) and self.nu != 0.5
 
     @property
@@ -139,41 +139,6 @@ def material(description: str) -> Material:
     return replace(known[name], **given, source=source)  # type: ignore[arg-type]
 
 
-def contact_modulus(first: Material, second: Material) -> float:
-    """Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [Pa]
-
-    Raises
-    ------
-    InputError
-        If both materials are rigid.
-    """
-    compliance = sum((1 - each.nu**2) / each.E for each in (first, second))
-    if compliance == 0:
-        raise InputError("both materials are rigid: one of them must give way")
-    return 1 / compliance
-
-
-def tangential_modulus(first: Material, second: Material) -> float:
-    """Tangential contact modulus G*, 1 / G* = (2 - nu1) / (4 G1) + (2 - nu2) / (4 G2). [Pa]
-
-    The tangential stiffness of any contact without slip is G* / E* times the normal one where the
-    two problems are uncoupled; for equal materials that is (2 - 2 nu) / (2 - nu).
-
-    Raises
-    ------
-    InputError
-        If both materials are rigid.
-
-    References
-    ----------
-    V. L. Popov, "Contact Mechanics and Friction", 2nd ed. (2017), eq. 8.8.
-    """
-    compliance = sum((2 - each.nu) / (4 * each.shear_modulus) for each in (first, second))
-    if compliance == 0:
-        raise InputError("both materials are rigid: one of them must give way")
-    return 1 / compliance
-
-
 def _settings(text: str, description: str) -> dict[str, float]:
     """Read "name=value" pairs."""
     given: dict[str, float] = {}
@@ -213,50 +178,3 @@ def _table() -> dict[str, Material]:
         )
         for row in rows
     }
-
-
-@dataclass(frozen=True, eq=False)
-class Interface:
-    """Two bodies of given materials in contact.
-
-    Parameters
-    ----------
-    first, second : Material
-        The rough body and the one that it is pressed into; which is which does not matter.
-    """
-
-    first: Material
-    second: Material
-
-    @property
-    def E_star(self) -> float:
-        """Contact modulus. [Pa]"""
-        return contact_modulus(self.first, self.second)
-
-    @property
-    def G_star(self) -> float:
-        """Tangential contact modulus. [Pa]"""
-        return tangential_modulus(self.first, self.second)
-
-    @property
-    def hardness(self) -> float | None:
-        """Hardness of the softer body, None if it is not known of both. [Pa]
-
-        A rigid body never yields.
-        """
-        known = [each.hardness for each in (self.first, self.second) if not math.isinf(each.E)]
-        return min(value for value in known if value) if known and all(known) else None
-
-    def lacking(self, quantity: str) -> list[str]:
-        """Name the bodies of which a property is not known; a rigid one needs no hardness."""
-        return [
-            f"the {which} body ({each.name})"
-            for which, each in (("first", self.first), ("second", self.second))
-            if getattr(each, quantity) is None
-            and not (quantity == "hardness" and math.isinf(each.E))
-        ]
-
-    def both(self, quantity: str) -> tuple[float, float] | None:
-        """Return a property of both, None unless both are known."""
-        first, second = getattr(self.first, quantity), getattr(self.second, quantity)
-        return None if first is None or second is None else (first, second)

@@ -1,9 +1,12 @@
-"""One check that all exact solutions share."""
+"""The array type and the check that all exact solutions share."""
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
+
+Real = NDArray[np.float64]
+"""Numbers in double precision."""
 
 
 def positive(**quantities: ArrayLike) -> None:

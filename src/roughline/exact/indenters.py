@@ -15,11 +15,9 @@ from dataclasses import dataclass
 from math import gamma, pi, sqrt, tan
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from roughline.exact._checks import positive
-
-Real = NDArray[np.float64]
+from roughline.exact._checks import Real, positive
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Real = NDArray[np.float64]
+from roughline.exact._checks import Real
 
 _POINTS = 200
 

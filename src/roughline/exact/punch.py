@@ -7,9 +7,8 @@ which a sphere of radius a has capacity a).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.exact._checks import positive
+from roughline.exact._checks import Real, positive
 
 SQUARE_CAPACITY = 0.366788
 """Capacity of the unit square, to the last digit given."""
@@ -47,7 +46,7 @@ def disc_stiffness(E_star: float, radius: float) -> float:
     return 2 * E_star * radius
 
 
-def disc_pressure(force: float, radius: float, r: NDArray[np.float64]) -> NDArray[np.float64]:
+def disc_pressure(force: float, radius: float, r: Real) -> Real:
     """Pressure under the rigid disc, F / (2 pi a sqrt(a² - r²)), zero outside. [pressure]
 
     Parameters

@@ -11,11 +11,8 @@ References
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.exact._checks import positive
-
-Real = NDArray[np.float64]
+from roughline.exact._checks import Real, positive
 
 
 def full_contact_pressure(amplitude: float, wavelength: float, E_star: float) -> float:

@@ -1,4 +1,4 @@
-"""Files that unpack to far more than they are."""
+"""Archives that unpack to far more than their size."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from pathlib import Path
 
 from roughline.errors import InputError
 
-_LARGE = 2**26  # unpacked; smaller ones harm nobody [bytes]
-_RATIO = 200  # of deflate; measured heights reach about 10
+_LARGE = 2**26  # unpacked; smaller ones do no harm [bytes]
+_RATIO = 200  # unpacked over packed; measured heights reach about 10
 
 
 def refuse_bombs(path: Path) -> None:
-    """Refuse an archive, such as X3P or XLSX, whose parts are as large as no measurement's.
+    """Refuse an archive, such as X3P or XLSX, whose parts are too large for a measurement.
 
     Raises
     ------

@@ -16,13 +16,13 @@ import numpy as np
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, RoughlineError
 from roughline.files.measurement import Measurement
-from roughline.topography.body import MEASURED
+from roughline.topography.settings import MEASURED
 
-_BYTES_PER_POINT = 24  # raw, scaled and masked
+_BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
 
 
 def read_instrument(path: Path, channel: int | str | None) -> Measurement:
-    """Read what an instrument's file holds.
+    """Read the heights of an instrument's file, and what it states of them.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def read_instrument(path: Path, channel: int | str | None) -> Measurement:
         If the file is damaged, of a type that is not known, or has no such channel.
     """
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ImportWarning)  # it says that MPI is absent; so be it
+        warnings.simplefilter("ignore", ImportWarning)  # MPI is absent, and not needed
         from SurfaceTopography.Exceptions import ReadFileError  # here because it loads slowly
         from SurfaceTopography.IO import open_topography
 
@@ -55,7 +55,7 @@ def read_instrument(path: Path, channel: int | str | None) -> Measurement:
             f"{path.name} is damaged or of a type that is not known ({type(error).__name__}): "
             "export it again, or to another format such as X3P, SDF, SUR or GWY"
         ) from error
-    except Exception as error:  # the readers raise whatever a damaged file leads them to
+    except Exception as error:  # of a damaged file the readers raise errors of any type
         first_line = (str(error).strip() or "no reason given").splitlines()[0][:120]
         raise InputError(
             f"{path.name} cannot be read ({type(error).__name__}: {first_line}): export it again"
@@ -64,7 +64,7 @@ def read_instrument(path: Path, channel: int | str | None) -> Measurement:
 
 @contextmanager
 def _silence() -> Iterator[None]:
-    """Keep off the terminal what readers say of damaged files; some print them whole."""
+    """Keep messages of the readers off the terminal; some print damaged files in full."""
     before = logging.root.manager.disable
     logging.disable(logging.CRITICAL)
     try:
@@ -107,7 +107,8 @@ def _measurement_of(reader: Any, channel: Any, path: Path) -> Measurement:
     unit = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
     stated = channel.physical_sizes is not None
     topography = reader.topography(
-        channel_index=channel.index,  # it wants a unit and sizes; those that it lacks do not matter
+        channel_index=channel.index,
+        # the reader requires a unit and sizes; where the file states none, any will do
         **({} if unit else {"unit": "m"}),
         **({} if stated else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}),
     )

@@ -1,30 +1,24 @@
-"""What a file with a topography holds, before anything is done to it."""
+"""Heights as a file has them, before anything is done to them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
+from roughline.files.scale import Scale, Sizes
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Missing
+from roughline.topography.settings import AS_RECORDED, Settings
 from roughline.topography.trend import Trend, remove_trend
-from roughline.units import (
-    Sizes,
-    given_sizes,
-    metres_per_file_unit,
-    sizes_needed,
-    unit_needed,
-)
 
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """Heights as a file has them, and what it says of them.
+    """Heights as a file has them, and what it states of them.
 
     Attributes
     ----------
@@ -33,21 +27,23 @@ class Measurement:
     heights : array or masked array, shape (nx, ny) or (n,)
         Heights; unknown ones are masked or not finite. [unit of the file]
     unit : str or None
-        What the file says that its lengths are in; None if it does not.
+        Unit of all lengths; None if the file states none.
     sizes : tuple of float or None
         Sides of the map, or length of the line; None if the file states none. [unit of the file]
     kind : {"surface", "profile", "reduced"}
         A map, a line scan, or a line made for the reduced model.
-    is_own : bool
-        Whether roughline wrote it; its heights are kept as they were written.
+    by_roughline : bool
+        Whether roughline wrote the file; its heights are kept as they were written.
     channel : str
         Name of the channel; empty where the file has no names.
     channels : tuple of str
         All channels of the file, with their numbers.
     positions : ndarray, shape (n,), or None
-        Of the points of a line that is not even. [unit of the file]
+        Positions of the points of a line that is not even. [unit of the file]
     settings : mapping
         Where the heights come from.
+    is_cut_out, removed_trend
+        As for :class:`roughline.Surface`, where the file states them.
     """
 
     file: str
@@ -55,14 +51,16 @@ class Measurement:
     unit: str | None
     sizes: tuple[float, ...] | None
     kind: Literal["surface", "profile", "reduced"]
-    is_own: bool = False
+    by_roughline: bool = False
     channel: str = ""
     channels: tuple[str, ...] = ()
-    positions: NDArray[np.float64] | None = None
-    settings: Mapping[str, str | int | float] = field(default_factory=dict)
+    positions: Real | None = None
+    settings: Settings = field(default_factory=dict)
+    is_cut_out: bool = AS_RECORDED
+    removed_trend: Trend = AS_RECORDED
 
     @property
-    def unknown(self) -> NDArray[np.bool_]:
+    def unknown(self) -> Mask:
         """Which points are missing."""
         return np.ma.getmaskarray(self.heights) | ~np.isfinite(np.ma.getdata(self.heights))
 
@@ -74,27 +72,27 @@ class Measurement:
         Parameters
         ----------
         unit, sizes, missing
-            What the caller says, as for :meth:`body`.
+            As for :meth:`body`.
 
         Raises
         ------
         InputError
-            If what the caller says is said by the file too, or cannot be.
+            If the caller states what the file states too, or a unit that is none of length.
         """
-        found: list[InputError] = []
-        if not self.unit and not unit:
-            found.append(unit_needed(self.file))
-        else:
-            metres_per_file_unit(self.file, self.unit, unit)
-        if self.sizes is not None and sizes is not None:
-            raise InputError(f"{self.file} states its sizes; leave them out")
-        if self.sizes is None and sizes is None:
-            found.append(sizes_needed(self.file, self.heights.shape))
-        too_many = missing.too_many(self.unknown, self.file)
-        return [*found, too_many] if too_many else found
+        return self._obstacles(self._scale(unit, sizes), missing)
 
-    def body(self, unit: str | None, sizes: Sizes | None, missing: Missing, trend: Trend) -> Body:
-        """Return the body, in metres; the heights are changed in place where they can be.
+    def body(
+        self,
+        unit: str | None,
+        sizes: Sizes | None,
+        missing: Missing,
+        trend: Trend,
+        *,
+        in_place: bool = False,
+    ) -> Body:
+        """Return the body, in metres.
+
+        The measurement stays as it is, so that it gives the body with another filling too.
 
         Parameters
         ----------
@@ -105,44 +103,74 @@ class Measurement:
         missing : Missing
             How missing points are filled.
         trend : {"none", "mean", "tilt", "curvature"}
-            What is removed from the heights of an instrument's file.
+            Polynomial that is removed from the heights of an instrument's file.
+        in_place : bool, optional
+            Whether the body may take the memory of the heights, which saves a copy of them. The
+            measurement is not to be used again then.
 
         Raises
         ------
         InputError
-            If something is needed, or said twice.
+            If something is needed, or stated twice.
         """
-        for obstacle in self.obstacles(unit, sizes, missing):
+        scale = self._scale(unit, sizes)
+        for obstacle in self._obstacles(scale, missing):
             raise obstacle
-        factor = metres_per_file_unit(self.file, self.unit, unit)
-        if self.sizes is None:
-            extent = given_sizes(self.file, self.heights.shape, sizes, unit)
-        else:
-            extent = tuple(factor * float(size) for size in self.sizes)
-        heights, filled = missing.completed(self.heights, self.file)
-        settings = {**self.settings, **filled}
-        if not self.is_own:
+        sides = scale.sides
+        heights, filling = missing.completed(self.heights, self.file)
+        settings = {**self.settings, **filling}
+        removed: Trend = "none" if self.by_roughline else trend
+        if not self.by_roughline:
             settings["file_unit"] = str(self.unit or unit)
-        removed = "none" if self.is_own else trend
-        if not heights.flags.writeable and (factor != 1 or removed != "none"):
-            heights = heights.copy()
-        if factor != 1:
-            heights *= factor
+        if scale.metres != 1 or removed != "none":
+            heights = _changeable(heights, in_place or bool(filling))
+            if scale.metres != 1:
+                heights *= scale.metres
         if self.positions is not None:
-            heights, settings["resampled"] = _even(self.positions * factor, heights)
+            heights, settings["resampled"] = _on_even_points(self.positions * scale.metres, heights)
         if removed != "none":
             remove_trend(heights, removed)
             settings["detrended"] = removed
+        return self._body(heights, sides, settings, removed)
+
+    def _body(
+        self,
+        heights: Real,
+        sides: tuple[float, ...],
+        settings: Settings,
+        removed: Trend,
+    ) -> Body:
+        removed_trend = self.removed_trend if self.by_roughline else removed
         if self.kind == "surface":
-            return Surface(heights, (extent[0], extent[1]), "m", settings)
-        return Line(heights, extent[0], "m", settings, self.kind)
+            return Surface(
+                heights,
+                (sides[0], sides[1]),
+                "m",
+                settings,
+                is_cut_out=self.is_cut_out,
+                removed_trend=removed_trend,
+            )
+        return Line(heights, sides[0], "m", settings, self.kind, removed_trend=removed_trend)
+
+    def _scale(self, unit: str | None, sizes: Sizes | None) -> Scale:
+        return Scale(self.file, self.heights.shape, self.unit, unit, self.sizes, sizes)
+
+    def _obstacles(self, scale: Scale, missing: Missing) -> list[InputError]:
+        obstacles = scale.obstacles()
+        too_many = missing.too_many(self.unknown, self.file)
+        return [*obstacles, too_many] if too_many else obstacles
 
 
-def _even(
-    positions: NDArray[np.float64], heights: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], str]:
-    """Heights between those of uneven points, and what is to be said of it."""
+def _changeable(heights: Real, is_free: bool) -> Real:
+    """Heights that may be changed: a copy, unless nobody else needs the array."""
+    if not heights.flags.writeable:
+        return heights.copy()
+    return heights if is_free else heights.copy(order="K")  # sums depend on the order in memory
+
+
+def _on_even_points(positions: Real, heights: Real) -> tuple[Real, str]:
+    """Heights interpolated linearly to as many even points, and the words that record it."""
     steps = np.diff(positions)
     even = np.linspace(positions[0], positions[-1], positions.size)
-    said = f"linear, to even spacing; it was {steps.min():.3g} to {steps.max():.3g} m"
-    return np.interp(even, positions, heights), said
+    record = f"linear, to even spacing; it was {steps.min():.3g} to {steps.max():.3g} m"
+    return np.interp(even, positions, heights), record

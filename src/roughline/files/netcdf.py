@@ -1,4 +1,4 @@
-"""Surfaces and lines in NetCDF files of our own."""
+"""Surfaces and lines in the NetCDF files that roughline writes."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, StoreError
 from roughline.files.measurement import Measurement
 from roughline.topography.body import Body, Surface
+from roughline.topography.settings import AS_RECORDED
 
 _FORMAT = "roughline body 1"
 
@@ -44,7 +45,10 @@ def write(body: Body, path: str | Path) -> None:
         "kind": "surface" if isinstance(body, Surface) else body.kind,
         "sizes": np.array(sizes),
         "unit": body.unit or "",
+        "removed_trend": body.removed_trend,
     }
+    if isinstance(body, Surface):
+        attrs["is_cut_out"] = int(body.is_cut_out)
     for name, value in body.settings.items():
         attrs[f"body_{name}"] = value
     dimensions = ("x", "y")[: body.heights.ndim]
@@ -56,7 +60,7 @@ def write(body: Body, path: str | Path) -> None:
 
 
 def read_body_file(path: Path) -> Measurement | None:
-    """Read what a file of our own format holds; None if the file has another.
+    """Read a file that roughline wrote; None if it has another format.
 
     Parameters
     ----------
@@ -95,6 +99,9 @@ def read_body_file(path: Path) -> Measurement | None:
         unit=attrs["unit"] or None,
         sizes=tuple(np.atleast_1d(attrs["sizes"]).tolist()),
         kind=attrs["kind"],
-        is_own=True,
+        by_roughline=True,
         settings={**settings, "file": path.name},
+        # files of earlier versions state both in their settings alone
+        is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else AS_RECORDED,
+        removed_trend=attrs.get("removed_trend", AS_RECORDED),
     )

@@ -11,10 +11,12 @@ from roughline.files.archives import refuse_bombs
 from roughline.files.instrument import read_instrument
 from roughline.files.measurement import Measurement
 from roughline.files.netcdf import read_body_file
-from roughline.topography.body import MEASURED, Body, Surface
+from roughline.files.scale import Sizes
+from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Filling, Missing
+from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
-from roughline.units import Sizes, engineering
+from roughline.units import engineering
 
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
 
@@ -34,8 +36,8 @@ def read(
     Our own NetCDF files and the formats of SurfaceTopography are understood, plain arrays (NPY,
     text) included. A measured line scan is returned as a Line of kind "profile"; one with uneven
     spacing is interpolated linearly to as many even points. Points that the instrument could not
-    measure are filled, and the tilt of its stage is removed; both stand in the settings of the
-    result. Our own files are kept as they were written.
+    measure are filled, and the tilt of its stage is removed; the settings of the result record
+    both. Our own files are kept as they were written.
 
     Parameters
     ----------
@@ -71,11 +73,11 @@ def read(
     """
     filling = Missing(missing, most_missing)
     refuse_unknown_trend(trend)
-    return measurement(path, channel).body(unit, sizes, filling, trend)
+    return measurement(path, channel).body(unit, sizes, filling, trend, in_place=True)
 
 
 def measurement(path: str | Path, channel: int | str | None = None) -> Measurement:
-    """Read what a file holds, whether or not there is enough in it for a body.
+    """Read the heights of a file, whether or not they suffice for a body.
 
     Parameters
     ----------
@@ -93,15 +95,15 @@ def measurement(path: str | Path, channel: int | str | None = None) -> Measureme
         raise InputError(f"{path} {what}; give a file with a topography")
     if path.stat().st_size == 0:
         raise InputError(f"{path.name} is empty: export it again")
-    found = read_body_file(path) if path.suffix == ".nc" else None
-    if found is None and path.suffix == ".npy":
-        found = _read_array(path)
-    if found is None:
+    measured = read_body_file(path) if path.suffix == ".nc" else None
+    if measured is None and path.suffix == ".npy":
+        measured = _read_array(path)
+    if measured is None:
         refuse_bombs(path)
         return read_instrument(path, channel)
     if channel is not None:
         raise InputError(f"{path.name} has one channel; leave it out")
-    return found
+    return measured
 
 
 def _read_array(path: Path) -> Measurement:
@@ -126,31 +128,31 @@ def _read_array(path: Path) -> Measurement:
 
 
 def suspicions(body: Body) -> list[str]:
-    """List what about the scales of a measured body suggests a wrong unit or a wrong file.
+    """List what suggests a wrong unit or a wrong file about the scales of a measured body.
 
     Parameters
     ----------
     body : Surface or Line
         In metres.
     """
-    found = []
+    doubts = []
     rms, slope = body.rms_height, body.rms_slope
     if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
-        found.append(
+        doubts.append(
             f"the rms height is {engineering(rms, 'm')}; roughness is mostly between 1 pm and "
             "1 mm: check the unit, the tilt, and whether heights share the unit of the sides"
         )
     if rms == 0:
-        found.append("all heights are equal: this is a flat punch, or an empty channel")
+        doubts.append("all heights are equal: this is a flat punch, or an empty channel")
     if slope > 1:
-        found.append(
+        doubts.append(
             f"the rms slope is {slope:.3g}; theories and instruments end before 1: check the unit, "
             "and outliers"
         )
     if isinstance(body, Surface):
         dx, dy = body.spacing
         if max(dx, dy) > 2 * min(dx, dy):
-            found.append(
+            doubts.append(
                 f"pixels are {engineering(dx, 'm')} x {engineering(dy, 'm')}: check the sizes"
             )
-    return found
+    return doubts

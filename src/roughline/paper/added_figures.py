@@ -25,7 +25,7 @@ from roughline.report.style import (
     new_figure,
 )
 from roughline.statistics.averages import relative_difference
-from roughline.theories.theory import BGT_KAPPA, PERSSON_KAPPA
+from roughline.theories import bush_gibson_thomas, persson
 
 if TYPE_CHECKING:
     import xarray
@@ -78,8 +78,8 @@ def _draw_kappa(axes: Axes, laws: list[DimensionLaws]) -> None:
             label=label,
         )
     for kappa, name, style in (
-        (BGT_KAPPA, "Bush, Gibson, Thomas", "--"),
-        (PERSSON_KAPPA, "Persson", ":"),
+        (bush_gibson_thomas.KAPPA, "Bush, Gibson, Thomas", "--"),
+        (persson.KAPPA, "Persson", ":"),
     ):
         axes.axhline(kappa, color="0.3", linewidth=1, linestyle=style, label=f"{name} {kappa:.2f}")
     axes.set(xlabel="fractal dimension $D_f$", ylabel=r"$\kappa = A\,E^* \nabla h\,/\,F$")

@@ -45,7 +45,7 @@ def missing_map(description: Description) -> list[str]:
 def _rows_of_file(description: Description) -> list[tuple[str, str]]:
     """What the file holds, and of the body its points and sizes."""
     content, body, missing = description.measurement, description.body, description.missing
-    channel = "own format" if content.is_own else content.channel
+    channel = "own format" if content.by_roughline else content.channel
     rows = [("file", ", ".join(filter(None, (description.file.name, channel))))]
     if len(content.channels) > 1:
         rows.append(("channels", ", ".join(content.channels)))

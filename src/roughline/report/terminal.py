@@ -23,7 +23,7 @@ from roughline.report.contact_tables import (
 )
 from roughline.report.description_table import description_table, missing_map
 from roughline.report.values import value_and_interval
-from roughline.theories.theory import TheoryCurve
+from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 

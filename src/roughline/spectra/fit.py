@@ -8,16 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.spectra.isotropic import IsotropicSpectrum
+from roughline.spectra.likely_laws import Interval, LikelyLaws
 from roughline.spectra.map_rings import MapRings
 from roughline.spectra.profile import ProfileSpectrum
 from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
-from roughline.spectra.self_affine_laws import Laws
-
-Interval = tuple[float, float]
 
 _LEVEL = 0.975  # of profile likelihoods; 95 in 100 hold the truth, as ends are chosen as well
 _TRIED = 200  # of the likely laws, for what they say of the rms height
@@ -78,16 +76,18 @@ class SelfAffineFit:
     @property
     def objections(self) -> list[str]:
         """Why a self-affine law does not describe the spectrum; empty where it does."""
-        found = []
+        objections = []
         low, high = self.hurst_interval
         if high < 0 or low > 1:
-            found.append(f"the slope is that of H = {self.hurst:.2f}, outside 0 to 1")
+            objections.append(f"the slope is that of H = {self.hurst:.2f}, outside 0 to 1")
         begin, end = self.q_roll or self.q_low, self.q_high or self.q_last
         if end < _LEAST_RANGE * begin:
-            found.append(f"the power law spans a factor of {end / begin:.2g} only")
+            objections.append(f"the power law spans a factor of {end / begin:.2g} only")
         if self.scatter > _MOST_SCATTER:
-            found.append(f"the spectrum is off the law by a factor of {10**self.scatter:.2f} (rms)")
-        return found
+            objections.append(
+                f"the spectrum is off the law by a factor of {10**self.scatter:.2f} (rms)"
+            )
+        return objections
 
     def spectrum(self) -> SelfAffine:
         """Return the fitted spectrum, for random surfaces and lines like this one.
@@ -138,53 +138,45 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     P. Whittle, "Estimation and information in stationary time series", Ark. Mat. 2, 423-434
     (1953).
     """
-    means = (
+    observed = (
         ScanBins.of(spectrum) if isinstance(spectrum, ProfileSpectrum) else MapRings.of(spectrum)
     )
-    q_low, last = 2 * math.pi / spectrum.length, float(means.means.q[-1])
-    laws = means.laws
-    best = laws.best
-    hurst, roll, end = laws.values(*best)
-    likely = laws.within(stats.chi2.ppf(_LEVEL, 1))
-    hursts, rolls, ends = (np.unique(indices) for indices in likely)
-    step = laws.hursts[1] - laws.hursts[0]
-    first_roll = laws.rolls[max(rolls[0] - 1, 0)] if laws.rolls[rolls[0]] > 1 else 0.0
-    last_roll = laws.rolls[min(rolls[-1] + 1, laws.rolls.size - 1)]
-    first_end = (laws.ends - laws.margins)[ends].min()
-    last_end = (laws.ends + laws.margins)[ends].max()
-    deviations = means.means.deviations(means.log_powers(hurst, roll, end) + laws.log_level[best])
-    rms = spectrum.rms_height * _rms_factors(means, laws, likely)
+    q_low, last = 2 * math.pi / spectrum.length, float(observed.means.q[-1])
+    laws = observed.laws
+    hurst, roll, end = laws.values(*laws.best)
+    log_level = laws.log_level[laws.best]
+    deviations = observed.means.deviations(observed.log_powers(hurst, roll, end) + log_level)
+    likely = LikelyLaws.of(laws, _LEVEL)
+    first_roll, last_roll = likely.roll_interval
+    first_end, last_end = likely.end_interval
+    rms, lowest_rms, highest_rms = spectrum.rms_height * _rms_factors(observed, likely)
     return SelfAffineFit(
         hurst=hurst,
-        hurst_interval=(
-            float(laws.hursts[hursts[0]] - step),
-            float(laws.hursts[hursts[-1]] + step),
-        ),
+        hurst_interval=likely.hurst_interval,
         q_roll=q_low * roll if roll > 1 else None,
-        q_roll_interval=(q_low * float(first_roll), q_low * float(max(last_roll, 1.0))),
+        q_roll_interval=(q_low * first_roll, q_low * last_roll),
         q_high=q_low * end if end < last else None,
-        q_high_interval=(q_low * float(min(first_end, last)), q_low * float(min(last_end, last))),
-        C_0=math.exp(laws.log_level[best]) * max(1.0, 1 / roll) ** (-2 * (hurst + 1)) / q_low**2,
-        rms_height=float(rms[0]),
-        rms_interval=(float(rms[1]), float(rms[2])),
+        q_high_interval=(q_low * min(first_end, last), q_low * min(last_end, last)),
+        C_0=math.exp(log_level) * max(1.0, 1 / roll) ** (-2 * (hurst + 1)) / q_low**2,
+        rms_height=float(rms),
+        rms_interval=(float(lowest_rms), float(highest_rms)),
         scatter=deviations.scatter / math.log(10),
         q_low=float(spectrum.q[0]),
         q_last=q_low * last,
     )
 
 
-def _rms_factors(means: MapRings | ScanBins, laws: Laws, likely: tuple[Indices, ...]) -> Real:
+def _rms_factors(observed: MapRings | ScanBins, likely: LikelyLaws) -> Real:
     """Rms height of a surface as large as the piece over that of the piece, with both ends.
 
     The mean square of a piece has about a gamma distribution, whose shape is that of its powers.
     """
-    some = np.unique(np.linspace(0, likely[0].size - 1, _TRIED).astype(np.intp))
     factors = []
-    for law in (laws.best, *zip(*(indices[some] for indices in likely), strict=True)):
-        values = laws.values(*law)
-        whole, piece = means.mean_square(*values)
-        power = means.modes * np.exp(means.log_powers(*values))
-        shape = power.sum() ** 2 / (2 * (power**2 / means.modes).sum())
+    for law in (likely.laws.best, *likely.spread(_TRIED)):
+        values = likely.laws.values(*law)
+        whole, piece = observed.mean_square(*values)
+        power = observed.modes * np.exp(observed.log_powers(*values))
+        shape = power.sum() ** 2 / (2 * (power**2 / observed.modes).sum())
         chance = stats.gamma.ppf([0.975, 0.025], shape) / shape
         factors.append(whole / piece / np.array([1.0, *chance]))
     best, low, high = factors[0][0], np.min(factors, axis=0)[1], np.max(factors, axis=0)[2]

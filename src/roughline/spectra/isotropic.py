@@ -12,7 +12,8 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.spectra import synthesis
 from roughline.spectra.leakage import RING_HALF_WIDTH
-from roughline.topography.body import Line, Settings, Surface
+from roughline.topography.body import Line, Surface
+from roughline.topography.settings import Settings
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,6 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -24,7 +23,6 @@ from roughline.spectra.band import Band
 BodyName = Literal["surface", "line"]
 
 _BLOCK = 2**20  # wavevectors summed at a time
-_SUMMED = 64  # waves along L from which on the lattice's sum is its integral
 
 
 @dataclass(frozen=True)
@@ -157,22 +155,3 @@ def lattice_waves(q_0: float, n: int) -> Iterator[tuple[Real, int]]:
         across = along[start : start + rows, np.newaxis]
         m = np.hypot(across, along).ravel()
         yield q_0 * m[m < n / 2], 4
-
-
-@lru_cache(maxsize=256)
-def sum_over_integral(band: Band, order: int, body: BodyName) -> float:
-    """Moment over the whole lattice of wavevectors, over the integral.
-
-    The sum is taken over the longest waves; among shorter ones it is the integral.
-
-    Raises
-    ------
-    InputError
-        If the integral diverges.
-    """
-    whole = band.moment(order)
-    summed = LatticeSpectrum.of(band, 1.0, 2 * _SUMMED + 1, body)
-    # half a wave further: each wavevector stands for the cell around it
-    edge = min(band.q_high, (_SUMMED + 0.5) * band.q_low)
-    rest = replace(band, q_roll=min(band.q_roll, edge), q_high=edge).moment(order)
-    return 1 + (summed.moment(order) - rest) / whole

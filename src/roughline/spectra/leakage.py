@@ -31,11 +31,11 @@ LONG_WAVES = 8
 """Wavenumber up to which a line scan's waves are those of a cosine series. [q_low]"""
 
 _MODES = 48  # from the longest; beyond, a power law is smeared by less than 0.3 %
-_PLANE_MATTERS = 12  # rings in which the removed plane is followed
-_REACH = 8  # modes; farther away, a window lets less than 1e-6 of a wave appear
-_STEP = 0.25  # the other ranges
-_DIRECTIONS = 24  # of waves, over a quarter of a circle
-_OF_A_RING = 24  # modes that stand for the others of a large ring
+_PLANE_MATTERS = 12  # rings whose power the removed plane changes
+_REACH = 8  # modes; a window leaks less than 1e-6 of a wave farther away
+_STEP = 0.25  # width of the other ranges of waves
+_DIRECTIONS = 24  # of waves, on a quarter of a circle
+_OF_A_RING = 24  # modes that are computed of a large ring
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,13 +81,13 @@ def map_leakage(aspect: float = 1.0) -> Leakage:
     offset, power = _patch(8)
     mx, my, ring = ring_modes(sides, _MODES)
     for k in range(_PLANE_MATTERS + 1, _MODES + 1):
-        some = np.flatnonzero(ring == k)
-        some = some[:: -(-some.size // _OF_A_RING)]
-        for x, y in zip(mx[some], my[some], strict=True):
+        members = np.flatnonzero(ring == k)
+        members = members[:: -(-members.size // _OF_A_RING)]
+        for x, y in zip(mx[members], my[members], strict=True):
             q = np.hypot((x + offset[:, np.newaxis]) / sides[0], (y + offset) / sides[1])
             wave = LONGER.size - 1 + ((q - LONGER[-1]) / _STEP).astype(np.intp)
-            found = np.bincount(wave.ravel(), power.ravel(), minlength=waves.size)
-            response[k - 1] += found[: waves.size] / some.size
+            by_wave = np.bincount(wave.ravel(), power.ravel(), minlength=waves.size)
+            response[k - 1] += by_wave[: waves.size] / members.size
     return Leakage(edges, waves, response, kept)
 
 
@@ -112,9 +112,9 @@ def scan_leakage() -> Leakage:
 
 @lru_cache(maxsize=8)
 def power_inside(aspect: float = 1.0) -> tuple[Real, Real]:
-    """Share of a ring's power that comes from waves inside an end of the spectrum.
+    """Share of a ring's power that comes from waves below an end of the spectrum.
 
-    Far from the longest waves, where it depends on the distance to the end alone.
+    It is computed far from the longest waves, where it depends on the distance to the end alone.
 
     Parameters
     ----------
@@ -147,21 +147,21 @@ def ring_modes(sides: Sides, rings: int) -> tuple[Modes, Modes, Modes]:
     mx, my = np.meshgrid(np.arange(-most[0], most[0] + 1), np.arange(most[1] + 1), indexing="ij")
     along = np.hypot(mx / sides[0], my / sides[1])
     ring = np.rint(along).astype(np.intp)
-    own = (np.abs(along - ring) <= RING_HALF_WIDTH) & (ring >= 1) & (ring <= rings)
-    return mx[own], my[own], ring[own]
+    members = (np.abs(along - ring) <= RING_HALF_WIDTH) & (ring >= 1) & (ring <= rings)
+    return mx[members], my[members], ring[members]
 
 
 def hann(distance: Real) -> Real:
-    """Amplitude that a wave leaves in a mode at a distance, under a Hann window of mean square 1.
+    """Amplitude that a wave has in a mode at a distance, under a Hann window of mean square 1.
 
-    The Fourier transform of the window about its middle.
+    This is the Fourier transform of the window about its middle.
     """
     around = (np.sinc(distance - 1) + np.sinc(distance + 1)) / 2
     return math.sqrt(2 / 3) * (np.sinc(distance) + around)
 
 
 def hann_slope(distance: Real) -> Real:
-    """Its derivative."""
+    """Derivative of :func:`hann`."""
     around = (sinc_slope(distance - 1) + sinc_slope(distance + 1)) / 2
     return math.sqrt(2 / 3) * (sinc_slope(distance) + around)
 
@@ -174,10 +174,10 @@ def sinc_slope(distance: Real) -> Real:
 
 
 def _without_plane(q: Real, sides: Sides) -> tuple[Real, Real]:
-    """Power of waves in the longest rings, over (ring, q), and what is left of their square.
+    """Power of waves in the longest rings, over (ring, q), and the share of their mean square left.
 
-    The mean and the slopes of exp(2 pi i (x + y)) over a unit square are products of sinc and of
-    its derivative, and so are the transforms of the plane that they make.
+    The mean plane is removed. The mean and the slopes of exp(2 pi i (x + y)) over a unit square
+    are products of sinc and of its derivative, and so are the transforms of that plane.
     """
     along_x, along_y, ring = ring_modes(sides, _PLANE_MATTERS)
     mx, my = (along.astype(np.float64) for along in (along_x, along_y))
@@ -207,7 +207,7 @@ def _without_plane(q: Real, sides: Sides) -> tuple[Real, Real]:
 
 
 def _patch(steps: int) -> tuple[Real, Real]:
-    """Offsets from a mode, along one side, and the window's power over both."""
+    """Offsets from a mode along one side, and the power of the window over both sides."""
     offset = (np.arange(2 * steps * _REACH) + 0.5) / steps - _REACH
     along = hann(offset) ** 2 / steps
     return offset, np.outer(along, along)
@@ -218,5 +218,5 @@ def _edges(last: float) -> Real:
 
 
 def _sides(aspect: float) -> Sides:
-    """Both sides over L, the root of their product."""
+    """Both sides in units of L, the root of their product."""
     return math.sqrt(aspect), 1 / math.sqrt(aspect)

@@ -1,4 +1,4 @@
-"""Self-affine laws held against the rings of a map."""
+"""Self-affine laws compared with the rings of a map."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.leakage import LONGER, LONGEST, map_leakage, power_inside
 from roughline.spectra.self_affine_laws import HURSTS, LEAST_MEANS, Laws, Means, power_law
 
-_CORRELATED = 2.4  # modes of the rings that a Hann window makes of one
+_CORRELATED = 2.4  # modes of a ring that vary together under a Hann window
 _ROLLS_PER_DECADE = 40
-_ENDS = 60  # most that are tried with every exponent and roll-off
-_INSIDE, _BEYOND = 4, 2  # rings within and past an end in which its leakage is followed
-_STEP = 0.25  # between ends that are tried, and between waves
+_ENDS = 60  # ends that are tried with every exponent and roll-off, at most
+_INSIDE, _BEYOND = 4, 2  # rings below and above an end in which its leakage is computed
+_STEP = 0.25  # from end to end that is tried, and from wave to wave
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,19 +54,19 @@ class MapRings:
 
     @property
     def modes(self) -> Real:
-        """How many modes of the map each ring stands for."""
+        """Number of modes of the map that each ring stands for."""
         return 2 * np.pi * self.means.q
 
     @cached_property
     def laws(self) -> Laws:
-        """Every law, held against the rings."""
+        """Every law, compared with the rings."""
         rolls, ends = self._rolls(), self._ends()
-        # ends depend little on the rest: the likely ones are found with few laws
-        some = [ends.held(self._law(HURSTS[::16], roll), self.means)[0] for roll in rolls[::4]]
-        first = np.min([deviance.min(axis=0) for deviance in some], axis=0)
-        ends = ends.some(np.sort(np.argsort(first, kind="stable")[:_ENDS]))
-        found = [ends.held(self._law(HURSTS, roll), self.means) for roll in rolls]
-        deviance, log_level = (np.stack([each[i] for each in found], axis=1) for i in (0, 1))
+        # the best ends depend little on exponent and roll-off: few laws find them
+        tried = [ends.compared(self._law(HURSTS[::16], roll), self.means)[0] for roll in rolls[::4]]
+        least = np.min([deviance.min(axis=0) for deviance in tried], axis=0)
+        ends = ends.at(np.sort(np.argsort(least, kind="stable")[:_ENDS]))
+        compared = [ends.compared(self._law(HURSTS, roll), self.means) for roll in rolls]
+        deviance, log_level = (np.stack([each[i] for each in compared], axis=1) for i in (0, 1))
         return Laws(HURSTS, rolls, ends.ends, ends.margins, deviance, log_level)
 
     def log_powers(self, hurst: float, roll: float, end: float) -> Real:
@@ -77,7 +77,7 @@ class MapRings:
     def mean_square(self, hurst: float, roll: float, end: float) -> tuple[float, float]:
         """Mean squares of a surface as large as the map, and of the map, for a plateau of one.
 
-        The second is without the mean plane, and with what longer waves add.
+        That of the map lacks the mean plane, and has what longer waves add.
         """
         last = min(end, float(self.means.q[-1]))
         edges = np.append(LONGER, np.arange(LONGER[-1] + _STEP, last + _STEP / 2, _STEP))
@@ -103,14 +103,14 @@ class MapRings:
         return law
 
     def _rolls(self) -> Real:
-        """Roll-offs, closer than the rings where these are few."""
+        """Roll-offs to try, closer to each other than the rings where these are few."""
         last = max(float(self.means.q[-1]) / 2, 4.0)
         longer = np.geomspace(LONGEST, 1, 9)[:-1] if self.windowed else np.zeros(0)
         count = max(2, round(_ROLLS_PER_DECADE * math.log10(last / 4)))
         return np.concatenate([longer, np.arange(1.0, 4.0, 0.25), np.geomspace(4, last, count)])
 
     def _ends(self) -> _Ends:
-        """Sharp ends at every quarter of a ring, and at every ring ends that are not sharp."""
+        """Ends to try: sharp ones at every quarter of a ring, gradual ones at every ring."""
         means, q = self.means, self.means.q
         free = np.array([means.free_deviance(k) for k in range(q.size + 1)])
         least = LEAST_MEANS // 2
@@ -133,20 +133,18 @@ class MapRings:
         near = np.minimum(first[:, np.newaxis] + np.arange(width), q.size - 1)
         ends = sharp[:, np.newaxis]
         share = np.interp(ends - q[near], *power_inside(self.aspect))
-        followed = (first[:, np.newaxis] + np.arange(width) < q.size) & (q[near] <= ends + _BEYOND)
-        followed &= (share > 0) & ~(means.leaked[near] & (q[near] > ends))
-        log_share = np.log(np.where(followed, share, math.nan))
+        leaks = (first[:, np.newaxis] + np.arange(width) < q.size) & (q[near] <= ends + _BEYOND)
+        leaks &= (share > 0) & ~(means.leaked[near] & (q[near] > ends))
+        log_share = np.log(np.where(leaks, share, math.nan))
         beyond = free[np.searchsorted(q, sharp + _BEYOND, side="right")]
         margins = np.full(sharp.size, _STEP)
-        return gradual.and_also(
-            _Ends(sharp, margins, np.maximum(first, 1), near, log_share, beyond)
-        )
+        return gradual.joined(_Ends(sharp, margins, np.maximum(first, 1), near, log_share, beyond))
 
 
 def modes_of_surface(edges: Real) -> Real:
-    """How many modes a square surface has in each range of wavenumbers.
+    """Number of modes that a square surface has in each range of wavenumbers.
 
-    Counted on the lattice where they are few; an area in the plane of wavevectors beyond.
+    Where they are few they are counted; beyond, they are an area in the plane of wavevectors.
     """
     counted = 16
     m = np.arange(-counted, counted + 1)
@@ -158,20 +156,20 @@ def modes_of_surface(edges: Real) -> Real:
 
 @dataclass(frozen=True, eq=False)
 class _Ends:
-    """Ends of a law, with the rings that each leaves as they are, changes, or ignores.
+    """Ends of a law, and the rings that each leaves unchanged, changes, or ignores.
 
     Attributes
     ----------
     ends, margins : ndarray, shape (ends,)
         As in :class:`Laws`.
     untouched : ndarray, shape (ends,)
-        How many rings follow the law as if it had no end.
+        Number of rings that follow the law as if it had no end.
     near : ndarray, shape (ends, rings nearby)
-        Rings in which the leakage of the end is followed.
+        Rings in which the leakage at the end is computed.
     log_share : ndarray, shape (ends, rings nearby)
-        Logarithm of the share of the law's power that they have; NaN for those not followed.
+        Logarithm of the share of the law's power that they have; NaN for rings without leakage.
     beyond : ndarray, shape (ends,)
-        Deviance of what lies beyond, where the spectrum is free.
+        Deviance of the rings beyond, where the spectrum is free.
     """
 
     ends: Real
@@ -181,26 +179,28 @@ class _Ends:
     log_share: Real
     beyond: Real
 
-    def some(self, which: Indices) -> _Ends:
+    def at(self, which: Indices) -> _Ends:
+        """Return the ends of some indices."""
         return _Ends(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
 
-    def and_also(self, other: _Ends) -> _Ends:
+    def joined(self, other: _Ends) -> _Ends:
+        """Return these ends and others."""
         pairs = ((getattr(self, name), getattr(other, name)) for name in self.__dataclass_fields__)
         return _Ends(*(np.concatenate(pair) for pair in pairs))
 
-    def held(self, law: Real, means: Means) -> tuple[Real, Real]:
-        """Deviances and log levels of laws (hursts, rings) with each end."""
+    def compared(self, law: Real, means: Means) -> tuple[Real, Real]:
+        """Return deviances and log levels of laws (hursts, rings) with each end."""
         weight, near, last = means.weight, self.near, self.untouched - 1
-        followed = np.isfinite(self.log_share)
-        share = np.where(followed, self.log_share, 0.0)
-        nearby = np.where(followed, weight[near], 0.0)
+        leaks = np.isfinite(self.log_share)
+        share = np.where(leaks, self.log_share, 0.0)
+        nearby = np.where(leaks, weight[near], 0.0)
         log_power = weight * np.log(means.power)
         scaled = weight * means.power * np.exp(-law)
         total = np.cumsum(weight)[last] + nearby.sum(axis=1)
-        powers = np.cumsum(log_power)[last] + np.where(followed, log_power[near], 0.0).sum(axis=1)
+        powers = np.cumsum(log_power)[last] + np.where(leaks, log_power[near], 0.0).sum(axis=1)
         laws = np.cumsum(weight * law, axis=1)[:, last]
         laws += (nearby * (law[:, near] + share)).sum(axis=2)
         level = np.cumsum(scaled, axis=1)[:, last]
-        level += (np.where(followed, np.exp(-share), 0.0) * scaled[:, near]).sum(axis=2)
+        level += (np.where(leaks, np.exp(-share), 0.0) * scaled[:, near]).sum(axis=2)
         log_level = np.log(level / total)
         return 2 * (laws + total * log_level - powers) + self.beyond, log_level

@@ -40,12 +40,12 @@ class Bands:
 
 
 def bands(roughness: SurfaceOrSpectrum) -> Bands:
-    """Say how much of <h²> lies at which wavenumbers.
+    """Return the shares of <h²> by wavenumber.
 
-    Of a surface these are its own waves, one by one. Of a piece of a larger surface they are those
-    of its windowed spectrum. Of a LatticeSpectrum they are the sums that a generated surface has,
-    of a continuum, or of a SelfAffine itself, the integrals. An IsotropicSpectrum without a window
-    is summed over the square lattice of its length, one with a window integrated.
+    A periodic surface has those of its own waves. A piece of a larger surface has those of its
+    windowed spectrum. A LatticeSpectrum is summed over its wavevectors, as a generated surface has
+    them; a continuum, or a SelfAffine itself, is integrated. An IsotropicSpectrum without a window
+    is summed over the square lattice of its length, one with a window is integrated.
 
     Raises
     ------
@@ -99,12 +99,12 @@ def _averaged(spectrum: IsotropicSpectrum) -> Bands:
     known = spectrum.C_2d > _ROUNDING * spectrum.C_2d.max()
     # a power law from ring to ring, up to the edge of the last that has waves
     law = np.interp(np.log(within), np.log(middle[known]), np.log(spectrum.C_2d[known]))
-    found = np.where(known[ring - 1], np.exp(law), 0.0)
-    return _gathered([(q_0 * within, 4 * q_0**2 * found)])
+    C_2d = np.where(known[ring - 1], np.exp(law), 0.0)
+    return _gathered([(q_0 * within, 4 * q_0**2 * C_2d)])
 
 
 def _integrated(continuum: ContinuumSpectrum) -> Bands:
-    """Shares of narrow bands."""
+    """Shares of the narrow bands of a continuum."""
     band = continuum.band
     if math.isinf(band.q_high):
         raise InputError(
@@ -119,7 +119,7 @@ def _integrated(continuum: ContinuumSpectrum) -> Bands:
 
 
 def _gathered(waves: Iterable[tuple[Real, Real]]) -> Bands:
-    """Join waves that differ by less than a band; <h²> and <|grad h|²> stay what they are."""
+    """Join waves that differ by less than a band; <h²> and <|grad h|²> are kept."""
     sums = np.zeros((2, 0))
     first = None
     for q, power in waves:
@@ -198,9 +198,9 @@ def moments(roughness: SurfaceOrSpectrum) -> Moments:
     InputError
         As for :func:`bands`.
     """
-    found = bands(roughness)
+    spectrum = bands(roughness)
     return Moments(
-        m0=float(found.power.sum()),
-        m2=float((found.power * found.q**2).sum()) / 2,
-        m4=float((found.power * found.q**4).sum()) * 3 / 8,
+        m0=float(spectrum.power.sum()),
+        m2=float((spectrum.power * spectrum.q**2).sum()) / 2,
+        m4=float((spectrum.power * spectrum.q**4).sum()) * 3 / 8,
     )

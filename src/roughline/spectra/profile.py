@@ -17,8 +17,8 @@ from roughline.topography.body import Line
 
 _BINS_PER_DECADE = 20
 _LEAST_POINTS = 64
-_WITHIN = 8  # wavenumbers in a bin at which it is compared
-_FLAT = 1e-12  # rms over the whole height, tilt included, that is rounding
+_WITHIN = 8  # wavenumbers that a mean over a bin is of
+_FLAT = 1e-12  # rms over the whole height, tilt included, below which it is rounding
 _BEYOND = np.array([1.25, 1.6, 2, 4, 8, 32])  # times the shortest wavenumber of a cut
 _DECAY = 3  # of C_2d within a bin, between those of H = 0 and H = 1: 2 and 4
 
@@ -67,7 +67,7 @@ class Cuts:
     q : ndarray, shape (levels,)
         Geometric middles, at which C_2d has its levels.
     matrix : ndarray, shape (means, levels)
-        C_profile as :func:`profile_spectrum` finds it, for a level of one.
+        C_profile as :func:`profile_spectrum` estimates it, for a level of one.
     mean_square : ndarray, shape (levels,)
         Expected mean square of the heights, without mean and tilt, for a level of one.
     """
@@ -79,12 +79,12 @@ class Cuts:
 
     @property
     def longer(self) -> int:
-        """How many levels are of waves longer than the cut; those of its spectrum follow."""
+        """Number of levels of waves longer than the cut; the levels of its own waves follow."""
         return LONGER.size
 
 
 def cuts_of_surface(edges: Real) -> Cuts:
-    """Work out the spectrum that cuts of a surface are expected to show.
+    """Compute the spectrum that cuts of a surface are expected to have.
 
     C_profile follows by Abel's integral, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). The longest
     waves are smeared by the ends of the cut and by the tilt that is removed.
@@ -108,7 +108,7 @@ def cuts_of_surface(edges: Real) -> Cuts:
     for first, last in pairwise(edges[leakage.response.shape[0] :]):
         matrix.append(cut(first + shares * (last - first)).mean(axis=0, keepdims=True))
     long = 2 * np.diff(leakage.edges)[:, np.newaxis] * cut(leakage.waves)
-    # what the waves of a level show beyond the longest modes, nothing is removed of
+    # of waves beyond the longest modes, the mean and the tilt take nothing
     whole = 2 * math.pi * q**_DECAY * (1 / low - 1 / high)
     short = np.where(high > leakage.edges[-1], whole - long.sum(axis=0), 0.0)
     return Cuts(ends, q, np.concatenate(matrix), leakage.kept @ long + short)
@@ -157,13 +157,13 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
     power = np.abs(fft.rfft(heights, axis=1)[:, m]) ** 2 / n**2
     bins = np.floor(_BINS_PER_DECADE * np.log10(m)).astype(np.intp)
     counts = np.bincount(bins)
-    there = counts > 0
-    starts = m[np.searchsorted(bins, np.flatnonzero(there))[1:]] - 0.5
-    means = np.bincount(bins, power.mean(axis=0))[there] / counts[there]
+    filled = counts > 0
+    starts = m[np.searchsorted(bins, np.flatnonzero(filled))[1:]] - 0.5
+    means = np.bincount(bins, power.mean(axis=0))[filled] / counts[filled]
     return ProfileSpectrum(
-        q=q_low * np.append(k / 2, np.exp(np.bincount(bins, np.log(m))[there] / counts[there])),
+        q=q_low * np.append(k / 2, np.exp(np.bincount(bins, np.log(m))[filled] / counts[filled])),
         C_profile=np.append(series.mean(axis=0), means) / q_low,
-        modes=len(cuts) * np.append(np.ones(k.size), 2.0 * counts[there]),
+        modes=len(cuts) * np.append(np.ones(k.size), 2.0 * counts[filled]),
         edges=q_low * np.concatenate([[0.75], k / 2 + 0.25, starts, [waves + 0.5]]),
         length=first.length,
         rms_height=rms,

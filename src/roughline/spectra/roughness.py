@@ -1,4 +1,4 @@
-"""What a topography is like: amplitudes, slopes, summits, spectrum, and the law it follows."""
+"""Roughness of a topography: amplitudes, slopes, summits, spectrum, and the law it follows."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Roughness:
     fit : SelfAffineFit or None
         The self-affine law nearest to it; None if it has none.
     remarks : list of str
-        What stands in the way of a spectrum or a fit, or speaks against using it.
+        Why there is no spectrum or no fit, or why it is not to be trusted.
     """
 
     rms_height: float
@@ -81,15 +81,15 @@ def roughness(body: Body) -> Roughness:
     summits = _summits(body.heights)
     remarks, spectrum, fit = [], None, None
     try:
-        found = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
-        spectrum, fit = found, fit_self_affine(found)
+        estimate = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
+        spectrum, fit = estimate, fit_self_affine(estimate)
         remarks += fit.objections
     except InputError as error:
         remarks.append(str(error))
-    alike = isotropy(body) if isinstance(body, Surface) else None
-    if alike is not None and alike < ALIKE:
+    ratio = isotropy(body) if isinstance(body, Surface) else None
+    if ratio is not None and ratio < ALIKE:
         remarks.append(
-            f"slopes differ by direction, smallest over largest {alike:.2f}: a spectrum averaged "
+            f"slopes differ by direction, smallest over largest {ratio:.2f}: a spectrum averaged "
             "over directions, and a line scan, stand for no such surface"
         )
     return Roughness(
@@ -99,7 +99,7 @@ def roughness(body: Body) -> Roughness:
         kurtosis=kurtosis,
         summits=summits.size,
         summit_skewness=_shape(summits)[0] if summits.size > 2 else math.nan,
-        isotropy=alike,
+        isotropy=ratio,
         spectrum=spectrum,
         fit=fit,
         remarks=remarks,
@@ -107,7 +107,7 @@ def roughness(body: Body) -> Roughness:
 
 
 def _shape(heights: Real) -> tuple[float, float]:
-    """Skewness and kurtosis, free of the scale."""
+    """Skewness and kurtosis; their rounding does not depend on the scale of the heights."""
     deviation = heights - heights.mean()
     largest = float(np.abs(deviation).max())
     if largest == 0 or float(np.ptp(heights)) == 0:

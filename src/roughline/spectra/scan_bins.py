@@ -1,4 +1,4 @@
-"""Self-affine laws held against the bins of line scans, through the cuts of their surfaces."""
+"""Self-affine laws of surfaces compared with the bins of line scans, which are their cuts."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from roughline.spectra.map_rings import modes_of_surface
 from roughline.spectra.profile import Cuts, ProfileSpectrum, cuts_of_surface
 from roughline.spectra.self_affine_laws import HURSTS, LEAST_MEANS, Laws, Means, power_law
 
-_NOTHING = 1e-300  # stands for no power, where logarithms are taken
-_SAME = 1 + 1e-9  # but for rounding
-_CORRELATED = 35 / 18  # modes that a Hann window makes of one: 1 + 2 (4/9 + 1/36)
+_NOTHING = 1e-300  # replaces a power of zero where logarithms are taken
+_SAME = 1 + 1e-9  # ratio of equal wavenumbers, with rounding
+_CORRELATED = 35 / 18  # modes that vary together under a Hann window: 1 + 2 (4/9 + 1/36)
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +33,7 @@ class ScanBins:
     edges : ndarray, shape (means + 1,)
         Their ends.
     cuts : Cuts
-        What cuts show in them.
+        Spectrum that cuts of a surface are expected to have in them.
     """
 
     means: Means
@@ -52,12 +52,12 @@ class ScanBins:
 
     @property
     def modes(self) -> Real:
-        """How many modes of the scan each bin stands for."""
+        """Number of modes of the scan that each bin stands for."""
         return 2 * np.diff(self.edges)
 
     @cached_property
     def laws(self) -> Laws:
-        """Every law, held against the bins."""
+        """Every law, compared with the bins."""
         means, cuts, bins = self.means, self.cuts, self.means.q.size
         rolls = cuts.q[cuts.q < self.edges[-1] / 2]
         # a law ends with a bin, or goes on beyond the last one
@@ -75,7 +75,7 @@ class ScanBins:
             np.arange(cuts.q.size)[:, np.newaxis, np.newaxis] < levels
         )
         ended = ended.reshape(cuts.q.size, -1)
-        hursts = HURSTS[::2]  # a scan does not tell them closer
+        hursts = HURSTS[::2]  # a scan does not resolve smaller steps
         deviance = np.full((hursts.size, rolls.size, last.size), math.inf)
         log_level = np.zeros(deviance.shape)
         for j, roll in enumerate(rolls):
@@ -84,9 +84,9 @@ class ScanBins:
             level = np.einsum("be,hbe->he", scaled, 1 / sums) / total
             log_level[:, j] = np.log(level)
             laws = np.einsum("be,hbe->he", weight, np.log(sums))
-            own = 2 * (laws + total * log_level[:, j] - powers) + beyond
-            some = ends > roll  # else no power law is left
-            deviance[:, j, some] = own[:, some]
+            deviance_of_roll = 2 * (laws + total * log_level[:, j] - powers) + beyond
+            possible = ends > roll  # else no power law is left
+            deviance[:, j, possible] = deviance_of_roll[:, possible]
         return Laws(hursts, rolls, ends, margins, deviance, log_level)
 
     def log_powers(self, hurst: float, roll: float, end: float) -> Real:
@@ -97,7 +97,7 @@ class ScanBins:
     def mean_square(self, hurst: float, roll: float, end: float) -> tuple[float, float]:
         """Mean squares of a surface as large as the scan, and of the scan, for a plateau of one.
 
-        The second is without mean and tilt, and with what longer waves add.
+        That of the scan lacks mean and tilt, and has what longer waves add.
         """
         last = min(end, float(self.edges[-1]))
         levels = self._levels(hurst, roll, last)
@@ -107,10 +107,10 @@ class ScanBins:
     def surfaces(self, count: int, generator: np.random.Generator) -> Iterator[Real]:
         """Draw spectra of surfaces that the scan may have been cut from.
 
-        A law is drawn by its likelihood, with a level and deviations that chance leaves open.
-        Beyond the law's end the spectrum is as far from the law as the scan is. What a piece as
-        large as the scan shows of longer waves is put into its longest one; and the piece has
-        few long waves, pi m of wavenumber m, whose mean power is a matter of chance.
+        A law is drawn by its likelihood, and its level and the deviations from it at random.
+        Beyond the end of the law the spectrum deviates from it as the scan does. The power that
+        longer waves have in a piece as large as the scan is added to its longest wave. The piece
+        has few long waves, pi m of wavenumber m, so their mean power is drawn too.
 
         Yields
         ------
@@ -126,19 +126,19 @@ class ScanBins:
             ended = self.log_powers(hurst, roll, end) + level
             endless = self.log_powers(hurst, roll, math.inf) + level
             inside = np.isfinite(ended)
-            own = means.deviations(ended).drawn(generator)
+            deviations = means.deviations(ended).drawn(generator)
             beyond = np.log(means.power) - endless
             weight = means.weight[inside].sum()
             level -= math.log(generator.gamma(weight) / weight)
-            change = np.where(inside, own, beyond)
+            change = np.where(inside, deviations, beyond)
             power = np.exp(level + power_law(m, np.array([hurst]), roll)[0] + change[of_wave])
             power[0] += self._left_of_longer(hurst, roll) * math.exp(level)
             yield power * generator.gamma(np.pi * m) / (np.pi * m)
 
     def _left_of_longer(self, hurst: float, roll: float) -> float:
-        """Power in the longest wave that stands for longer ones in a square piece.
+        """Power to add to the longest wave of a square piece for the waves longer than that.
 
-        The piece has a larger mean square than the surface's waves up to its length make.
+        Longer waves make the mean square of the piece larger than its own waves do.
         """
         leakage = map_leakage()
         seen = leakage.edges[1:] < self.edges[-1]

@@ -9,33 +9,25 @@ Conventions: q = 2 pi / wavelength, and
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Literal
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
-from roughline.computing.memory import refuse_beyond_memory
-from roughline.errors import ContinuumWarning, InputError
+from roughline.errors import InputError
 from roughline.spectra import synthesis
 from roughline.spectra.band import Band
-from roughline.spectra.lattice import (
-    BodyName,
-    ContinuumSpectrum,
-    LatticeSpectrum,
-    sum_over_integral,
+from roughline.spectra.difference import are_close, sum_over_integral, warn_of_difference
+from roughline.spectra.lattice import BodyName, ContinuumSpectrum, LatticeSpectrum
+from roughline.spectra.realisation import (
+    Amplitudes,
+    Normalisation,
+    realisation,
+    refuse_points,
+    refuse_unknown_body,
 )
-from roughline.topography.body import Line, Settings, Surface
-
-Amplitudes = Literal["fixed", "gaussian"]
-Normalisation = Literal["rms_height", "C_0"]
-
-_BYTES_PER_POINT = 40  # of a surface, while it is generated
-_LARGEST: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
-_ALIKE = 0.05  # difference between a continuum and its bodies from which on it is said
+from roughline.topography.body import Line, Surface
+from roughline.topography.settings import Settings
 
 
 @dataclass(frozen=True, init=False)
@@ -168,9 +160,8 @@ class SelfAffine:
         body : {"surface", "line"}
             Which of the two. Scaled to one rms height, their spectra differ.
         """
-        if body not in _LARGEST:
-            raise InputError(f'body is {body!r}; allowed are "surface" and "line"')
-        _check_points(n, body)
+        refuse_unknown_body(body)
+        refuse_points(n, body)
         C_0 = self.magnitude
         if self.normalisation == "rms_height":
             C_0 = self.magnitude**2 / LatticeSpectrum.of(self._band, 1.0, n, body).moment(0)
@@ -185,7 +176,7 @@ class SelfAffine:
         InputError
             As for :attr:`continuum`.
         """
-        return self._told("C_0", self._factor_over("surface")).C_0
+        return self._continuum_for("C_0", self._over_bodies("surface")).C_0
 
     @property
     def rms_height(self) -> float:
@@ -193,50 +184,43 @@ class SelfAffine:
         if self.normalisation == "rms_height":
             return self.magnitude
         factor = 1 / math.sqrt(sum_over_integral(self._band, 0, "surface"))
-        return self._told("rms_height", factor).rms_height
+        return self._continuum_for("rms_height", factor).rms_height
 
     def C_2d(self, q: ArrayLike) -> Real:
         """Spectrum of the surface, the paper's eq. 3, as of :attr:`continuum`. [length⁴]"""
-        return self._told("C_2d", self._factor_over("surface")).C_2d(q)
+        return self._continuum_for("C_2d", self._over_bodies("surface")).C_2d(q)
 
     def C_reduced(self, q: ArrayLike) -> Real:
         """Spectrum of the reduced line, the paper's eq. 7, as of :attr:`continuum`. [length³]"""
-        return self._told("C_reduced", self._factor_over("line"), "line").C_reduced(q)
+        return self._continuum_for("C_reduced", self._over_bodies("line"), "line").C_reduced(q)
 
     def C_profile(self, q: ArrayLike) -> Real:
         """Spectrum of a straight cut, as of :attr:`continuum`. [length³]"""
-        return self._told("C_profile", self._factor_over("surface")).C_profile(q)
+        return self._continuum_for("C_profile", self._over_bodies("surface")).C_profile(q)
 
     def moment(self, order: int) -> float:
         """<h²>, <|grad h|²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
-        factor = self._factor_over("surface") / sum_over_integral(self._band, order, "surface")
-        return self._told("moment", factor).moment(order)
+        factor = self._over_bodies("surface") / sum_over_integral(self._band, order, "surface")
+        return self._continuum_for("moment", factor).moment(order)
 
-    def off_its_surfaces(self) -> str:
+    def difference_from_surfaces(self) -> str:
         """Say how the continuum differs from the surfaces generated; empty within 5 %."""
         factor = sum_over_integral(self._band, 0, "surface")
-        if abs(factor - 1) <= _ALIKE:
+        if are_close(factor):
             return ""
         if self.normalisation == "rms_height":
             return f"{factor:.2f} times the C_2d"
         return f"{1 / math.sqrt(factor):.2f} times the rms height"
 
-    def _factor_over(self, body: BodyName) -> float:
+    def _over_bodies(self, body: BodyName) -> float:
         """C_2d of the continuum over that of the surfaces or lines that are generated. [1]"""
         return 1.0 if self.normalisation == "C_0" else sum_over_integral(self._band, 0, body)
 
-    def _told(self, name: str, factor: float, body: BodyName = "surface") -> ContinuumSpectrum:
-        """Return the continuum, and warn where a body differs from it by more than 5 %."""
-        if abs(factor - 1) > _ALIKE:
-            which = 'n, "line"' if body == "line" else "n"
-            warnings.warn(
-                f"{name} is that of the continuum, {factor:.2f} times that of the {body}s which "
-                f"this spectrum generates: their few long waves are no integral. Take "
-                f"lattice({which}).{name} for a body of n points, or continuum.{name} for the "
-                "integral",
-                ContinuumWarning,
-                stacklevel=3,
-            )
+    def _continuum_for(
+        self, name: str, factor: float, body: BodyName = "surface"
+    ) -> ContinuumSpectrum:
+        """Return the continuum, for one of its quantities; warn where bodies differ from it."""
+        warn_of_difference(name, factor, body)
         return self.continuum
 
     def surface(
@@ -289,18 +273,9 @@ class SelfAffine:
         self, body: BodyName, n: int, rng: synthesis.Seed, amplitudes: Amplitudes
     ) -> tuple[Real, Settings]:
         """Heights of a body, and the settings that make them again."""
-        _check_points(n, body)
-        if body == "surface":
-            refuse_beyond_memory(
-                _BYTES_PER_POINT * n**2, f"a surface of {n} x {n} points", "take a smaller n"
-            )
-        if amplitudes not in ("fixed", "gaussian"):
-            raise InputError(f'amplitudes is {amplitudes!r}; allowed are "fixed" and "gaussian"')
-        draw, heights_of = {
-            "surface": (synthesis.surface_draws, synthesis.surface_heights),
-            "line": (synthesis.line_draws, synthesis.line_heights),
-        }[body]
-        for_phases, for_amplitudes = synthesis.generators(rng)
+        heights, made = realisation(
+            self._band, self.normalisation, self.magnitude, body, n, rng, amplitudes
+        )
         settings: Settings = {
             "origin": f"self-affine {body}",
             "hurst": self.hurst,
@@ -309,43 +284,9 @@ class SelfAffine:
             self.normalisation: self.magnitude,
             "q_roll": self.q_roll,
             "q_high": self.q_high,
-            "n": int(n),
-            "amplitudes": amplitudes,
-            "seed": synthesis.described(rng, for_phases),
+            **made,
         }
-        moduli = self._line_moduli(n) if body == "line" else self._moduli(n, body)
-        if amplitudes == "gaussian":
-            moduli = moduli * synthesis.rayleigh(draw(n, for_amplitudes))
-        given = self.normalisation == "rms_height"
-        scale = self.magnitude / synthesis.rms_of(moduli) if given else 1.0
-        return heights_of(moduli, for_phases, scale, n), settings
-
-    def _moduli(self, n: int, body: BodyName) -> Real:
-        """Moduli of the modes that the real inverse FFT wants, up to the normalisation.
-
-        A line's begin at m = 1.
-        """
-        if body == "line":
-            m = np.arange(1, (n - 1) // 2 + 1, dtype=np.float64)
-            weight = np.pi * self.q_low**2 * m
-        else:
-            m = np.hypot(np.fft.fftfreq(n, 1 / n)[:, np.newaxis], np.arange(n // 2 + 1))
-            weight = np.where((m > 0) & (m < n / 2), self.q_low**2, 0.0)
-        power = weight * self._band.shape(self.q_low * m)
-        if self.normalisation == "C_0":
-            power *= self.magnitude
-        return np.sqrt(power)
-
-    @lru_cache(maxsize=8)  # noqa: B019  (an ensemble of lines wants them for every one)
-    def _line_moduli(self, n: int) -> Real:
-        return self._moduli(n, "line")
-
-
-def _check_points(n: int, body: BodyName) -> None:
-    if not isinstance(n, int | np.integer) or not 3 <= n <= _LARGEST[body]:
-        raise InputError(
-            f"n is {n!r}; a whole number of points from 3 to {_LARGEST[body]} is needed"
-        )
+        return heights, settings
 
 
 def _check_positive(name: str, value: float) -> None:

@@ -1,4 +1,4 @@
-"""How well self-affine laws explain a measured spectrum: every exponent, roll-off and end tried.
+"""Self-affine laws and how well each of them explains a measured spectrum.
 
 Wavenumbers are in units of q_low = 2 pi / L here, and powers are those of modes: q_low² C_2d for
 the rings of a map, q_low C_profile for the bins of a line scan. [length²]
@@ -21,19 +21,19 @@ HURSTS = np.linspace(-0.49, 1.5, 200)
 """Exponents that are tried."""
 
 DESCRIPTION = 0.1
-"""Deviations from a law that still count as following it."""
+"""Relative deviations from a law, up to which a spectrum counts as following it."""
 
 _BINS_PER_DECADE = 10  # of deviations from the law, and of the free spectrum beyond its end
 _FLOOR = 1e-14  # of the largest power: rounding
-_FARTHEST = 256  # means away; a window leaks 1e-16 so far
-_LEAKED = 3.0  # times what the window leaks of stronger waves; less may be leakage alone
+_FARTHEST = 256  # means; a window leaks 1e-16 so far away
+_LEAKED = 3.0  # times the leakage of stronger waves; a smaller power may be leakage alone
 LEAST_MEANS = 12
-"""Of a spectrum, for laws to be held against it."""
+"""Means that a spectrum needs, for laws to be compared with it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Means:
-    """Mean powers of a spectrum, with what is known of their chance.
+    """Mean powers of a spectrum, and how much each of them varies by chance.
 
     Attributes
     ----------
@@ -60,14 +60,14 @@ class Means:
         Parameters
         ----------
         q, power, modes : ndarray, shape (means,)
-            Wavenumbers, mean powers of a mode, and how many independent modes each is of.
+            Wavenumbers, mean powers of a mode, and the number of independent modes in each mean.
         windowed : bool
             Whether stronger waves leak into others.
 
         Raises
         ------
         InputError
-            If there are fewer than 12 that are of modes.
+            If fewer than 12 of them have modes.
         """
         q, power, modes = (array[modes > 0] for array in (q, power, modes))
         if q.size < LEAST_MEANS:
@@ -80,16 +80,16 @@ class Means:
         if windowed:
             leaked |= power < _LEAKED * _leakage_of_others(q, power)
         by_chance = 2 / modes  # half of the modes are the others' conjugates
-        # a deviation is shared by the means of its bin: else the shortest waves, whose means are
-        # many, would decide alone
+        # the means of a bin share one deviation: otherwise the shortest waves, which have most of
+        # the means, would decide alone
         bins = _bins(q)
         weight = 1 / (by_chance + DESCRIPTION**2 * np.bincount(bins)[bins])
         return cls(q, np.maximum(power, floor), by_chance, weight, leaked)
 
     def free_deviance(self, first: int) -> float:
-        """Deviance of a free spectrum from a mean on, and the price of its levels.
+        """Deviance of a free spectrum from one mean on, with a penalty for each of its levels.
 
-        It has a level for each tenth of a decade.
+        A free spectrum has a level for each tenth of a decade.
         """
         keep = ~self.leaked[first:]
         q, power, weight = (array[first:][keep] for array in (self.q, self.power, self.weight))
@@ -99,10 +99,10 @@ class Means:
         sums, levels, logs = (
             np.bincount(bins, values) for values in (weight, weight * power, weight * np.log(power))
         )
-        there = sums > 0
-        own = sums[there] * np.log(levels[there] / sums[there]) - logs[there]
-        price = math.log(weight.sum() + 1) * (np.count_nonzero(there) + 1)
-        return float(2 * own.sum() + price)
+        known = sums > 0
+        deviance = sums[known] * np.log(levels[known] / sums[known]) - logs[known]
+        penalty = math.log(weight.sum() + 1) * (np.count_nonzero(known) + 1)
+        return float(2 * deviance.sum() + penalty)
 
     def deviations(self, law: Real) -> Deviations:
         """Compare the powers with those of a law, in tenths of a decade.
@@ -116,14 +116,14 @@ class Means:
         size = int(bins[-1]) + 1
         shape = np.bincount(bins, np.where(inside, 1 / self.by_chance, 0.0), size)
         ratio = np.where(inside, self.power / self.by_chance * np.exp(-np.where(inside, law, 0)), 0)
-        there = shape > 0
-        safe = np.where(there, shape, 1.0)
-        mean = np.where(there, np.bincount(bins, ratio, size) / safe, 1.0)
+        known = shape > 0
+        safe = np.where(known, shape, 1.0)
+        mean = np.where(known, np.bincount(bins, ratio, size) / safe, 1.0)
         # the logarithm of a gamma variable has this mean and this variance
-        value = np.where(there, np.log(mean) - special.digamma(safe) + np.log(safe), 0.0)
-        variance = np.where(there, special.polygamma(1, safe), math.inf)
-        weight = np.bincount(bins, np.where(inside, self.weight, 0.0), size)[there]
-        excess = float(weight @ (value**2 - variance)[there] / weight.sum())
+        value = np.where(known, np.log(mean) - special.digamma(safe) + np.log(safe), 0.0)
+        variance = np.where(known, special.polygamma(1, safe), math.inf)
+        weight = np.bincount(bins, np.where(inside, self.weight, 0.0), size)[known]
+        excess = float(weight @ (value**2 - variance)[known] / weight.sum())
         return Deviations(bins, value, variance, math.sqrt(max(0.0, excess)))
 
 
@@ -134,9 +134,9 @@ class Deviations:
     Attributes
     ----------
     bins : ndarray, shape (means,)
-        Tenth that each mean falls in.
+        Tenth of a decade that each mean falls in.
     values, variance : ndarray, shape (tenths,)
-        Logarithm of the mean ratio, and its variance by chance; 0 and infinite where there is none.
+        Logarithm of the mean ratio, and its variance by chance; 0 and infinite in empty tenths.
     scatter : float
         Rms of the logarithm, beyond what chance explains.
     """
@@ -147,10 +147,10 @@ class Deviations:
     scatter: float
 
     def drawn(self, generator: np.random.Generator) -> Real:
-        """Deviations that the surface may have, of each mean, as its own law is not exact."""
-        own = max(self.scatter, DESCRIPTION) ** 2
-        share = own / (own + self.variance)
-        spread = np.sqrt(own * (1 - share))
+        """Draw deviations of the surface itself from its law, one for each mean."""
+        of_surface = max(self.scatter, DESCRIPTION) ** 2  # variance
+        share = of_surface / (of_surface + self.variance)
+        spread = np.sqrt(of_surface * (1 - share))
         return (
             share * np.where(np.isfinite(self.variance), self.values, 0.0)
             + spread * generator.standard_normal(share.size)
@@ -170,9 +170,9 @@ class Laws:
     ends : ndarray, shape (ends,)
         Where the laws end; infinite if they go on beyond the shortest waves.
     margins : ndarray, shape (ends,)
-        By how much each may be off because others were not tried.
+        Distance to the next end that was tried.
     deviance : ndarray, shape (hursts, rolls, ends)
-        Twice the logarithm of the likelihood that each lacks, up to a constant.
+        Minus twice the logarithm of the likelihood of each, up to a constant.
     log_level : ndarray, shape (hursts, rolls, ends)
         Logarithm of the power of a mode on the plateau.
     """
@@ -195,15 +195,14 @@ class Laws:
         return float(self.hursts[hurst]), float(self.rolls[roll]), float(self.ends[end])
 
     def within(self, deviance: float) -> tuple[Indices, Indices, Indices]:
-        """Indices of the laws that lack no more than this against the best."""
+        """Indices of the laws whose deviance exceeds that of the best by no more than this."""
         hurst, roll, end = np.nonzero(self.deviance <= self.deviance.min() + deviance)
         return hurst, roll, end
 
     def drawn(self, count: int, generator: np.random.Generator) -> tuple[Indices, Indices, Indices]:
-        """Indices of laws drawn by their likelihood.
+        """Draw laws by their likelihood, as indices.
 
-        Before the spectrum is seen, all exponents, and all roll-offs on a logarithmic scale, are
-        alike.
+        All exponents are equally likely beforehand, and so are all logarithms of roll-offs.
         """
         likelihood = np.exp((self.deviance.min() - self.deviance) / 2)
         likelihood *= np.gradient(np.log(self.rolls))[:, np.newaxis]
@@ -219,7 +218,7 @@ def power_law(q: Real, hursts: Real, roll: float) -> Real:
 
 
 def _leakage_of_others(q: Real, power: Real) -> Real:
-    """Power that a Hann window leaks from means three modes away and farther."""
+    """Power that a Hann window leaks into each mean from those three modes away and farther."""
     width, leaked = np.gradient(q), np.zeros(q.size)
     for lag in range(1, min(q.size, _FARTHEST)):
         distance = q[lag:] - q[:-lag] - (width[lag:] + width[:-lag]) / 2 + 1
@@ -231,5 +230,5 @@ def _leakage_of_others(q: Real, power: Real) -> Real:
 
 
 def _bins(q: Real) -> Indices:
-    """Numbers of the bins of equal ratios that wavenumbers fall in."""
+    """Number of the tenth of a decade that each wavenumber falls in."""
     return np.floor(_BINS_PER_DECADE * np.log10(q / q[0])).astype(np.intp)

@@ -1,1 +1,1 @@
-"""Analytical theories of rough contact, to lie beside the full model."""
+"""Analytical theories of rough contact, to be compared with the full model."""

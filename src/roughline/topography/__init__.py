@@ -1,1 +1,1 @@
-"""Surfaces and lines, their trend, missing points and preparation; two bodies together."""
+"""Surfaces and lines, their trend, missing points and preparation; two bodies as one."""

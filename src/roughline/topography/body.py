@@ -3,30 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, Literal, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.topography.heights import (
+    checked_heights,
+    checked_length,
+    checked_sides,
+    rms,
+    rms_deviation,
+)
+from roughline.topography.settings import (
+    AS_RECORDED,
+    Settings,
+    as_body,
+    checked_cut_out,
+    checked_trend,
+)
+from roughline.topography.surfacetopography import fields_of_topography
 from roughline.topography.trend import Trend, without_trend
 
-Settings = Mapping[str, str | int | float]
-
-MEASURED = "instrument file"
-"""Origin, in the settings, of what an instrument measured."""
-
-PIECE = "topography"
-"""Origin of a topography of SurfaceTopography that is not periodic, so a piece of a larger one."""
-
 _NOT_GIVEN = (math.nan, math.nan)  # sizes
-
-# Beyond this, squares of lengths leave the range of double precision.
-_LARGEST = 1e150
-_BLOCK = 2**16  # heights looked at together
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +47,11 @@ class Surface:
         Unit of all lengths, where it is known; :func:`roughline.read` gives "m".
     settings : mapping, optional
         Where the heights come from; travels with every result.
+    is_cut_out : bool, optional
+        Whether a larger surface goes on beyond the border, as it does of measured and cropped ones.
+        Default: as the settings record.
+    removed_trend : {"none", "mean", "tilt", "curvature"}, optional
+        Trend that was removed from the heights. Default: as the settings record.
 
     Raises
     ------
@@ -53,47 +60,27 @@ class Surface:
         positive.
     """
 
-    heights: NDArray[np.float64]
+    heights: Real
     sizes: tuple[float, float] = _NOT_GIVEN
     unit: str | None = None
     settings: Settings = field(default_factory=dict, repr=False)
+    is_cut_out: bool = field(default=AS_RECORDED, kw_only=True)
+    removed_trend: Trend = field(default=AS_RECORDED, kw_only=True)
 
     def __post_init__(self) -> None:
         if hasattr(self.heights, "physical_sizes"):
-            self._take_over(self.heights)
+            has_sizes = self.sizes is not _NOT_GIVEN
+            _set(self, **fields_of_topography(self.heights, has_sizes, self.unit, self.settings))
         if self.sizes is _NOT_GIVEN:
             raise InputError("no sizes are given; give the sides of the surface, (Lx, Ly)")
-        heights = _checked_heights(self.heights, dimensions=2)
+        heights = checked_heights(self.heights, dimensions=2)
         if heights.size < 2:
             raise InputError(
                 f"the surface has {heights.shape[0]} x {heights.shape[1]} points; at least 1 x 2 "
                 "are needed: give more points"
             )
-        _freeze(self, heights=heights, sizes=_checked_sizes("sizes", self.sizes))
-
-    def _take_over(self, topography: Any) -> None:
-        """Set heights, sizes and unit to those of a topography of SurfaceTopography."""
-        from roughline.units import metres_per
-
-        if topography.dim != 2:
-            raise InputError("the topography is a line scan; a Surface takes a map: give a Line")
-        if self.sizes is not _NOT_GIVEN:
-            raise InputError("the topography has its own sizes; leave sizes out")
-        if topography.unit and self.unit:
-            raise InputError(f"the topography states its unit, {topography.unit}; leave unit out")
-        factor = metres_per(topography.unit) if topography.unit else 1.0
-        heights = topography.heights()
-        _set(
-            self,
-            heights=heights if factor == 1 else heights * factor,
-            sizes=tuple(factor * float(size) for size in topography.physical_sizes),
-            unit="m" if topography.unit else self.unit,
-            settings={
-                "origin": "periodic topography" if topography.is_periodic else PIECE,
-                **({"file_unit": topography.unit} if topography.unit else {}),
-                **self.settings,
-            },
-        )
+        is_cut_out = checked_cut_out(self.is_cut_out, self.settings)
+        _freeze(self, heights=heights, sizes=checked_sides(self.sizes), is_cut_out=is_cut_out)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -119,14 +106,14 @@ class Surface:
     @property
     def rms_height(self) -> float:
         """Root-mean-square deviation from the mean height. [length]"""
-        return _rms_deviation(self.heights)
+        return rms_deviation(self.heights)
 
     @property
     def rms_slope(self) -> float:
         """Root-mean-square gradient from forward differences inside the rectangle. [1]"""
         dx, dy = self.spacing
-        along_x = _rms(np.diff(self.heights, axis=0) / dx)
-        along_y = _rms(np.diff(self.heights, axis=1) / dy)
+        along_x = rms(np.diff(self.heights, axis=0) / dx)
+        along_y = rms(np.diff(self.heights, axis=1) / dy)
         return float(np.hypot(along_x, along_y))
 
     @property
@@ -140,12 +127,7 @@ class Surface:
         dx, dy = self.spacing
         along_x = np.diff(self.heights, n=2, axis=0)[:, 1:-1] / dx**2
         along_y = np.diff(self.heights, n=2, axis=1)[1:-1, :] / dy**2
-        return _rms(along_x + along_y) / 2
-
-    @property
-    def is_cut_out(self) -> bool:
-        """Whether a larger surface goes on beyond the border: a measured or a cropped one."""
-        return "cropped" in self.settings or self.settings.get("origin") in (MEASURED, PIECE)
+        return rms(along_x + along_y) / 2
 
     def cropped(self, x: tuple[int, int], y: tuple[int, int]) -> Surface:
         """Return a rectangle of the surface.
@@ -166,9 +148,13 @@ class Surface:
                     f"{name} is ({first}, {end}); give 0 <= first < end <= {n}, the points there"
                 )
         (dx, dy), heights = self.spacing, self.heights[slice(*x), slice(*y)]
-        settings = {**self.settings, "cropped": f"x {x[0]}:{x[1]}, y {y[0]}:{y[1]}"}
-        sizes = (dx * heights.shape[0], dy * heights.shape[1])
-        return Surface(heights, sizes, self.unit, settings)
+        return replace(
+            self,
+            heights=heights,
+            sizes=(dx * heights.shape[0], dy * heights.shape[1]),
+            settings={**self.settings, "cropped": f"x {x[0]}:{x[1]}, y {y[0]}:{y[1]}"},
+            is_cut_out=True,
+        )
 
     def coarsened(self) -> Surface:
         """Return the surface on half as many points a side, the means over two by two.
@@ -186,11 +172,11 @@ class Surface:
 
     def settings_as_body(self) -> Settings:
         """Return the settings with names that say that they are the body's."""
-        return _as_body(self.settings)
+        return as_body(self.settings)
 
     def detrended(self, trend: Trend = "tilt") -> Surface:
         """Return the surface without its least-squares mean, tilt, or curvature (2nd degree)."""
-        return with_heights(self, without_trend(self.heights, trend), detrended=trend)
+        return _detrended(self, trend)
 
     def scaled(self, factor: float) -> Surface:
         """Return the surface with heights times `factor`."""
@@ -215,6 +201,8 @@ class Line:
         Whether this is the line of the reduction method (the paper's eq. 7), or a straight cut
         through a surface such as a stylus measures. A cut is not the reduced line of its surface
         and is not pressed as one.
+    removed_trend : {"none", "mean", "tilt", "curvature"}, optional
+        Trend that was removed from the heights. Default: as the settings record.
 
     Raises
     ------
@@ -223,19 +211,20 @@ class Line:
         not positive.
     """
 
-    heights: NDArray[np.float64]
+    heights: Real
     length: float
     unit: str | None = None
     settings: Settings = field(default_factory=dict, repr=False)
     kind: Literal["reduced", "profile"] = "reduced"
+    removed_trend: Trend = field(default=AS_RECORDED, kw_only=True)
 
     def __post_init__(self) -> None:
-        heights = _checked_heights(self.heights, dimensions=1)
+        heights = checked_heights(self.heights, dimensions=1)
         if heights.size < 2:
             raise InputError(f"the line has {heights.size} points; at least 2 are needed")
         if self.kind not in ("reduced", "profile"):
             raise InputError(f'kind is {self.kind!r}; a line is "reduced" or a "profile"')
-        _freeze(self, heights=heights, length=_checked_sizes("length", [self.length])[0])
+        _freeze(self, heights=heights, length=checked_length(self.length))
 
     @property
     def spacing(self) -> float:
@@ -245,27 +234,27 @@ class Line:
     @property
     def rms_height(self) -> float:
         """Root-mean-square deviation from the mean height. [length]"""
-        return _rms_deviation(self.heights)
+        return rms_deviation(self.heights)
 
     @property
     def rms_slope(self) -> float:
         """Root-mean-square slope from forward differences. [1]"""
-        return _rms(np.diff(self.heights) / self.spacing)
+        return rms(np.diff(self.heights) / self.spacing)
 
     @property
     def rms_curvature(self) -> float:
         """Root-mean-square second derivative; NaN on fewer than 3 points. [1 / length]"""
         if self.heights.size < 3:
             return float("nan")
-        return _rms(np.diff(self.heights, n=2) / self.spacing**2)
+        return rms(np.diff(self.heights, n=2) / self.spacing**2)
 
     def settings_as_body(self) -> Settings:
         """Return the settings with names that say that they are the body's."""
-        return _as_body(self.settings)
+        return as_body(self.settings)
 
     def detrended(self, trend: Trend = "tilt") -> Line:
         """Return the line without its least-squares mean, tilt, or curvature (2nd degree)."""
-        return with_heights(self, without_trend(self.heights, trend), detrended=trend)
+        return _detrended(self, trend)
 
     def scaled(self, factor: float) -> Line:
         """Return the line with heights times `factor`."""
@@ -276,13 +265,18 @@ Body = Surface | Line
 BodyType = TypeVar("BodyType", Surface, Line)
 
 
-def with_heights(body: BodyType, heights: NDArray[np.float64], **settings: Any) -> BodyType:
+def with_heights(body: BodyType, heights: Real, **settings: Any) -> BodyType:
     """Return the body with other heights and further settings."""
     return replace(body, heights=heights, settings={**body.settings, **settings})
 
 
-def _as_body(settings: Settings) -> Settings:
-    return {f"body_{name}": value for name, value in settings.items()}
+def _detrended(body: BodyType, trend: Trend) -> BodyType:
+    return replace(
+        body,
+        heights=without_trend(body.heights, trend),
+        settings={**body.settings, "detrended": trend},
+        removed_trend=trend,
+    )
 
 
 def _set(body: Body, **fields: Any) -> None:
@@ -293,78 +287,6 @@ def _set(body: Body, **fields: Any) -> None:
 
 def _freeze(body: Body, **fields: Any) -> None:
     """Set checked fields at birth; the settings become read-only."""
-    _set(body, **fields, settings=MappingProxyType(dict(body.settings)))
-
-
-def _checked_heights(heights: Any, dimensions: int) -> NDArray[np.float64]:
-    name = {1: "a Line", 2: "a Surface"}[dimensions]
-    if isinstance(heights, np.ma.MaskedArray):
-        missing = int(np.count_nonzero(np.ma.getmaskarray(heights)))
-        if missing:
-            raise InputError(
-                f"{missing} of {heights.size} heights are masked; all must be known: fill them "
-                "or crop to where they are"
-            )
-        heights = heights.data
-    try:
-        array = np.asarray(heights)
-        if np.iscomplexobj(array):
-            raise TypeError("complex")
-        array = np.asarray(array, dtype=np.float64)
-        if not array.flags.f_contiguous:  # instruments' maps often run along y first; left so
-            array = np.ascontiguousarray(array)
-        array = array.view()
-    except (TypeError, ValueError) as error:
-        raise InputError(f"the heights are not an array of real numbers ({error})") from error
-    if array.ndim != dimensions:
-        raise InputError(
-            f"the heights have {array.ndim} dimensions; {name} takes {dimensions}: reshape them"
-        )
-    largest = max(array.max(), -array.min()) if array.size else 0.0  # NaN if any height is
-    if not np.isfinite(largest):
-        bad = array.size - int(np.count_nonzero(np.isfinite(array)))
-        raise InputError(
-            f"{bad} of {array.size} heights are NaN or infinite; all must be finite: fill or crop "
-            "them first"
-        )
-    if largest > _LARGEST:
-        raise InputError(f"heights reach {largest:.3g}; at most {_LARGEST:g}: rescale")
-    array.flags.writeable = False
-    return array
-
-
-def _checked_sizes(name: str, sizes: Any) -> tuple[float, ...]:
-    expected = {"sizes": 2, "length": 1}[name]
-    try:
-        values = tuple(float(size) for size in sizes)
-    except (TypeError, ValueError):
-        values = ()
-    if len(values) != expected or not all(1 / _LARGEST < value < _LARGEST for value in values):
-        allowed = {"sizes": "two positive, finite numbers (Lx, Ly)", "length": "a positive number"}
-        shown = sizes if expected == 2 else sizes[0]
-        raise InputError(f"{name} is {shown!r}; give {allowed[name]}")
-    return values
-
-
-def _rms_deviation(heights: NDArray[np.float64]) -> float:
-    lowest, highest = float(heights.min()), float(heights.max())
-    if lowest == highest:
-        return 0.0  # rounding of the mean is no roughness
-    mean = float(heights.mean())
-    return _rms(heights, mean, max(highest - mean, mean - lowest))
-
-
-def _rms(values: NDArray[np.float64], mean: float = 0.0, largest: float | None = None) -> float:
-    """Root of the mean square deviation, neither overflowing nor underflowing on the way.
-
-    A block at a time, so that large arrays need no room of their own size.
-    """
-    if largest is None:
-        largest = float(np.abs(values).max(initial=0.0))
-    if largest == 0.0:
-        return 0.0
-    flat, total = values.ravel(order="K"), 0.0
-    for start in range(0, flat.size, _BLOCK):
-        deviations = (flat[start : start + _BLOCK] - mean) / largest
-        total += float(np.einsum("i,i->", deviations, deviations))
-    return float(np.sqrt(total / flat.size)) * largest
+    removed_trend = checked_trend(body.removed_trend, body.settings)
+    settings = MappingProxyType(dict(body.settings))
+    _set(body, **fields, removed_trend=removed_trend, settings=settings)

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 
 Filling = Literal["harmonic", "nearest"]
 
-_MOSTLY = 0.9  # of the missing points
+_MOSTLY = 0.9  # share of the missing points that counts as most of them
 _COLUMNS, _ROWS = 48, 16  # of a coarse map, at most
 
 
@@ -31,7 +31,7 @@ class Missing:
     Raises
     ------
     InputError
-        If the method is unknown or the share is none.
+        If the method is unknown, or the share is not from 0 to below 1.
     """
 
     method: Filling = "harmonic"
@@ -47,20 +47,18 @@ class Missing:
 
     @property
     def other(self) -> Filling:
-        """The other method, to see what the choice does."""
+        """The other method, to compare both."""
         return "nearest" if self.method == "harmonic" else "harmonic"
 
-    def completed(
-        self, heights: Any, name: str
-    ) -> tuple[NDArray[np.float64], dict[str, str | int | float]]:
-        """Return the heights with all points known, and how many were not, for the settings.
+    def completed(self, heights: Any, name: str) -> tuple[Real, dict[str, str | int | float]]:
+        """Return the heights with all points known, and settings that record what was filled.
 
         Parameters
         ----------
         heights : array or masked array, shape (nx, ny) or (n,)
             Heights; unknown ones are masked or not finite.
         name : str
-            Whose they are, for the message.
+            Name of the topography, for the message.
 
         Raises
         ------
@@ -80,27 +78,26 @@ class Missing:
             }
         return np.array(heights, dtype=np.float64, copy=None), settings
 
-    def too_many(self, mask: NDArray[np.bool_], name: str) -> InputError | None:
-        """Return what is to be said if more points are missing than are filled."""
+    def too_many(self, mask: Mask, name: str) -> InputError | None:
+        """Return the error for more missing points than are filled; None if there are fewer."""
         unknown = int(np.count_nonzero(mask))
         if unknown <= self.most * mask.size and unknown < mask.size:
             return None
         return InputError(
             f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
             f"up to {self.most:.0%} are filled: crop it with the instrument's software to where "
-            "points are known, or allow more (most_missing; command line: --max-missing, and "
-            "--crop)"
+            "points are known, or allow more (most_missing=)"
         )
 
-    def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> NDArray[np.float64]:
-        """Return masked heights with all points known; as :meth:`completed`, without the count."""
+    def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> Real:
+        """Return masked heights with all points known, as :meth:`completed` without settings."""
         mask = np.ma.getmaskarray(heights)
         too_many = self.too_many(mask, name)
         if too_many is not None:
             raise too_many
         if heights.ndim == 1:
-            at = np.arange(mask.size)
-            return np.interp(at, at[~mask], np.ma.getdata(heights)[~mask])
+            points = np.arange(mask.size)
+            return np.interp(points, points[~mask], np.ma.getdata(heights)[~mask])
         return _nearest(heights, mask) if self.method == "nearest" else _harmonic(heights)
 
 
@@ -111,9 +108,9 @@ class MissingPattern:
     Attributes
     ----------
     count : int
-        How many.
+        Number of missing points.
     share : float
-        Of all points. [1]
+        Their share of all points. [1]
     regions, largest : int
         Groups of neighbouring missing points, and the points of the largest.
     at_border : int
@@ -127,7 +124,7 @@ class MissingPattern:
     regions: int
     largest: int
     at_border: int
-    cells: NDArray[np.float64]
+    cells: Real
 
     def __str__(self) -> str:
         if not self.count:
@@ -147,23 +144,21 @@ class MissingPattern:
         return f"{grouped}, at the border and inside"
 
 
-def missing_pattern(
-    unknown: NDArray[np.bool_], sides: tuple[float, ...] | None = None
-) -> MissingPattern:
-    """Say where points are missing.
+def missing_pattern(unknown: Mask, sides: tuple[float, ...] | None = None) -> MissingPattern:
+    """Describe where points are missing.
 
     Parameters
     ----------
     unknown : ndarray of bool, shape (nx, ny) or (n,)
         Which points are missing.
     sides : tuple of float, optional
-        Sides of the topography, for pieces that look square as characters. [length]
+        Sides of the topography, so that its map in characters keeps their ratio. [length]
     """
     from scipy import ndimage  # here because it loads slowly
 
     groups, regions = ndimage.label(unknown, np.ones((3,) * unknown.ndim))
     points = np.bincount(groups.ravel(), minlength=1)
-    points[0] = 0  # what is known
+    points[0] = 0  # the known points
     ends = [np.take(groups, [0, -1], axis=axis).ravel() for axis in range(unknown.ndim)]
     pieces = _pieces(unknown.shape, sides or unknown.shape)
     cells = unknown.astype(np.float64)
@@ -192,14 +187,14 @@ def _pieces(points: tuple[int, ...], sides: tuple[float, ...]) -> tuple[int, ...
     return min(columns, points[0]), min(rows, points[1])
 
 
-def _nearest(heights: Any, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _nearest(heights: Any, mask: Mask) -> Real:
     from scipy import ndimage
 
     indices = ndimage.distance_transform_edt(mask, return_distances=False, return_indices=True)
     return np.asarray(np.ma.getdata(heights)[tuple(indices)], dtype=np.float64)
 
 
-def _harmonic(heights: Any) -> NDArray[np.float64]:
+def _harmonic(heights: Any) -> Real:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ImportWarning)
         from SurfaceTopography import Topography

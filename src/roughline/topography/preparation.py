@@ -1,22 +1,20 @@
-"""What is done to a measured topography before it is used, step by step, and recorded with it."""
+"""Preparation of measured topographies: steps, each recorded in the settings of the body."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import get_args
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
-from roughline.topography.body import Body, BodyType, Line, Surface, with_heights
+from roughline.topography.body import Body, BodyType, Surface, with_heights
 from roughline.topography.missing import Missing
 from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
 
-_TILT_MATTERS = 0.05  # of the rms height, from which on a tilt is warned of
-_SPIKE = 5.0  # over what neighbours scatter by
+_TILT_MATTERS = 0.05  # share of the rms height; a larger one is warned of
+_SPIKE = 5.0  # times the scatter of neighbours
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
 _ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
 
@@ -32,9 +30,9 @@ class Preparation:
     remove_outliers : bool, optional
         Whether spikes are taken out and filled like missing points. They are counted always.
     trend : {"tilt", "curvature", "mean", "none"}, optional
-        Least-squares polynomial that is removed. Default: what was removed from the body before,
-        by :func:`roughline.read` say, is removed from what a crop or taken-out spikes leave of it;
-        nothing is removed from other bodies.
+        Least-squares polynomial that is removed. Default: the one that was removed from the body
+        before, by :func:`roughline.read` say, is removed again after a crop, and after spikes were
+        taken out; nothing is removed from other bodies.
     low_pass : float, optional
         Cutoff wavelength of a Gaussian filter after ISO 16610-61 (half of the amplitude of a wave
         of that length passes). [length]
@@ -81,7 +79,7 @@ class Preparation:
         elif count:
             body = with_heights(body, body.heights, outliers_kept=count)
         changed = self.crop is not None or (count > 0 and self.remove_outliers)
-        trend = self.trend or (_trend_removed(body) if changed else "none")
+        trend = self.trend or (body.removed_trend if changed else "none")
         if trend != "none":
             body = body.detrended(trend)
         if self.low_pass is not None:
@@ -104,14 +102,14 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     preparation = preparation or Preparation()
     if isinstance(body, Surface):
         return preparation.applied(body)
-    return preparation.applied(body)  # apart, as either comes back as what it was
+    return preparation.applied(body)  # one call for each type of body
 
 
 def tilt_warnings(surface: Surface) -> tuple[str, ...]:
     """Warn of a piece of a larger surface whose mean plane is much of its height.
 
-    Such a plane is mostly the stage's, or a wave longer than the piece, and the load goes to the
-    side that it lifts.
+    Such a plane is mostly the tilt of the stage, or part of a wave longer than the piece. The side
+    that it lifts carries the load.
     """
     lower = 1 - math.sqrt(1 - tilt_share(surface.heights, surface.rms_height))
     if not surface.is_cut_out or lower <= _TILT_MATTERS:
@@ -119,17 +117,17 @@ def tilt_warnings(surface: Surface) -> tuple[str, ...]:
     return (
         f"this surface is tilted: without its mean plane the rms height would be {lower:.0%} "
         "lower, and the side that the tilt lifts carries the load. Unless that is meant, remove it "
-        "(rl.read does by default; surface.detrended(); command line: --trend tilt)",
+        '(trend="tilt", as rl.read does by default, or surface.detrended())',
     )
 
 
-def outliers(body: Body) -> NDArray[np.bool_]:
+def outliers(body: Body) -> Mask:
     """Mark spikes: points that stick far out of their neighbours.
 
-    A point is marked if it is farther from the median of its neighbours than five times what
-    neighbours scatter by, in the median over the whole body. Neighbours are 5 x 5 points of a
+    A point is marked if its distance from the median of its neighbours is more than five times the
+    scatter of neighbours, which is a median over the whole body. Neighbours are 5 x 5 points of a
     surface, and 5, 25 and 101 of a line, whose points are often closer than its stylus is wide.
-    What is wider than half of the neighbours is a step, a scratch or a particle, and is not marked.
+    Groups wider than half of the neighbours are steps, scratches or particles, and are not marked.
     """
     from scipy import ndimage  # here because it loads slowly
 
@@ -140,20 +138,14 @@ def outliers(body: Body) -> NDArray[np.bool_]:
             ndimage.uniform_filter(values, size, mode="nearest") for values in (heights, heights**2)
         )
         scatter = math.sqrt(max(0.0, float(np.median(square - mean**2))))
-        off = np.abs(heights - ndimage.median_filter(heights, size=size, mode="nearest"))
-        spots, _ = ndimage.label(off > _SPIKE * scatter)
+        distance = np.abs(heights - ndimage.median_filter(heights, size=size, mode="nearest"))
+        spots, _ = ndimage.label(distance > _SPIKE * scatter)
         sizes = np.bincount(spots.ravel())
         narrow = sizes <= (size // 2 + 1) ** heights.ndim
-        narrow[0] = False  # what is no spot
+        narrow[0] = False  # the points outside all spots
         if scatter > 0:
             marked |= narrow[spots]
     return marked
-
-
-def _trend_removed(body: Body) -> Trend:
-    """Which trend was removed from a body before."""
-    names: tuple[Trend, ...] = get_args(Trend)
-    return next((name for name in names if name == body.settings.get("detrended")), "none")
 
 
 def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:
@@ -177,9 +169,12 @@ def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:
     if isinstance(body, Surface):
         return body.cropped(*ranges)
     (first, end) = ranges[0]
-    settings = {**body.settings, "cropped": f"{first}:{end}"}
-    piece = body.heights[first:end]
-    return Line(piece, spacings[0] * (end - first), body.unit, settings, body.kind)
+    return replace(
+        body,
+        heights=body.heights[first:end],
+        length=spacings[0] * (end - first),
+        settings={**body.settings, "cropped": f"{first}:{end}"},
+    )
 
 
 def _low_passed(body: BodyType, cutoff: float) -> BodyType:
@@ -231,7 +226,7 @@ def resampled(body: BodyType, points: int | tuple[int, int]) -> BodyType:
 
 
 def _means(heights: Real, axis: int, n: int) -> Real:
-    """Means over n equal pieces along an axis, each cell counting by the part that lies within."""
+    """Means over n equal pieces along an axis; a cell counts by its part within the piece."""
     cells = heights.shape[axis]
     moved = np.moveaxis(heights, axis, 0)
     whole = np.concatenate([np.zeros((1, *moved.shape[1:])), np.cumsum(moved, axis=0)])

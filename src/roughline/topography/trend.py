@@ -12,7 +12,7 @@ from roughline.errors import InputError
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
 DEGREES: dict[str, int] = {"none": -1, "mean": 0, "tilt": 1, "curvature": 2}
-"""Degree of the polynomial that goes by each name."""
+"""Degree of the polynomial of each name."""
 
 _BLOCK = 2**16  # heights changed together
 
@@ -25,15 +25,15 @@ def without_trend(heights: Real, trend: Trend) -> Real:
     heights : ndarray, shape (nx, ny) or (n,)
         Heights on an even grid. [length]
     trend : {"none", "mean", "tilt", "curvature"}
-        Which.
+        Name of the polynomial.
     """
-    left = np.array(heights)
-    remove_trend(left, trend)
-    return left
+    rest = np.array(heights)
+    remove_trend(rest, trend)
+    return rest
 
 
 def remove_trend(heights: Real, trend: Trend) -> None:
-    """Take the least-squares polynomial out of heights in place, without a second copy of them.
+    """Subtract the least-squares polynomial from heights in place, without a second copy of them.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def remove_trend(heights: Real, trend: Trend) -> None:
     if not heights.flags.c_contiguous:
         heights = heights.T  # the polynomials of x and y change places
     heights -= heights.mean()
-    # orthonormal along each side, so each term is a projection: there are no equations to solve
+    # the polynomials are orthonormal along each side, so that projections give the coefficients
     bases = [_polynomials(n, min(degree, n - 1)) for n in heights.shape]
     shares = heights
     for basis in bases:
@@ -81,12 +81,12 @@ def tilt_share(heights: Real, rms_height: float) -> float:
 
 
 def refuse_unknown_trend(trend: str) -> None:
-    """Refuse a name that is no trend.
+    """Refuse a name that no trend has.
 
     Raises
     ------
     InputError
-        If it is none.
+        With the names that there are.
     """
     if trend not in DEGREES:
         raise InputError(f"trend is {trend!r}; one of {', '.join(DEGREES)} is needed")

@@ -1,25 +1,27 @@
-"""Two rough bodies: what one sees of the other is the sum of their heights."""
+"""Two rough bodies in contact, as one: the sum of their heights."""
 
 from __future__ import annotations
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.topography.body import MEASURED, Surface
+from roughline.topography.body import Surface
+from roughline.topography.settings import MEASURED
 
 
 def facing(first: Surface, second: Surface) -> Surface:
     """Return the surface that stands for two that face each other.
 
-    The second is turned over about its y axis, so its x runs backwards, and both are laid on the
-    rectangle and the points that they have in common: the smaller sides, from the corner, and the
-    first one's spacing. Gap and elastic contact depend on the sum of the heights alone. What was
-    cropped or resampled stands in the settings.
+    The second is turned over about its y axis, so its x runs backwards. Both are cropped to the
+    smaller sides, from the corner x = y = 0, and the second is resampled to the spacing of the
+    first. Gap and elastic contact depend on the sum of the heights alone. The settings record what
+    was cropped and resampled.
 
     Parameters
     ----------
     first, second : Surface
-        Heights of both point away from their own bodies, in one unit. [length]
+        Both in one unit; heights of each point away from its body. [length]
 
     Raises
     ------
@@ -38,32 +40,36 @@ def facing(first: Surface, second: Surface) -> Surface:
     )
     if min(shape) < 2:
         raise InputError(f"the surfaces have {shape[0]} x {shape[1]} points in common: too few")
-    dx, dy = first.spacing
+    sizes = (first.spacing[0] * shape[0], first.spacing[1] * shape[1])
     same_grid = np.allclose(first.spacing, second.spacing, rtol=1e-9)
-    if same_grid:
-        other = turned[: shape[0], : shape[1]]
-    else:
-        from scipy import ndimage  # here because it loads slowly
-
-        x, y = (
-            (np.arange(n) + 0.5) * step / other_step - 0.5
-            for n, step, other_step in zip(shape, first.spacing, second.spacing, strict=True)
-        )
-        other = ndimage.map_coordinates(
-            turned, np.meshgrid(x, y, indexing="ij"), order=3, mode="nearest"
-        )
+    other = (
+        turned[: shape[0], : shape[1]] if same_grid else _resampled(turned, shape, first, second)
+    )
+    heights = first.heights[: shape[0], : shape[1]] + other
+    is_cut_out = first.is_cut_out or second.is_cut_out
     settings: dict[str, str | int | float] = {
-        "origin": MEASURED if first.is_cut_out or second.is_cut_out else "two surfaces",
+        "origin": MEASURED if is_cut_out else "two surfaces",
         **{f"first_{key}": value for key, value in first.settings.items()},
         **{f"second_{key}": value for key, value in second.settings.items()},
     }
     for name, body in (("first", first), ("second", second)):
-        lost = [
+        cut_off = [
             size - n * step for size, n, step in zip(body.sizes, shape, first.spacing, strict=True)
         ]
-        if any(gone > 0.5 * step for gone, step in zip(lost, body.spacing, strict=True)):
-            settings[f"{name}_cropped_to"] = f"{dx * shape[0]:.6g} x {dy * shape[1]:.6g}"
+        if any(width > 0.5 * step for width, step in zip(cut_off, body.spacing, strict=True)):
+            settings[f"{name}_cropped_to"] = f"{sizes[0]:.6g} x {sizes[1]:.6g}"
     if not same_grid:
         settings["second_resampled_to"] = f"{shape[0]} x {shape[1]}"
-    heights = first.heights[: shape[0], : shape[1]] + other
-    return Surface(heights, (dx * shape[0], dy * shape[1]), first.unit, settings)
+    return Surface(heights, sizes, first.unit, settings, is_cut_out=is_cut_out)
+
+
+def _resampled(heights: Real, shape: tuple[int, ...], first: Surface, second: Surface) -> Real:
+    """Heights of the second, by cubic splines on the grid of the first."""
+    from scipy import ndimage  # here because it loads slowly
+
+    x, y = (
+        (np.arange(n) + 0.5) * step / other_step - 0.5
+        for n, step, other_step in zip(shape, first.spacing, second.spacing, strict=True)
+    )
+    grid = np.meshgrid(x, y, indexing="ij")
+    return np.asarray(ndimage.map_coordinates(heights, grid, order=3, mode="nearest"))

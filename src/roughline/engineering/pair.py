@@ -1,0 +1,91 @@
+"""Two materials in contact: moduli and properties of the pair."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from roughline.engineering.materials import Material
+from roughline.errors import InputError
+
+
+@dataclass(frozen=True, eq=False)
+class MaterialPair:
+    """Two bodies of given materials in contact.
+
+    Parameters
+    ----------
+    first, second : Material
+        The rough body and the one that it is pressed into, in any order.
+    """
+
+    first: Material
+    second: Material
+
+    @property
+    def E_star(self) -> float:
+        """Contact modulus. [Pa]"""
+        return contact_modulus(self.first, self.second)
+
+    @property
+    def G_star(self) -> float:
+        """Tangential contact modulus. [Pa]"""
+        return tangential_modulus(self.first, self.second)
+
+    @property
+    def hardness(self) -> float | None:
+        """Hardness of the softer body, None if it is not known of both. [Pa]
+
+        A rigid body never yields.
+        """
+        known = [each.hardness for each in (self.first, self.second) if not math.isinf(each.E)]
+        return min(value for value in known if value) if known and all(known) else None
+
+    def lacking(self, quantity: str) -> list[str]:
+        """Name the bodies whose property is not known; a rigid one needs no hardness."""
+        return [
+            f"the {which} body ({each.name})"
+            for which, each in (("first", self.first), ("second", self.second))
+            if getattr(each, quantity) is None
+            and not (quantity == "hardness" and math.isinf(each.E))
+        ]
+
+    def both(self, quantity: str) -> tuple[float, float] | None:
+        """Return a property of both, None unless both are known."""
+        first, second = getattr(self.first, quantity), getattr(self.second, quantity)
+        return None if first is None or second is None else (first, second)
+
+
+def contact_modulus(first: Material, second: Material) -> float:
+    """Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [Pa]
+
+    Raises
+    ------
+    InputError
+        If both materials are rigid.
+    """
+    compliance = sum((1 - each.nu**2) / each.E for each in (first, second))
+    if compliance == 0:
+        raise InputError("both materials are rigid: one of them must give way")
+    return 1 / compliance
+
+
+def tangential_modulus(first: Material, second: Material) -> float:
+    """Tangential contact modulus G*, 1 / G* = (2 - nu1) / (4 G1) + (2 - nu2) / (4 G2). [Pa]
+
+    The tangential stiffness of any contact without slip is G* / E* times the normal one where the
+    two problems are uncoupled; for equal materials that is (2 - 2 nu) / (2 - nu).
+
+    Raises
+    ------
+    InputError
+        If both materials are rigid.
+
+    References
+    ----------
+    V. L. Popov, "Contact Mechanics and Friction", 2nd ed. (2017), eq. 8.8.
+    """
+    compliance = sum((2 - each.nu) / (4 * each.shear_modulus) for each in (first, second))
+    if compliance == 0:
+        raise InputError("both materials are rigid: one of them must give way")
+    return 1 / compliance

@@ -1,0 +1,66 @@
+"""Self-affine laws that a spectrum leaves likely, and the intervals that they span."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+from roughline.computing.arrays import Indices
+from roughline.spectra.self_affine_laws import Laws
+
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False)
+class LikelyLaws:
+    """Laws that explain a spectrum hardly worse than the best one.
+
+    Attributes
+    ----------
+    laws : Laws
+        All laws that were tried.
+    hursts, rolls, ends : ndarray, shape (likely,)
+        Indices of the exponent, the roll-off and the end of each likely law.
+    """
+
+    laws: Laws
+    hursts: Indices
+    rolls: Indices
+    ends: Indices
+
+    @classmethod
+    def of(cls, laws: Laws, level: float) -> LikelyLaws:
+        """Take the laws within a level of the profile likelihood."""
+        return cls(laws, *laws.within(stats.chi2.ppf(level, 1)))
+
+    @property
+    def hurst_interval(self) -> Interval:
+        """Exponents of likely laws, and one step further, as those between were not tried. [1]"""
+        tried = self.laws.hursts
+        step = tried[1] - tried[0]
+        return float(tried[self.hursts.min()] - step), float(tried[self.hursts.max()] + step)
+
+    @property
+    def roll_interval(self) -> Interval:
+        """Roll-offs of likely laws, and the next that was tried on either side. [q_low]
+
+        It begins at zero if a likely law has its roll-off beyond the longest waves of the piece.
+        """
+        tried, first, last = self.laws.rolls, self.rolls.min(), self.rolls.max()
+        begin = tried[max(first - 1, 0)] if tried[first] > 1 else 0.0
+        end = tried[min(last + 1, tried.size - 1)]
+        return float(begin), float(max(end, 1.0))
+
+    @property
+    def end_interval(self) -> Interval:
+        """Ends of likely laws, with their margins; infinite if one has no end. [q_low]"""
+        ends, margins = self.laws.ends, self.laws.margins
+        return float((ends - margins)[self.ends].min()), float((ends + margins)[self.ends].max())
+
+    def spread(self, count: int) -> Iterator[tuple[int, int, int]]:
+        """Give up to so many of the likely laws, evenly spread over all of them."""
+        chosen = np.unique(np.linspace(0, self.hursts.size - 1, count).astype(np.intp))
+        return zip(self.hursts[chosen], self.rolls[chosen], self.ends[chosen], strict=True)

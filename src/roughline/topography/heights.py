@@ -1,0 +1,146 @@
+"""Heights and sizes, checked, and the rms of heights."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.errors import InputError
+
+_LARGEST = 1e150  # beyond it, squares of lengths leave the range of double precision
+_BLOCK = 2**16  # heights summed at a time
+
+
+def checked_heights(heights: Any, dimensions: int) -> Real:
+    """Return heights as a read-only array of finite numbers, without a copy where possible.
+
+    Parameters
+    ----------
+    heights : array_like
+        Heights of a Line or a Surface. [length]
+    dimensions : {1, 2}
+        How many the array is to have.
+
+    Raises
+    ------
+    InputError
+        If they are not real and finite, are masked, or have another number of dimensions.
+    """
+    if isinstance(heights, np.ma.MaskedArray):
+        missing = int(np.count_nonzero(np.ma.getmaskarray(heights)))
+        if missing:
+            raise InputError(
+                f"{missing} of {heights.size} heights are masked; all must be known: fill them "
+                "or crop to where they are"
+            )
+        heights = heights.data
+    try:
+        array = np.asarray(heights)
+        if np.iscomplexobj(array):
+            raise TypeError("complex")
+        array = np.asarray(array, dtype=np.float64)
+        if not array.flags.f_contiguous:  # instruments' maps often run along y first; left so
+            array = np.ascontiguousarray(array)
+        array = array.view()
+    except (TypeError, ValueError) as error:
+        raise InputError(f"the heights are not an array of real numbers ({error})") from error
+    if array.ndim != dimensions:
+        name = {1: "a Line", 2: "a Surface"}[dimensions]
+        raise InputError(
+            f"the heights have {array.ndim} dimensions; {name} takes {dimensions}: reshape them"
+        )
+    largest = max(array.max(), -array.min()) if array.size else 0.0  # NaN if any height is
+    if not np.isfinite(largest):
+        bad = array.size - int(np.count_nonzero(np.isfinite(array)))
+        raise InputError(
+            f"{bad} of {array.size} heights are NaN or infinite; all must be finite: fill or crop "
+            "them first"
+        )
+    if largest > _LARGEST:
+        raise InputError(f"heights reach {largest:.3g}; at most {_LARGEST:g}: rescale")
+    array.flags.writeable = False
+    return array
+
+
+def checked_sides(sizes: Any) -> tuple[float, float]:
+    """Return the sides of a surface.
+
+    Parameters
+    ----------
+    sizes : sequence of float
+        Both sides, (Lx, Ly). [length]
+
+    Raises
+    ------
+    InputError
+        If they are not two positive, finite numbers.
+    """
+    try:
+        sides = tuple(float(size) for size in sizes)
+    except (TypeError, ValueError):
+        sides = ()
+    if len(sides) != 2 or not all(map(_is_length, sides)):
+        raise InputError(f"sizes is {sizes!r}; give two positive, finite numbers (Lx, Ly)")
+    return sides
+
+
+def checked_length(length: Any) -> float:
+    """Return the length of a line.
+
+    Parameters
+    ----------
+    length : float
+        Of the line. [length]
+
+    Raises
+    ------
+    InputError
+        If it is not a positive, finite number.
+    """
+    try:
+        value = float(length)
+    except (TypeError, ValueError):
+        value = np.nan
+    if not _is_length(value):
+        raise InputError(f"length is {length!r}; give a positive number")
+    return value
+
+
+def rms_deviation(heights: Real) -> float:
+    """Root-mean-square deviation from the mean height. [length]"""
+    lowest, highest = float(heights.min()), float(heights.max())
+    if lowest == highest:
+        return 0.0  # rounding of the mean is no roughness
+    mean = float(heights.mean())
+    return rms(heights, mean, max(highest - mean, mean - lowest))
+
+
+def rms(values: Real, mean: float = 0.0, largest: float | None = None) -> float:
+    """Root of the mean square deviation, neither overflowing nor underflowing on the way.
+
+    Blocks are summed one at a time, so that large arrays need no memory of their own size.
+
+    Parameters
+    ----------
+    values : ndarray
+        Any numbers.
+    mean : float
+        Deviations are from this.
+    largest : float, optional
+        Largest deviation; computed from the values where it is not given.
+    """
+    if largest is None:
+        largest = float(np.abs(values).max(initial=0.0))
+    if largest == 0.0:
+        return 0.0
+    flat, total = values.ravel(order="K"), 0.0
+    for start in range(0, flat.size, _BLOCK):
+        deviations = (flat[start : start + _BLOCK] - mean) / largest
+        total += float(np.einsum("i,i->", deviations, deviations))
+    return float(np.sqrt(total / flat.size)) * largest
+
+
+def _is_length(value: float) -> bool:
+    return 1 / _LARGEST < value < _LARGEST

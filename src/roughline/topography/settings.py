@@ -1,0 +1,76 @@
+"""Settings of a body: the record of where its heights come from and of what was done to them.
+
+The record travels with every result. What decides how a body is treated are typed fields of the
+body; where they are not given, the record states them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, get_args
+
+from roughline.errors import InputError
+from roughline.topography.trend import Trend, refuse_unknown_trend
+
+Settings = Mapping[str, str | int | float]
+
+AS_RECORDED: Any = None
+"""Value of a typed field that is not given: it is what the settings record."""
+
+MEASURED = "instrument file"
+"""Origin of what an instrument measured."""
+
+PIECE = "topography"
+"""Origin of a topography of SurfaceTopography that is not periodic, so a piece of a larger one."""
+
+PERIODIC = "periodic topography"
+"""Origin of one that is periodic."""
+
+
+def checked_cut_out(given: object, settings: Settings) -> bool:
+    """Say whether a surface is cut out of a larger one.
+
+    Parameters
+    ----------
+    given : bool or None
+        What the caller says; None: what the settings record.
+    settings : mapping
+        They record a crop or a measurement.
+
+    Raises
+    ------
+    InputError
+        If something else is given.
+    """
+    if given is None:
+        return "cropped" in settings or settings.get("origin") in (MEASURED, PIECE)
+    if not isinstance(given, bool):
+        raise InputError(f"is_cut_out is {given!r}; True or False is needed")
+    return given
+
+
+def checked_trend(given: Trend | None, settings: Settings) -> Trend:
+    """Return the trend that was removed from a body.
+
+    Parameters
+    ----------
+    given : {"none", "mean", "tilt", "curvature"} or None
+        What the caller says; None: what the settings record.
+    settings : mapping
+        They record the last trend that was removed.
+
+    Raises
+    ------
+    InputError
+        If no trend has the name given.
+    """
+    if given is None:
+        names: tuple[Trend, ...] = get_args(Trend)
+        return next((name for name in names if name == settings.get("detrended")), "none")
+    refuse_unknown_trend(given)
+    return given
+
+
+def as_body(settings: Settings) -> Settings:
+    """Return settings with names that say that they are a body's, for the settings of a result."""
+    return {f"body_{name}": value for name, value in settings.items()}
