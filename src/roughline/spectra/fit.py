@@ -17,9 +17,9 @@ from roughline.spectra.profile import ProfileSpectrum
 from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
 
-_LEVEL = 0.975  # of profile likelihoods; 95 in 100 hold the truth, as ends are chosen as well
-_TRIED = 200  # of the likely laws, for what they say of the rms height
-_LEAST_RANGE = 3.0  # of wavenumbers under the power law, to speak of a law
+_LEVEL = 0.975  # of profile likelihoods; as ends are chosen too, 95 in 100 hold the truth
+_TRIED = 200  # likely laws from which the interval of the rms height follows
+_LEAST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
 _MOST_SCATTER = 0.15  # rms of log10 of the spectrum about the law
 
 
@@ -48,10 +48,11 @@ class SelfAffineFit:
     C_0 : float
         Value on the plateau, and at q_roll. [length⁴]
     rms_height : float
-        Of the surface's waves up to the length of the piece: what the piece has, with what the
-        removed mean plane took and without what longer waves added, both by the law. [length]
+        Of the surface's waves up to the length of the piece. It follows from that of the piece by
+        the law: the part that the removed mean plane took is added, and the part that longer waves
+        added is taken away. [length]
     rms_interval : tuple of float
-        Its interval; long waves are few. [length]
+        Its interval; it is wide where long waves are few. [length]
     scatter : float
         Rms of log10 of the spectrum about the law, beyond what chance explains. [1]
     q_low : float
@@ -75,7 +76,7 @@ class SelfAffineFit:
 
     @property
     def objections(self) -> list[str]:
-        """Why a self-affine law does not describe the spectrum; empty where it does."""
+        """Reasons why a self-affine law does not describe the spectrum; empty where it does."""
         objections = []
         low, high = self.hurst_interval
         if high < 0 or low > 1:
@@ -117,11 +118,11 @@ class SelfAffineFit:
 def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffineFit:
     """Fit a self-affine law with roll-off and cutoff by maximum likelihood.
 
-    The mean over the modes of a ring has a gamma distribution (Whittle's likelihood); its
-    expectation is the law smeared as the piece's window and removed mean plane smear it. For each
-    slope, roll-off and end the level follows in closed form. Beyond its end the spectrum is free,
-    at a cost for each value that it takes there. The law of a profile is that of the surface's
-    straight cuts.
+    The mean over the modes of a ring has a gamma distribution (Whittle's likelihood). Its expected
+    value is the law, smeared by the window of the piece and by the removed mean plane. For each
+    slope, roll-off and end the level follows in closed form. Beyond the end of the law the spectrum
+    is free, with a penalty for each level that it has there. A profile is fitted with the straight
+    cuts of surfaces that follow the law.
 
     Parameters
     ----------

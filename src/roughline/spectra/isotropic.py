@@ -32,7 +32,7 @@ class IsotropicSpectrum:
     rms_height : float
         Of the surface. [length]
     modes : ndarray
-        How many modes each mean is of; 0 where it lies between its neighbours. [1]
+        Number of modes in each mean; 0 where it is interpolated between its neighbours. [1]
     windowed : bool
         Whether a Hann window was laid over the heights.
     aspect : float
@@ -91,10 +91,10 @@ class IsotropicSpectrum:
 
 
 def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
-    """Estimate the spectrum of a surface, as if it were alike in all directions.
+    """Estimate the spectrum of a surface, averaged over all directions.
 
-    The mean plane of a surface that is cut out of a larger one is removed, and a Hann window laid
-    over it, as its opposite sides do not meet; a generated one is periodic and taken as it is.
+    Opposite sides of a surface that is cut out of a larger one do not meet, so its mean plane is
+    removed and a Hann window is laid over it. Other surfaces are periodic and taken as they are.
 
     Parameters
     ----------
@@ -108,8 +108,8 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     """
     if min(surface.shape) < 8:
         raise InputError(f"the surface has {surface.shape} points; a spectrum needs 8 x 8 or more")
-    shown = surface.detrended() if surface.is_cut_out else surface
-    heights = shown.heights - shown.heights.mean()
+    level = surface.detrended() if surface.is_cut_out else surface
+    heights = level.heights - level.heights.mean()
     rms = math.sqrt(float((heights**2).mean()))
     if rms == 0:
         raise InputError("the heights are constant: they have no spectrum")

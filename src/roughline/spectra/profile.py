@@ -117,8 +117,8 @@ def cuts_of_surface(edges: Real) -> Cuts:
 def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
     """Estimate the spectrum of straight cuts.
 
-    The tilt is removed. The longest waves, of which a cut has few, are those of a cosine series,
-    which needs no window and wastes none of the cut; a Hann window is laid over it for the others.
+    The tilt is removed. A cut has few long waves. They are taken from a cosine series, which needs
+    no window and so uses the whole cut; for the others a Hann window is laid over it.
 
     Parameters
     ----------

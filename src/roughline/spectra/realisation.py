@@ -100,15 +100,15 @@ def realisation(
 
 
 def _surface_moduli(band: Band, C_0: float, n: int) -> Real:
-    """Moduli of the modes that the real inverse FFT of a surface wants."""
+    """Moduli of the modes that the real inverse FFT of a surface takes."""
     m = np.hypot(np.fft.fftfreq(n, 1 / n)[:, np.newaxis], np.arange(n // 2 + 1))
     weight = np.where((m > 0) & (m < n / 2), band.q_low**2, 0.0)
     return _moduli(band, C_0, m, weight)
 
 
-@lru_cache(maxsize=8)  # an ensemble of lines wants the same moduli for every one
+@lru_cache(maxsize=8)  # an ensemble of lines has the same moduli for all of them
 def _line_moduli(band: Band, C_0: float, n: int) -> Real:
-    """Moduli of the modes that the real inverse FFT of a line wants, from m = 1 on."""
+    """Moduli of the modes that the real inverse FFT of a line takes, from m = 1 on."""
     m = np.arange(1, (n - 1) // 2 + 1, dtype=np.float64)
     return _moduli(band, C_0, m, np.pi * band.q_low**2 * m)
 

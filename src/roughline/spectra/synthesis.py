@@ -14,7 +14,7 @@ from roughline.computing.arrays import Real
 from roughline.computing.compiled import compiled
 from roughline.errors import InputError
 
-_AMPLITUDES = 0x616D706C  # spawn key of the amplitudes, far from those that count realisations
+_AMPLITUDES = 0x616D706C  # spawn key of the amplitudes; no ensemble counts realisations so far
 
 Seed = int | np.random.SeedSequence | np.random.Generator | None
 

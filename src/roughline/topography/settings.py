@@ -1,7 +1,7 @@
 """Settings of a body: the record of where its heights come from and of what was done to them.
 
-The record travels with every result. What decides how a body is treated are typed fields of the
-body; where they are not given, the record states them.
+The record travels with every result. Typed fields of the body decide how it is treated; they
+follow from the record where they are not given.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from roughline.topography.trend import Trend, refuse_unknown_trend
 Settings = Mapping[str, str | int | float]
 
 AS_RECORDED: Any = None
-"""Value of a typed field that is not given: it is what the settings record."""
+"""Default of a typed field: it follows from the settings."""
 
 MEASURED = "instrument file"
 """Origin of what an instrument measured."""
