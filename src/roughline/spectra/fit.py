@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
@@ -145,7 +145,8 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     laws = means.laws
     best = laws.best
     hurst, roll, end = laws.values(*best)
-    likely = laws.within(stats.chi2.ppf(_LEVEL, 1))
+    # a chi-squared variable with one degree of freedom is twice a gamma variable of shape 1/2
+    likely = laws.within(2 * special.gammaincinv(0.5, _LEVEL))
     hursts, rolls, ends = (np.unique(indices) for indices in likely)
     step = laws.hursts[1] - laws.hursts[0]
     first_roll = laws.rolls[max(rolls[0] - 1, 0)] if laws.rolls[rolls[0]] > 1 else 0.0
@@ -185,7 +186,7 @@ def _rms_factors(means: MapRings | ScanBins, laws: Laws, likely: tuple[Indices, 
         whole, piece = means.mean_square(*values)
         power = means.modes * np.exp(means.log_powers(*values))
         shape = power.sum() ** 2 / (2 * (power**2 / means.modes).sum())
-        chance = stats.gamma.ppf([0.975, 0.025], shape) / shape
+        chance = special.gammaincinv(shape, [0.975, 0.025]) / shape
         factors.append(whole / piece / np.array([1.0, *chance]))
     best, low, high = factors[0][0], np.min(factors, axis=0)[1], np.max(factors, axis=0)[2]
     return np.sqrt([best, low, high])
