@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-
-from matplotlib.figure import Figure
-from matplotlib.ticker import PercentFormatter
+from typing import TYPE_CHECKING
 
 from roughline.assessment.source import Source
 from roughline.comparison.models import Comparison, compare
 from roughline.comparison.trust import Difference, trust_map
 from roughline.errors import InputError, StoreError
 from roughline.report.folder import make_folder
-from roughline.report.style import FORCE_LABEL, PAGE, SHADE, colours, new_figure, save, styled
 from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Line, Surface
 from roughline.topography.preparation import prepared
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -159,6 +159,10 @@ def verdict(compared: Compared) -> str:
 
 def compared_figure(result: Comparison, tolerance: float) -> Figure:
     """Both curves, and their relative difference with its interval."""
+    from matplotlib.ticker import PercentFormatter  # here, as to draw loads slowly
+
+    from roughline.report.style import FORCE_LABEL, PAGE, SHADE, colours, new_figure
+
     figure = new_figure(PAGE, 3.0)
     left, right = figure.subplots(1, 2)
     force = result.force_bar
@@ -205,6 +209,8 @@ def _on_map(body: SelfAffine | Surface, force_bar: float) -> Difference | None:
 
 def _write(result: Comparison, tolerance: float, out: Path) -> list[Path]:
     import pandas as pd  # here because it loads slowly
+
+    from roughline.report.style import save, styled
 
     frame = pd.DataFrame(
         {

@@ -11,10 +11,7 @@ from roughline.assessment.source import Source, notes_on_body
 from roughline.errors import InputError
 from roughline.files.measurement import Measurement
 from roughline.files.netcdf import write
-from roughline.report.contact_figures import roughness_figure
 from roughline.report.folder import make_folder
-from roughline.report.measured_figures import measured_figure
-from roughline.report.style import save, styled
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import MissingPattern, missing_pattern
@@ -83,6 +80,11 @@ def describe_file(source: Source, preparation: Preparation | None, out: Path | N
     obstacles = source.obstacles(found)
     files: list[Path] = []
     if out is not None:
+        from roughline.report.measured_figures import (
+            measured_figure,
+        )  # here, as to draw loads slowly
+        from roughline.report.style import save, styled
+
         make_folder(out)
         if missing.count or obstacles:
             with styled():
@@ -96,6 +98,8 @@ def describe_file(source: Source, preparation: Preparation | None, out: Path | N
     except InputError as error:  # a reduced line is no topography
         notes.append(str(error))
     if out is not None:
+        from roughline.report.contact_figures import roughness_figure
+
         if parameters is not None:
             with styled():
                 files += save(roughness_figure(body, parameters), out, "roughness")

@@ -14,8 +14,6 @@ from roughline.assessment.pressing import Announce, press_file
 from roughline.assessment.source import Source
 from roughline.engineering.materials import Material, material
 from roughline.errors import InputError
-from roughline.report.contact_figures import write_pressed
-from roughline.report.contact_report import write_report
 from roughline.topography.preparation import Preparation
 from roughline.units import in_si, refuse_decimal_comma
 
@@ -99,6 +97,11 @@ def ask(
         announce=announce,
         progress=progress,
     )
+    if report is None and out is None:
+        return result
+    from roughline.report.contact_figures import write_pressed  # here, as to draw loads slowly
+    from roughline.report.contact_report import write_report
+
     files: list[Path] = []
     if report is not None and result.interrupted:
         files += write_pressed(result, report)  # a curve, but no answers to report yet

@@ -7,18 +7,20 @@ import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from roughline._version import __version__
-from roughline.assessment.compared import Compared
-from roughline.assessment.described import Described
-from roughline.assessment.pressed import Pressed
-from roughline.campaign.run import Summary
-from roughline.campaign.store import Store
 from roughline.contact.curve import Status
 from roughline.topography.body import Body, Surface
+
+if TYPE_CHECKING:
+    from roughline.assessment.compared import Compared
+    from roughline.assessment.described import Described
+    from roughline.assessment.pressed import Pressed
+    from roughline.campaign.run import Summary
+    from roughline.campaign.store import Store
 
 
 def to_json(content: Mapping[str, Any]) -> str:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from rich.console import Console
@@ -26,9 +26,6 @@ from rich.text import Text
 
 from roughline.assessment.compared import Compared, compared_table, verdict
 from roughline.assessment.described import Described, described_table, missing_map
-from roughline.assessment.pressed import Pressed
-from roughline.campaign.run import Summary
-from roughline.campaign.store import Store
 from roughline.contact.curve import Status
 from roughline.report.contact_tables import (
     UNRESOLVED,
@@ -37,9 +34,14 @@ from roughline.report.contact_tables import (
     star_is_shown,
 )
 from roughline.report.page import value_and_interval
-from roughline.theories.theory import TheoryCurve
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.pressed import Pressed
+    from roughline.campaign.run import Summary
+    from roughline.campaign.store import Store
+    from roughline.theories.theory import TheoryCurve
 
 _MOST_SHOWN = 200  # loads that anybody reads as a table
 _MOST_ANSWERED = 3  # loads whose answers fit on a screen
