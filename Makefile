@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak fuzz study published architecture clean
+.PHONY: paper paper-full test check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak start-up fuzz study published architecture clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -51,6 +51,9 @@ robustness: $(VENV)/installed
 
 soak: $(VENV)/installed
 	$(BIN)/python benchmarks/soak.py 100 1
+
+start-up: $(VENV)/installed
+	$(BIN)/python benchmarks/start_up.py
 
 fuzz: $(VENV)/installed
 	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from dask_processes import start_scheduler, start_worker
 from roughline import cli
 
 _STUDY = Path(__file__).parents[1] / "studies" / "paper" / "data"
@@ -37,6 +38,17 @@ def holed(tmp_path):
     heights[10:13, 20:25] = np.nan
     np.save(tmp_path / "holed.npy", heights)
     return tmp_path / "holed.npy", "--unit", "m", "--size", "1 mm"
+
+
+@pytest.fixture(scope="session")
+def two_workers(tmp_path_factory):
+    """Address of a scheduler with two workers, for campaigns whose own processes do not matter."""
+    scheduler, address = start_scheduler(tmp_path_factory.mktemp("two_workers"))
+    workers = [start_worker(address, "--nthreads", "1") for _ in range(2)]
+    yield address
+    for process in (*workers, scheduler):
+        process.kill()
+        process.wait()
 
 
 @pytest.fixture

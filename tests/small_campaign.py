@@ -26,6 +26,11 @@ realisations = 62
 force_bars = { from = 1e-3, to = 10, per_decade = 6 }
 """
 
+FEW = PLAN.replace("realisations = 60", "realisations = 6").replace(
+    "realisations = 62", "realisations = 4"
+)
+"""The same with 30 cases."""
+
 
 def tree(store):
     """All files of a store, byte by byte."""

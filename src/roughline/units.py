@@ -82,6 +82,8 @@ def in_si(text: str, unit: str, name: str) -> float:
     try:
         if not parts:
             raise ValueError("no number with a unit")
+        if parts["unit"] == unit:  # nothing to convert, so the registry need not load
+            return float(f"{float(parts['number']):.{_EXACT}g}")
         units = _registry().parse_units(_EXPONENT.sub(r"**\1", parts["unit"].replace("·", "*")))
         value = _registry().Quantity(float(parts["number"]), units).to(unit).magnitude
         return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without the prefix's rounding

@@ -16,26 +16,13 @@ from roughline.campaign.cost import chunk_shape, cost_of, workers_that_fit
 from roughline.campaign.export import export
 from roughline.campaign.run import log_of
 from roughline.campaign.writer import writing
-from small_campaign import PLAN, tree
+from roughline.computing import fft
+from small_campaign import tree
 
 
 @pytest.fixture(scope="module")
-def plan(tmp_path_factory):
-    path = tmp_path_factory.mktemp("plan") / "plan.toml"
-    path.write_text(PLAN)
-    return campaign.read_plan(path)
-
-
-@pytest.fixture(scope="module")
-def finished(plan, tmp_path_factory):
-    path = tmp_path_factory.mktemp("finished") / "store.zarr"
-    told = []
-    summary = campaign.run(plan, path, progress=lambda *told_now: told.append(told_now))
-    assert (summary.done["lines"], summary.done["surfaces"]) == (180, 186)
-    assert told[:2] == [("lines", 0, 0, 180), ("surfaces", 0, 0, 186)]
-    assert ("lines", 180, 0, 180) in told
-    assert ("surfaces", 186, 0, 186) in told
-    return path
+def plan(plan_file):
+    return campaign.read_plan(plan_file)
 
 
 def smaller(plan, dimensions=None, realisations=None):
@@ -102,12 +89,12 @@ def test_nothing_is_computed_twice(plan, finished, tmp_path):
 @pytest.mark.parametrize(
     "cut", [{"realisations": 7}, {"dimensions": (2.4,)}, {"dimensions": (3.0, 2.0)}]
 )
-def test_an_extended_store_holds_what_a_large_one_holds(plan, finished, tmp_path, cut):
+def test_an_extended_store_holds_what_a_large_one_holds(plan, finished, two_workers, tmp_path, cut):
     first = smaller(plan, **cut)
     path = tmp_path / "store"
-    campaign.run(first, path)
+    campaign.run(first, path, scheduler=two_workers)
     early = {name: campaign.Store(path).dataset(name) for name in ("lines", "surfaces")}
-    summary = campaign.run(plan, path)
+    summary = campaign.run(plan, path, scheduler=two_workers)
     assert sum(summary.done.values()) == plan.cases - first.cases
     for name, before in early.items():
         data = campaign.Store(path).dataset(name)
@@ -176,7 +163,7 @@ def test_folders_that_are_no_store(plan, finished, tmp_path):
         campaign.Store(finished).dataset("waves")
 
 
-def test_a_case_that_fails_is_recorded_and_stops_no_other(plan, tmp_path, monkeypatch):
+def test_a_case_that_fails_is_recorded_and_stops_no_other(plan, two_workers, tmp_path, monkeypatch):
     """The reasons lie in the store; the next run tries again and leaves no trace of them."""
     small = smaller(plan, realisations=4)
     original = batches.evaluate_case
@@ -201,10 +188,10 @@ def test_a_case_that_fails_is_recorded_and_stops_no_other(plan, tmp_path, monkey
     assert np.isnan(hurt.stiffness.sel(fractal_dimension=2.4, realisation=2)).all()
     assert int(np.isnan(hurt.stiffness).any("force_bar").sum()) == 1
     monkeypatch.undo()
-    summary = campaign.run(small, path)
+    summary = campaign.run(small, path, scheduler=two_workers)
     assert summary.done == {"lines": 1, "surfaces": 1}
     assert campaign.Store(path).failures("lines") == {}
-    campaign.run(small, tmp_path / "undisturbed")
+    campaign.run(small, tmp_path / "undisturbed", scheduler=two_workers)
     assert tree(path) == tree(tmp_path / "undisturbed")
 
 
@@ -314,6 +301,6 @@ def test_the_cost_is_told_before_the_work(plan, finished, tmp_path):
 )
 def test_workers_and_threads_fit_the_machine(plan, tmp_path, options, message):
     if options.get("workers") == 10**3:
-        options = options | {"workers": rl.fft.available_cores()}
+        options = options | {"workers": fft.available_cores()}
     with pytest.raises(rl.InputError, match=message):
         campaign.run(smaller(plan, realisations=1), tmp_path / "store", **options)

@@ -12,38 +12,29 @@ import roughline as rl
 from dask_processes import start_scheduler, start_worker
 from roughline import campaign
 from roughline.campaign import cluster
-from small_campaign import PLAN, run, tree
-
-FEW = PLAN.replace("realisations = 60", "realisations = 6").replace(
-    "realisations = 62", "realisations = 4"
-)
+from small_campaign import run, tree
 
 
-@pytest.fixture(scope="module")
-def plan(tmp_path_factory):
-    path = tmp_path_factory.mktemp("plan") / "plan.toml"
-    path.write_text(FEW)
-    return path
+@pytest.fixture
+def plan(few_plan_file):
+    return few_plan_file
 
 
-def test_a_cluster_gives_the_same_bytes(plan, tmp_path, dask_cluster):
-    _, address = dask_cluster
-    code, out, err = run(plan, tmp_path / "far", "--scheduler", address)
+def test_a_cluster_gives_the_same_bytes(plan, few_undisturbed, two_workers, tmp_path):
+    code, out, err = run(plan, tmp_path / "far", "--scheduler", two_workers)
     assert code == 0, err
     assert "30 cases computed, 0 failed" in out
     assert "dashboard: http" in err
-    assert run(plan, tmp_path / "near", "--workers", 1)[0] == 0
-    assert tree(tmp_path / "far") == tree(tmp_path / "near")
+    assert tree(tmp_path / "far") == few_undisturbed
 
 
-def test_workers_with_several_threads_give_the_same_bytes(plan, tmp_path):
+def test_workers_with_several_threads_give_the_same_bytes(plan, few_undisturbed, tmp_path):
     """Two cases at a time in one process: nothing is shared between them."""
     scheduler, address = start_scheduler(tmp_path)
     worker = start_worker(address, "--nthreads", "2")
     try:
-        assert run(plan, tmp_path / "far", "--scheduler", address)[0] == 0
-        assert run(plan, tmp_path / "near", "--workers", 2)[0] == 0
-        assert tree(tmp_path / "far") == tree(tmp_path / "near")
+        campaign.run(campaign.read_plan(plan), tmp_path / "far", scheduler=address)
+        assert tree(tmp_path / "far") == few_undisturbed
     finally:
         for process in (worker, scheduler):
             process.kill()
@@ -70,7 +61,7 @@ def test_a_scheduler_without_workers(plan, tmp_path, monkeypatch):
         scheduler.wait()
 
 
-def test_workers_of_another_version(plan, tmp_path):
+def test_workers_of_another_version(plan, tmp_path, invoke):
     """Told before anything is computed, with the address of the worker."""
     fake = tmp_path / "fake"
     fake.mkdir()
@@ -80,7 +71,9 @@ def test_workers_of_another_version(plan, tmp_path):
     scheduler, address = start_scheduler(tmp_path)
     worker = start_worker(address, env={**os.environ, "PYTHONPATH": str(fake)})
     try:
-        code, _, err = run(plan, tmp_path / "store", "--scheduler", address)
+        code, _, err = invoke(
+            *("campaign", "run", plan, "--store", tmp_path / "store", "--scheduler", address)
+        )
         assert code == 2
         last = err.splitlines()[-1]
         assert "a worker has roughline 0.0.9, this is" in last
@@ -92,14 +85,16 @@ def test_workers_of_another_version(plan, tmp_path):
             process.wait()
 
 
-def test_workers_without_roughline(plan, tmp_path):
+def test_workers_without_roughline(plan, tmp_path, invoke):
     fake = tmp_path / "fake" / "roughline"
     fake.mkdir(parents=True)
     (fake / "__init__.py").write_text("")  # a package of that name with nothing in it
     scheduler, address = start_scheduler(tmp_path)
     worker = start_worker(address, env={**os.environ, "PYTHONPATH": str(fake.parent)})
     try:
-        code, _, err = run(plan, tmp_path / "store", "--scheduler", address)
+        code, _, err = invoke(
+            *("campaign", "run", plan, "--store", tmp_path / "store", "--scheduler", address)
+        )
         assert code == 2
         assert "has no roughline; install version" in err.splitlines()[-1]
         assert "Traceback" not in err

@@ -12,26 +12,29 @@ import time
 import psutil
 import pytest
 
+from roughline import campaign
 from roughline.campaign.cluster import interrupts_held_back
-from small_campaign import PLAN, finish, hear_interrupts, run, start, tree
+from small_campaign import finish, hear_interrupts, run, start, tree
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "killpg"), reason="signals of POSIX")
 
 
-@pytest.fixture(scope="module")
-def plan(tmp_path_factory):
-    path = tmp_path_factory.mktemp("plan") / "plan.toml"
-    path.write_text(PLAN)
-    return path
+@pytest.fixture
+def plan(plan_file):
+    return plan_file
 
 
-@pytest.fixture(scope="module")
-def undisturbed(plan, tmp_path_factory):
-    store = tmp_path_factory.mktemp("undisturbed") / "store.zarr"
-    code, out, err = run(plan, store)
-    assert code == 0, err
-    assert "366 cases computed, 0 failed" in out
-    return tree(store)
+@pytest.fixture
+def resume(plan, undisturbed, two_workers):
+    """Run a campaign to its end, and see that it has the bytes of an undisturbed one."""
+
+    def run_on(store):
+        summary = campaign.run(campaign.read_plan(plan), store, scheduler=two_workers)
+        assert not summary.failed.total()
+        assert tree(store) == undisturbed
+        return summary.done.total()
+
+    return run_on
 
 
 def wait_for_results(store, process, count=5):
@@ -53,13 +56,6 @@ def workers_of(process):
     ]
 
 
-def resume(plan, store, undisturbed):
-    code, out, err = run(plan, store)
-    assert code == 0, err
-    assert tree(store) == undisturbed
-    return out
-
-
 def test_a_worker_killed(plan, undisturbed, tmp_path):
     store = tmp_path / "store"
     process = start(plan, store)
@@ -72,7 +68,7 @@ def test_a_worker_killed(plan, undisturbed, tmp_path):
     assert tree(store) == undisturbed
 
 
-def test_the_client_killed(plan, undisturbed, tmp_path):
+def test_the_client_killed(plan, resume, tmp_path):
     store = tmp_path / "store"
     process = start(plan, store)
     wait_for_results(store, process)
@@ -81,11 +77,10 @@ def test_the_client_killed(plan, undisturbed, tmp_path):
     finish(process)
     _, alive = psutil.wait_procs(workers, timeout=30)
     assert not alive, "workers outlive their client"
-    out = resume(plan, store, undisturbed)
-    assert "366 cases computed" not in out, "what was done is computed again"
+    assert resume(store) < 366, "what was done is computed again"
 
 
-def test_the_scheduler_killed(plan, undisturbed, tmp_path, dask_cluster):
+def test_the_scheduler_killed(plan, resume, tmp_path, dask_cluster):
     store = tmp_path / "store"
     scheduler, address = dask_cluster
     process = start(plan, store, "--scheduler", address)
@@ -95,10 +90,10 @@ def test_the_scheduler_killed(plan, undisturbed, tmp_path, dask_cluster):
     assert code == 2
     assert "the Dask scheduler is gone; what is done is kept" in err
     assert "Traceback" not in err
-    resume(plan, store, undisturbed)
+    resume(store)
 
 
-def test_ctrl_c(plan, undisturbed, tmp_path):
+def test_ctrl_c(plan, resume, tmp_path):
     store = tmp_path / "store"
     process = start(plan, store)
     wait_for_results(store, process)
@@ -109,7 +104,7 @@ def test_ctrl_c(plan, undisturbed, tmp_path):
     assert "interrupted; what is done is kept in" in err
     assert "Traceback" not in err
     assert not psutil.wait_procs(workers, timeout=10)[1]
-    resume(plan, store, undisturbed)
+    resume(store)
 
 
 def test_ctrl_c_in_a_script_ends_in_one_line(plan, tmp_path):
@@ -155,20 +150,19 @@ def test_interrupts_wait_for_what_must_be_whole():
         signal.signal(signal.SIGINT, before)
 
 
-def test_terminated(plan, undisturbed, tmp_path):
+def test_terminated(plan, resume, tmp_path):
     """What batch systems send when time is up."""
     store = tmp_path / "store"
     process = start(plan, store)
     wait_for_results(store, process)
     process.terminate()
     finish(process, timeout=20)
-    resume(plan, store, undisturbed)
+    resume(store)
 
 
-def test_files_cut_off(plan, undisturbed, tmp_path):
+def test_files_cut_off(finished, resume, tmp_path):
     """Any chunk, of values, of marks or of coordinates, cut to half or to nothing, or lost."""
-    code, _, err = run(plan, tmp_path / "store")
-    assert code == 0, err
+    shutil.copytree(finished, tmp_path / "store")
     chunks = sorted(path for path in (tmp_path / "store").rglob("c/**/*") if path.is_file())
     assert len(chunks) > 100
     for i, path in enumerate(chunks[::3]):
@@ -177,40 +171,38 @@ def test_files_cut_off(plan, undisturbed, tmp_path):
             path.unlink()
         else:
             path.write_bytes([content[: len(content) // 2], b"", b"\xff" + content[1:]][i % 4])
-    resume(plan, tmp_path / "store", undisturbed)
+    resume(tmp_path / "store")
 
 
-def test_one_chunk_cut_off_costs_no_more_than_itself(plan, undisturbed, tmp_path):
+def test_one_chunk_cut_off_costs_no_more_than_itself(finished, resume, tmp_path):
     store = tmp_path / "store"
-    assert run(plan, store)[0] == 0
+    shutil.copytree(finished, store)
     chunk = next(path for path in (store / "surfaces/stiffness").rglob("c/**/*") if path.is_file())
     chunk.write_bytes(chunk.read_bytes()[:-1])
-    out = resume(plan, store, undisturbed)
-    computed = int(out.split()[0])
-    assert 0 < computed <= 30
+    assert 0 < resume(store) <= 30
 
 
-def test_a_write_that_was_broken_off(plan, undisturbed, tmp_path):
+def test_a_write_that_was_broken_off(finished, resume, tmp_path):
     """Leftovers of a killed writer, and values whose marks were not written."""
     store = tmp_path / "store"
-    assert run(plan, store)[0] == 0
+    shutil.copytree(finished, store)
     (store / "surfaces" / "stiffness" / "c" / "0" / "0" / "0.abc.partial").write_bytes(b"half")
     shutil.rmtree(store / "surfaces" / "case_status" / "c" / "1")
-    resume(plan, store, undisturbed)
+    resume(store)
 
 
-def test_two_campaigns_on_one_store(plan, undisturbed, tmp_path):
+def test_two_campaigns_on_one_store(plan, undisturbed, tmp_path, invoke):
     store = tmp_path / "store"
     first = start(plan, store)
     wait_for_results(store, first, 1)
-    code, _, err = run(plan, store)
+    code, _, err = invoke("campaign", "run", plan, "--store", store)
     assert code == 2
     assert "is in use by another campaign: wait for it to end" in err
     assert finish(first)[0] == 0
     assert tree(store) == undisturbed
 
 
-def test_a_disk_that_is_full(plan, undisturbed, tmp_path):
+def test_a_disk_that_is_full(plan, resume, tmp_path):
     """A file system of its own, which somebody else fills up; room is made later."""
     disk = tmp_path / "disk"
     disk.mkdir()
@@ -230,12 +222,12 @@ def test_a_disk_that_is_full(plan, undisturbed, tmp_path):
         assert "what is done is kept" in err
         assert "Traceback" not in err
         (disk / "filler").unlink()
-        resume(plan, store, undisturbed)
+        resume(store)
     finally:
         subprocess.run(["umount", "-l", str(disk)], check=False)
 
 
-def test_files_that_may_not_grow(plan, undisturbed, tmp_path):
+def test_files_that_may_not_grow(plan, resume, tmp_path):
     """The same where no disk can be mounted: the system refuses to write on."""
 
     def limit():
@@ -247,7 +239,7 @@ def test_files_that_may_not_grow(plan, undisturbed, tmp_path):
     assert code == 2
     assert "cannot write to" in err
     assert "what is done is kept" in err
-    resume(plan, store, undisturbed)
+    resume(store)
 
 
 def test_a_script_without_a_guard(plan, tmp_path):

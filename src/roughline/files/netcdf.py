@@ -72,20 +72,20 @@ def read_body_file(path: Path) -> Measurement | None:
     InputError
         If memory cannot hold it.
     """
-    import xarray
+    import h5netcdf  # here because it loads slowly; xarray loads even more slowly
 
     try:
-        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-            if dataset.attrs.get("format") != _FORMAT:
+        with h5netcdf.File(path, "r") as file:
+            if file.attrs.get("format") != _FORMAT:
                 return None
-            points = dataset["heights"].shape
+            points = file["heights"].shape
             refuse_beyond_memory(
                 2 * 8 * math.prod(points),
                 f"reading the {' x '.join(map(str, points))} points of {path.name}",
                 "take a smaller piece",
             )
-            heights = dataset["heights"].values
-            attrs = dataset.attrs
+            heights = file["heights"][:]
+            attrs = dict(file.attrs)
     except (OSError, ValueError, KeyError):
         return None
     settings = {

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Indices, Real
-from roughline.computing.compiled import compiled
 
 _MOST_BINS = 2**16  # a bin's number has 16 bits; more bins would not fit into a core's cache
 
@@ -75,10 +74,12 @@ class Springs:
     @cached_property
     def _binned(self) -> tuple[NDArray[np.uint16], Indices, Real]:
         """The bin of each spring; number of springs and sum of separations in each bin."""
+        from roughline.reduction.loops import fill_bins  # here because numba loads slowly
+
         bins = np.empty(self.heights.size, dtype=np.uint16)
         counts = np.zeros(self._bin_count, dtype=np.intp)
         sums = np.zeros(self._bin_count)
-        _fill_bins(self.heights, self._highest, self._bins_per_length, bins, counts, sums)
+        fill_bins(self.heights, self._highest, self._bins_per_length, bins, counts, sums)
         return bins, counts, sums
 
     @cached_property
@@ -198,21 +199,3 @@ class SpringsInContact:
     def depth_under(self, forces: Real) -> Real:
         """Depth under the positive forces. [length]"""
         return (forces / self.spring_stiffness + self.sum) / self.count
-
-
-@compiled
-def _fill_bins(
-    heights: Real,
-    highest: float,
-    bins_per_length: float,
-    bins: NDArray[np.uint16],
-    counts: Indices,
-    sums: Real,
-) -> None:
-    """Find the bin of each spring; add it to the number and the sum there."""
-    for i in range(heights.size):
-        separation = highest - heights[i]
-        bin_ = int(separation * bins_per_length)
-        bins[i] = bin_
-        counts[bin_] += 1
-        sums[bin_] += separation

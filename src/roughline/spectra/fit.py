@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
@@ -178,7 +178,7 @@ def _rms_factors(observed: MapRings | ScanBins, likely: LikelyLaws) -> Real:
         whole, piece = observed.mean_square(*values)
         power = observed.modes * np.exp(observed.log_powers(*values))
         shape = power.sum() ** 2 / (2 * (power**2 / observed.modes).sum())
-        chance = stats.gamma.ppf([0.975, 0.025], shape) / shape
+        chance = special.gammaincinv(shape, [0.975, 0.025]) / shape
         factors.append(whole / piece / np.array([1.0, *chance]))
     best, low, high = factors[0][0], np.min(factors, axis=0)[1], np.max(factors, axis=0)[2]
     return np.sqrt([best, low, high])

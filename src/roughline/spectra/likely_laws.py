@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy import special
 
 from roughline.computing.arrays import Indices
 from roughline.spectra.self_affine_laws import Laws
@@ -34,7 +34,8 @@ class LikelyLaws:
     @classmethod
     def of(cls, laws: Laws, level: float) -> LikelyLaws:
         """Take the laws within a level of the profile likelihood."""
-        return cls(laws, *laws.within(stats.chi2.ppf(level, 1)))
+        # a chi-squared variable with one degree of freedom is twice a gamma variable of shape 1/2
+        return cls(laws, *laws.within(2 * special.gammaincinv(0.5, level)))
 
     @property
     def hurst_interval(self) -> Interval:

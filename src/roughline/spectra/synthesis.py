@@ -7,14 +7,14 @@ same seed repeats the draws of the coarser one and adds to them.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from roughline.computing.compiled import compiled
 from roughline.errors import InputError
 
 _AMPLITUDES = 0x616D706C  # spawn key of the amplitudes; no ensemble counts realisations so far
+_STEPS = 4096  # of a turn, from which phases are reached by a small rotation
+_TURN = np.exp(2j * np.pi * np.arange(_STEPS) / _STEPS)
 
 Seed = int | np.random.SeedSequence | np.random.Generator | None
 
@@ -117,11 +117,13 @@ def line_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: in
     n : int
         Points. The mean and, for even n, the Nyquist mode are zero.
     """
+    from roughline.spectra.loops import set_line_modes  # here because numba loads slowly
+
     # the one array holds draws, modes and heights in turn: fresh memory costs more than the FFT
     heights = np.empty(n)
     draws = heights[n - amplitudes.size :]
     rng.random(out=draws)
-    _set_line_modes(heights, amplitudes, draws, scale, _TURN)
+    set_line_modes(heights, amplitudes, draws, scale, _TURN)
     fft.synthesise_line(heights)
     return heights
 
@@ -140,57 +142,10 @@ def surface_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n:
     n : int
         Points along each side.
     """
+    from roughline.spectra.loops import set_modes  # here because numba loads slowly
+
     modes = np.empty(amplitudes.shape, dtype=np.complex128)
-    _set_modes(modes.ravel(), amplitudes.ravel(), surface_draws(n, rng).ravel(), scale, _TURN)
+    set_modes(modes.ravel(), amplitudes.ravel(), surface_draws(n, rng).ravel(), scale, _TURN)
     half = (n - 1) // 2
     modes[n - half :, 0] = modes[half:0:-1, 0].conj()
     return fft.synthesise(modes, n)
-
-
-_STEPS = 4096  # of a turn, from which phases are reached by a small rotation
-_TURN = np.exp(2j * np.pi * np.arange(_STEPS) / _STEPS)
-
-
-@compiled
-def _phase(draw: float, turn: NDArray[np.complex128]) -> complex:
-    """Return exp(2 pi i draw), several times faster than cosine and sine.
-
-    A table of the circle, and cosine and sine of the small rest of the angle by their series, of
-    which the first term left out is below 1e-19.
-    """
-    step = int(draw * turn.size)
-    angle = 2 * np.pi * (draw - step / turn.size)
-    square = angle * angle
-    cosine = 1 - square / 2 * (1 - square / 12)
-    sine = angle * (1 - square / 6 * (1 - square / 20))
-    return turn[step] * complex(cosine, sine)
-
-
-@compiled
-def _set_modes(
-    modes: NDArray[np.complex128],
-    amplitudes: Real,
-    draws: Real,
-    scale: float,
-    turn: NDArray[np.complex128],
-) -> None:
-    """Set modes of given moduli and phases (over 2 pi), over flat arrays."""
-    for i in range(modes.size):
-        modes[i] = scale * amplitudes[i] * _phase(draws[i], turn)
-
-
-@compiled
-def _set_line_modes(
-    line: Real, amplitudes: Real, draws: Real, scale: float, turn: NDArray[np.complex128]
-) -> None:
-    """Set the modes of a line as the real transform wants them: mean, then real and imaginary.
-
-    `draws` may be the end of `line`: each is read before it is overwritten.
-    """
-    line[0] = 0.0
-    for i in range(amplitudes.size):
-        mode = scale * amplitudes[i] * _phase(draws[i], turn)
-        line[2 * i + 1] = mode.real
-        line[2 * i + 2] = mode.imag
-    if line.size % 2 == 0:
-        line[line.size - 1] = 0.0

@@ -1,0 +1,79 @@
+"""What commands load: libraries that take long to load stay out where they are not needed."""
+
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughline as rl
+
+TO_DRAW = {"matplotlib", "reportlab", "bokeh"}
+TO_STORE = {"xarray", "pandas", "zarr", "distributed", "h5py", "h5netcdf"}
+TO_READ = {"SurfaceTopography"}
+TO_SOLVE = {"numba"}
+TO_DESCRIBE = {"scipy.stats", "scipy.optimize"}
+UNITS = {"pint"}
+
+SIDES = ("--unit", "um", "--size", "1 mm")
+LOADED = """
+import atexit, sys
+atexit.register(lambda: print(*sys.modules, file=sys.stderr))
+from roughline.cli import main
+main()
+"""
+
+
+def loaded_by(*arguments):
+    """Names of the modules that a command has loaded when it ends."""
+    command = [sys.executable, "-c", LOADED, *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return set(done.stderr.splitlines()[-1].split())
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """One surface as an array, as a file of our own, and as text that SurfaceTopography reads."""
+    folder = tmp_path_factory.mktemp("start_up")
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
+    surface = replace(spectrum.surface(32, 7), unit="m")
+    np.save(folder / "map.npy", surface.heights * 1e6)
+    np.savetxt(folder / "map.txt", surface.heights * 1e6)
+    rl.write(surface, folder / "map.nc")
+    return folder
+
+
+def test_to_describe_an_array_loads_no_other_library(files):
+    loaded = loaded_by("info", files / "map.npy", *SIDES)
+    assert not loaded & (TO_DRAW | TO_STORE | TO_READ | TO_SOLVE | TO_DESCRIBE)
+
+
+def test_to_describe_our_own_file_loads_no_units(files):
+    loaded = loaded_by("info", files / "map.nc")
+    allowed = {"h5py", "h5netcdf"}
+    assert not loaded & ((TO_DRAW | TO_STORE | TO_READ | TO_SOLVE | TO_DESCRIBE | UNITS) - allowed)
+
+
+def test_to_press_an_array_loads_nothing_for_figures_and_tables(files):
+    loaded = loaded_by("press", files / "map.npy", *SIDES, "--modulus", "110 GPa", "--load", "1 N")
+    assert not loaded & (TO_DRAW | TO_STORE | TO_READ | TO_DESCRIBE)
+    assert "numba" in loaded
+
+
+def test_to_describe_what_an_instrument_measured_loads_its_reader_alone(files):
+    """SurfaceTopography loads some of our libraries itself."""
+    code = "import sys, SurfaceTopography.IO; print(*sys.modules)"
+    reader = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", code], capture_output=True, text=True, check=True
+    )
+    loaded = loaded_by("info", files / "map.txt", *SIDES)
+    assert "SurfaceTopography" in loaded
+    assert not (loaded - set(reader.stdout.split())) & (TO_DRAW | TO_STORE | TO_SOLVE | TO_DESCRIBE)
+
+
+def test_the_package_runs_as_a_module():
+    command = [sys.executable, "-m", "roughline", "--version"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == f"roughline {rl.__version__}\n"
