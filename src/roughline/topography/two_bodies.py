@@ -43,7 +43,9 @@ def facing(first: Surface, second: Surface) -> Surface:
     sizes = (first.spacing[0] * shape[0], first.spacing[1] * shape[1])
     same_grid = np.allclose(first.spacing, second.spacing, rtol=1e-9)
     other = (
-        turned[: shape[0], : shape[1]] if same_grid else _resampled(turned, shape, first, second)
+        turned[: shape[0], : shape[1]]
+        if same_grid
+        else _on_grid_of_first(turned, shape, first, second)
     )
     heights = first.heights[: shape[0], : shape[1]] + other
     is_cut_out = first.is_cut_out or second.is_cut_out
@@ -63,7 +65,9 @@ def facing(first: Surface, second: Surface) -> Surface:
     return Surface(heights, sizes, first.unit, settings, is_cut_out=is_cut_out)
 
 
-def _resampled(heights: Real, shape: tuple[int, ...], first: Surface, second: Surface) -> Real:
+def _on_grid_of_first(
+    heights: Real, shape: tuple[int, ...], first: Surface, second: Surface
+) -> Real:
     """Heights of the second, by cubic splines on the grid of the first."""
     from scipy import ndimage  # here because it loads slowly
 
