@@ -100,7 +100,7 @@ def compare_models(
 def _surface(file: Path, reading: Reading) -> Surface:
     """The surface in a file."""
     content = measurement(file, reading.channel)
-    body = prepared(measured_body(content, reading, None))
+    body = prepared(measured_body(content, reading, None, in_place=True))
     if isinstance(body, Line):
         raise InputError(f"{file} holds a line; the models are compared on a surface")
     return body

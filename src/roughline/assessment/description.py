@@ -80,7 +80,7 @@ def describe(
     obstacles = [str(each) for each in content.obstacles(reading.unit, reading.sizes, filling)]
     if obstacles:
         return Description(file, reading.unit, content, missing, obstacles)
-    body = prepared(measured_body(content, reading, preparation), preparation)
+    body = prepared(measured_body(content, reading, preparation, in_place=False), preparation)
     notes, parameters = suspicions(body) + filled_points_and_spikes(body), None
     try:
         parameters = roughness(body)

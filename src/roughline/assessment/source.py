@@ -58,10 +58,8 @@ class Topography:
         if isinstance(given, Surface | Line):
             return cls(prepared(given, preparation), None, None, reading, preparation)
         content = measurement(given, reading.channel)
-        kept = None
-        if not content.by_roughline and content.unknown.any():
-            kept = replace(content, heights=np.ma.array(content.heights, copy=True))
-        body = measured_body(content, reading, preparation)
+        kept = content if not content.by_roughline and content.unknown.any() else None
+        body = measured_body(content, reading, preparation, in_place=kept is None)
         return cls(prepared(body, preparation), given, kept, reading, preparation)
 
     @property
@@ -73,10 +71,9 @@ class Topography:
         """The body with its missing points filled by a method; itself where they are not known."""
         if self.measurement is None:
             return self.body
-        heights = np.ma.array(self.measurement.heights, copy=True)
-        content = replace(self.measurement, heights=heights)
         reading = replace(self.reading, missing=method)
-        return prepared(measured_body(content, reading, self.preparation), self.preparation)
+        body = measured_body(self.measurement, reading, self.preparation, in_place=False)
+        return prepared(body, self.preparation)
 
     @cached_property
     def filled_region(self) -> Surface | None:
@@ -94,11 +91,16 @@ class Topography:
         return replace(cropped, heights=np.sign(cropped.heights))
 
 
-def measured_body(content: Measurement, reading: Reading, preparation: Preparation | None) -> Body:
-    """The body that a file holds; its trend is left to the preparation if that names one."""
+def measured_body(
+    content: Measurement, reading: Reading, preparation: Preparation | None, *, in_place: bool
+) -> Body:
+    """The body that a file holds; its trend is left to the preparation if that names one.
+
+    In place, the heights of the content are used up, which saves memory.
+    """
     trend: Trend = "none" if preparation and preparation.trend else "tilt"
     filling = Missing(reading.missing, reading.most_missing)
-    return content.body(reading.unit, reading.sizes, filling, trend)
+    return content.body(reading.unit, reading.sizes, filling, trend, in_place=in_place)
 
 
 def topographies(question: Question) -> list[Topography]:
