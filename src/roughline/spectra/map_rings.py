@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from roughline.computing.arrays import Indices, Real
 from roughline.spectra.isotropic import IsotropicSpectrum
@@ -60,6 +61,11 @@ class MapRings:
     @cached_property
     def laws(self) -> Laws:
         """Every law, compared with the rings."""
+        with threadpool_limits(limits=1, user_api="blas"):  # threads gain nothing on small matrices
+            return self._compare_laws()
+
+    def _compare_laws(self) -> Laws:
+        """Compare every law with the rings."""
         rolls, ends = self._rolls(), self._ends()
         # the best ends depend little on exponent and roll-off: few laws find them
         tried = [ends.compared(self._law(HURSTS[::16], roll), self.means)[0] for roll in rolls[::4]]

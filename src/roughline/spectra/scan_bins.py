@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from roughline.computing.arrays import Real
 from roughline.spectra.leakage import LONG_WAVES, map_leakage
@@ -58,6 +59,11 @@ class ScanBins:
     @cached_property
     def laws(self) -> Laws:
         """Every law, compared with the bins."""
+        with threadpool_limits(limits=1, user_api="blas"):  # threads gain nothing on small matrices
+            return self._compare_laws()
+
+    def _compare_laws(self) -> Laws:
+        """Compare every law with the bins."""
         means, cuts, bins = self.means, self.cuts, self.means.q.size
         rolls = cuts.q[cuts.q < self.edges[-1] / 2]
         # a law ends with a bin, or goes on beyond the last one
