@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 import re
+from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from roughline.errors import UnitError
@@ -35,6 +36,8 @@ _PREFIXES = {
     15: "P",
     18: "E",
 }
+_POWERS = {prefix: power for power, prefix in _PREFIXES.items()}
+_PREFIXED = re.compile(r"(?P<prefix>[afpnuµμmkMGTPE]?)(?P<unit>m|N|Pa|Hz)")
 _SIGNS = {"ohm": "Ω"}
 _EXACT = 15  # decimal digits that double precision always keeps
 
@@ -82,8 +85,12 @@ def in_si(text: str, unit: str, name: str) -> float:
     try:
         if not parts:
             raise ValueError("no number with a unit")
-        if parts["unit"] == unit:  # nothing to convert, so the registry need not load
-            return float(f"{float(parts['number']):.{_EXACT}g}")
+        if prefixed := _PREFIXED.fullmatch(parts["unit"]):  # the registry loads slowly
+            if prefixed["unit"] != unit:
+                raise ValueError(f"no quantity in {unit}")
+            power = _POWERS[prefixed["prefix"].replace("u", "µ").replace("μ", "µ")]
+            value = float(Decimal(parts["number"]).scaleb(power))
+            return float(f"{value:.{_EXACT}g}")
         units = _registry().parse_units(_EXPONENT.sub(r"**\1", parts["unit"].replace("·", "*")))
         value = _registry().Quantity(float(parts["number"]), units).to(unit).magnitude
         return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without the prefix's rounding

@@ -31,7 +31,6 @@ from roughline.engineering.formulas import partial_slip
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
-from roughline.theories.theory import theory
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
 
@@ -158,8 +157,10 @@ def _solved_body(
 
 def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]:
     """Theories at the mean pressures of the loads that were solved."""
-    if not isinstance(body, Surface) or not curve.converged.any():
+    if not question.theories or not isinstance(body, Surface) or not curve.converged.any():
         return []
+    from roughline.theories.theory import theory  # here because it loads slowly
+
     pressures = curve.force[curve.converged] / body.area
     return [theory(name, body, curve.E_star, pressures) for name in question.theories]
 

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from roughline._version import __version__
-from roughline.assessment.loads import nominal_area
-from roughline.assessment.question import Question
+from roughline.assessment.question import Question, nominal_area
 from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve, Fields

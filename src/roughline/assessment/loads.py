@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.question import DEFAULT_LOADS, Question
+from roughline.assessment.question import DEFAULT_LOADS, Question, nominal_area
 from roughline.computing.arrays import Indices
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
@@ -93,11 +93,6 @@ class LoadCase:
         except Interrupted as stop:
             return stop.curve, True
         return curve, False
-
-
-def nominal_area(body: Body) -> float:
-    """Nominal area of a body; of a line, the square of its length. [m²]"""
-    return body.area if isinstance(body, Surface) else body.length**2
 
 
 def asked_loads(question: Question, body: Body, case: LoadCase, count: int) -> Indices:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from roughline.assessment.loads import nominal_area
-from roughline.assessment.question import Question
+from roughline.assessment.question import Question, nominal_area
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 

@@ -12,7 +12,6 @@ from roughline.engineering.materials import Material, material
 from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
 from roughline.files.scale import Sizes
-from roughline.theories.theory import refuse_unknown
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation
@@ -124,8 +123,11 @@ class Question:
             object.__setattr__(self, name, value)
         self._check_loads()
         self._check_materials()
-        for theory in self.theories:
-            refuse_unknown(theory)
+        if self.theories:
+            from roughline.theories.theory import refuse_unknown  # here because it loads slowly
+
+            for theory in self.theories:
+                refuse_unknown(theory)
         for body in (self.body, self.against):
             if isinstance(body, Surface | Line):
                 self.refuse_misfit(body)
@@ -234,6 +236,11 @@ class Question:
             raise InputError(
                 f"the coefficient of friction is {self.friction}; a positive one is needed"
             )
+
+
+def nominal_area(body: Body) -> float:
+    """Nominal area of a body; of a line, the square of its length. [m²]"""
+    return body.area if isinstance(body, Surface) else body.length**2
 
 
 def has_spectrum(body: Body) -> bool:
