@@ -18,8 +18,8 @@ from roughline.spectra.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.topography.body import Body, Line, Surface
 
-LONGER = 4
-"""Where a piece shows no roll-off, waves up to this many times its side are allowed for."""
+# Where a piece shows no roll-off, waves up to this many times its side are allowed for.
+_WAVES_OVER_SIDE = 4
 
 # What was measured: contact area fractions, and the most roll-off wavelengths.
 _MEASURED = (0.001, 0.95)
@@ -163,7 +163,7 @@ def stiffness_of_the_larger_surface(
     if roll_offs is None:
         held = (
             "it shows no roll-off, so that longer waves are missing: the interval allows for waves "
-            f"{LONGER} times as long as its side, longer ones lower the stiffness further"
+            f"{_WAVES_OVER_SIDE} times as long as its side, longer ones lower the stiffness further"
         )
     else:
         held = f"it holds {roll_offs:.2g} roll-off wavelengths along a side"

@@ -11,8 +11,8 @@ import typer
 from roughline._version import __version__
 from roughline.cli.campaign import app as campaign_app
 from roughline.cli.campaign import paper
-from roughline.cli.comparison import compare
-from roughline.cli.contact import press
+from roughline.cli.comparison import compare_command
+from roughline.cli.contact import press_command
 from roughline.cli.flags import in_flags
 from roughline.cli.help import PanelsFirst
 from roughline.cli.topography import generate, info
@@ -25,10 +25,12 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",
 )
-_summary, _, _details = (inspect.getdoc(press) or "").partition("\n\n")
-app.command(cls=PanelsFirst, help=_summary, epilog=_details)(press)
-for command in (info, compare, generate, paper):
-    app.command()(command)
+_summary, _, _details = (inspect.getdoc(press_command) or "").partition("\n\n")
+app.command("press", cls=PanelsFirst, help=_summary, epilog=_details)(press_command)
+app.command()(info)
+app.command("compare")(compare_command)
+app.command()(generate)
+app.command()(paper)
 app.add_typer(campaign_app, name="campaign")
 
 

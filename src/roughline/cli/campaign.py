@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from roughline.cli.options import Json, Scheduler, Seed, Workers, interruptible, print_json
+from roughline.cli.options import Json, Scheduler, SeedOption, Workers, interruptible, print_json
 
 app = typer.Typer(
     help="Ensembles of random bodies, on this machine or a Dask cluster.",
@@ -24,7 +24,7 @@ class ExportFormat(StrEnum):
     csv = "csv"
 
 
-class Scale(StrEnum):
+class ScaleChoice(StrEnum):
     """How large the paper's study is to be."""
 
     quick = "quick"
@@ -36,12 +36,13 @@ StoreArgument = Annotated[Path, typer.Argument(help="A store, or the plan beside
 
 def paper(
     scale: Annotated[
-        Scale, typer.Option(help="quick: minutes on two cores; full: the paper's sizes, days.")
-    ] = Scale.quick,
+        ScaleChoice,
+        typer.Option(help="quick: minutes on two cores; full: the paper's sizes, days."),
+    ] = ScaleChoice.quick,
     out: Annotated[Path, typer.Option(help="Folder for results and report.")] = Path(
         "roughline-paper"
     ),
-    seed: Seed = 2012,
+    seed: SeedOption = 2012,
     workers: Workers = None,
     scheduler: Scheduler = None,
     json: Json = False,

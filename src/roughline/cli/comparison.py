@@ -11,7 +11,7 @@ from roughline.cli import options
 from roughline.cli.options import interruptible, make_folders, print_json
 
 
-def compare(
+def compare_command(
     file: Annotated[Path | None, typer.Argument(help="A surface, instead of a spectrum.")] = None,
     hurst: options.Hurst = None,
     fractal_dimension: options.FractalDimension = None,
@@ -29,11 +29,11 @@ def compare(
     tolerance: Annotated[
         float, typer.Option(help="Relative difference that counts as agreement.")
     ] = 0.1,
-    seed: options.Seed = 0,
+    seed: options.SeedOption = 0,
     unit: options.Unit = None,
     channel: options.Channel = None,
     size: options.Size = None,
-    fill: options.Fill = options.Filling.harmonic,
+    fill: options.Fill = options.FillingChoice.harmonic,
     max_missing: options.MaxMissing = 0.1,
     out: Annotated[Path | None, typer.Option(help="Folder for a table (CSV) and a figure.")] = None,
     json: options.Json = False,

@@ -23,7 +23,7 @@ BODIES = "Bodies"
 ANSWERS = "Answers"
 
 
-def press(
+def press_command(
     file: Annotated[
         Path, typer.Argument(help="A topography or line scan: an instrument's file, or ours.")
     ],
@@ -117,7 +117,7 @@ def press(
     unit: options.Unit = None,
     channel: options.Channel = None,
     size: options.Size = None,
-    fill: options.Fill = options.Filling.harmonic,
+    fill: options.Fill = options.FillingChoice.harmonic,
     max_missing: options.MaxMissing = 0.1,
     trend: options.TrendOption = None,
     crop: options.Crop = None,

@@ -23,14 +23,14 @@ PREPARATION = "Preparation"
 SPECTRUM = "Spectrum"
 
 
-class Filling(StrEnum):
+class FillingChoice(StrEnum):
     """How missing points are filled."""
 
     harmonic = "harmonic"
     nearest = "nearest"
 
 
-class Trend(StrEnum):
+class TrendChoice(StrEnum):
     """What is removed from the heights."""
 
     none = "none"
@@ -52,12 +52,14 @@ Size = Annotated[
         help='Sides of a file that states none, such as "1 mm, 0.5 mm".', rich_help_panel=FILE
     ),
 ]
-Fill = Annotated[Filling, typer.Option(help="How missing points are filled.", rich_help_panel=FILE)]
+Fill = Annotated[
+    FillingChoice, typer.Option(help="How missing points are filled.", rich_help_panel=FILE)
+]
 MaxMissing = Annotated[
     float, typer.Option(help="Share of missing points that is filled.", rich_help_panel=FILE)
 ]
 TrendOption = Annotated[
-    Trend | None,
+    TrendChoice | None,
     typer.Option(
         help="What is removed [default: the tilt of measured ones].", rich_help_panel=PREPARATION
     ),
@@ -107,7 +109,7 @@ Cutoff = Annotated[
     ),
 ]
 Points = Annotated[int, typer.Option("-n", "--points", help="Points along a side.")]
-Seed = Annotated[int, typer.Option(min=0, help="Root of all random seeds.")]
+SeedOption = Annotated[int, typer.Option(min=0, help="Root of all random seeds.")]
 Workers = Annotated[
     int | None,
     typer.Option(min=1, help="Processes on this machine [default: one for each core]."),
@@ -119,7 +121,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units, for 
 
 
 def reading_of(
-    unit: str | None, channel: str | None, size: str | None, fill: Filling, max_missing: float
+    unit: str | None, channel: str | None, size: str | None, fill: FillingChoice, max_missing: float
 ) -> Reading:
     """How the options say that files are read."""
     from roughline.assessment.question import Reading
@@ -128,7 +130,7 @@ def reading_of(
 
 
 def preparation_of(
-    trend: Trend | None,
+    trend: TrendChoice | None,
     crop: str | None,
     low_pass: str | None,
     resample: int | None,

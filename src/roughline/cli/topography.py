@@ -18,7 +18,7 @@ def info(
     unit: options.Unit = None,
     channel: options.Channel = None,
     size: options.Size = None,
-    fill: options.Fill = options.Filling.harmonic,
+    fill: options.Fill = options.FillingChoice.harmonic,
     max_missing: options.MaxMissing = 0.1,
     trend: options.TrendOption = None,
     crop: options.Crop = None,
@@ -62,7 +62,7 @@ def generate(
     hurst: options.Hurst = None,
     fractal_dimension: options.FractalDimension = None,
     n: options.Points = 512,
-    seed: options.Seed = 0,
+    seed: options.SeedOption = 0,
     line: Annotated[
         bool, typer.Option("--line", help="The reduced line instead of the surface.")
     ] = False,

@@ -14,13 +14,13 @@ from roughline.assessment.assessment import Assessment, PartialSlip
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.report.folder import make_folder
+from roughline.report.pixels import any_marked, thinned
 from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.roughness import Roughness
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering, prefix
 
-_MOST_PIXELS = 600  # along a side; a picture shows no more
 _DASHES = ("--", ":", "-.")
 
 
@@ -144,7 +144,7 @@ def draw_heights(axes: Axes, body: Body) -> None:
         axes.plot(x, heights, color="k", linewidth=0.6)
         axes.set(xlabel=f"x [{unit}]", ylabel=f"height [{height_unit}]")
         return
-    shown = axes.imshow(_thinned(heights).T, origin="lower", extent=_extent(body), cmap="cividis")
+    shown = axes.imshow(thinned(heights).T, origin="lower", extent=_extent(body), cmap="cividis")
     assert axes.figure is not None
     axes.figure.colorbar(shown, ax=axes, label=f"height [{height_unit}]", shrink=0.85)
     _label_sides(axes, body)
@@ -160,7 +160,7 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
         marks = part.filled_region
         if isinstance(marks, Surface) and 0 < marks.heights.mean() < 1:
             # the second of two bodies is turned over
-            shown = _highest(marks.heights if i == 0 else marks.heights[::-1])
+            shown = any_marked(marks.heights if i == 0 else marks.heights[::-1])
             x, y = (
                 (np.arange(n) + 0.5) / n * side * size
                 for n, side in zip(shown.shape, marks.sizes, strict=True)
@@ -228,20 +228,6 @@ def _extent(surface: Surface) -> tuple[float, float, float, float]:
 def _label_sides(axes: Axes, surface: Surface) -> None:
     unit, _ = _prefixed(np.array(surface.sizes), "m")
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
-
-
-def _thinned(heights: Real) -> Real:
-    """Every few points, as many as a picture can show."""
-    steps = [max(1, n // _MOST_PIXELS) for n in heights.shape]
-    return heights[:: steps[0], :: steps[1]]
-
-
-def _highest(marks: Real) -> Real:
-    """Marks on as many points as a picture can show; none is lost."""
-    steps = [max(1, n // _MOST_PIXELS) for n in marks.shape]
-    for axis, step in enumerate(steps):
-        marks = np.maximum.reduceat(marks, np.arange(0, marks.shape[axis], step), axis=axis)
-    return marks
 
 
 def _prefixed(values: Real, unit: str) -> tuple[str, float]:

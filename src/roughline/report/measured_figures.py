@@ -10,12 +10,12 @@ from matplotlib.ticker import EngFormatter, Formatter, ScalarFormatter
 from numpy.typing import NDArray
 
 from roughline.files.measurement import Measurement
+from roughline.report.pixels import any_marked, thinned
 from roughline.report.style import PAGE, new_figure
 from roughline.topography.missing import MissingPattern
 from roughline.units import metres_per
 
 _MISSING = "tab:red"
-_MOST_PIXELS = 600  # along a side; a picture shows no more
 
 
 def measured_figure(content: Measurement, missing: MissingPattern) -> Figure:
@@ -36,9 +36,7 @@ def measured_figure(content: Measurement, missing: MissingPattern) -> Figure:
     extent = (0.0, *heights.shape[:1], 0.0, *heights.shape[1:])
     if sides:
         extent = (0.0, sides[0], 0.0, sides[1])
-    steps = tuple(max(1, n // _MOST_PIXELS) for n in heights.shape)
-    thinned = heights[:: steps[0], :: steps[1]]
-    shown = left.imshow(thinned.T, origin="lower", extent=extent, cmap="cividis")
+    shown = left.imshow(thinned(heights).T, origin="lower", extent=extent, cmap="cividis")
     ticks = _ticks(content.unit is not None)
     bar = figure.colorbar(
         shown, ax=(left, right), orientation="horizontal", format=ticks, shrink=0.6, aspect=40
@@ -46,7 +44,7 @@ def measured_figure(content: Measurement, missing: MissingPattern) -> Figure:
     bar.ax.locator_params(nbins=5)
     bar.set_label("height" + _of(content))
     right.imshow(
-        _any_of(unknown, steps).T,
+        any_marked(unknown).T,
         origin="lower",
         extent=extent,
         cmap=ListedColormap(["0.92", _MISSING]),
@@ -90,11 +88,3 @@ def _of(content: Measurement) -> str:
 
 def _ticks(has_unit: bool) -> Formatter:
     return EngFormatter("m") if has_unit else ScalarFormatter()
-
-
-def _any_of(unknown: NDArray[np.bool_], steps: tuple[int, ...]) -> NDArray[np.bool_]:
-    """Whether any point is missing in each pixel of the picture, so that single ones show."""
-    for axis, step in enumerate(steps):
-        starts = np.arange(0, unknown.shape[axis], step)
-        unknown = np.logical_or.reduceat(unknown, starts, axis=axis)
-    return unknown
