@@ -77,7 +77,7 @@ def press_command(
     friction: Annotated[
         float | None,
         typer.Option(
-            help="Coefficient of friction: adds partial slip to the report.",
+            help="Coefficient of friction: adds partial slip to the report and to JSON.",
             rich_help_panel=ANSWERS,
         ),
     ] = None,
