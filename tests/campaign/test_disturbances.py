@@ -242,8 +242,8 @@ def test_files_that_may_not_grow(plan, resume, tmp_path):
     resume(store)
 
 
-def test_a_script_without_a_guard(plan, tmp_path):
-    script = tmp_path / "study.py"
+def test_a_script_without_a_guard(few_plan_file, tmp_path):
+    plan, script = few_plan_file, tmp_path / "study.py"
     script.write_text(
         "from roughline import campaign\n"
         f"campaign.run(campaign.read_plan({str(plan)!r}), {str(tmp_path / 'store')!r})\n"
