@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 
-.PHONY: paper paper-full test check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak start-up fuzz study published architecture clean
+.PHONY: paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak start-up fuzz study published architecture clean
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -14,6 +14,10 @@ paper-full: $(VENV)/installed
 
 test: $(VENV)/installed
 	$(BIN)/python -m pytest
+
+# What matters while editing, in about a minute: no tests marked slow, no processes, no reports.
+quick: check
+	$(BIN)/python -m pytest -m "not slow" $(addprefix --ignore=tests/,campaign cli docs paper)
 
 check: $(VENV)/installed
 	$(BIN)/ruff format --check .

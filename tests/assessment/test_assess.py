@@ -36,6 +36,7 @@ FILES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FILES)
 def test_python_and_the_command_line_give_the_same_numbers(topographies, invoke, name):
     """Whatever the file: values, both ends and remarks, or one and the same refusal."""

@@ -186,6 +186,7 @@ def pieces():
     return found
 
 
+@pytest.mark.slow
 def test_the_interval_of_a_piece_holds_the_stiffness_of_its_parent(pieces):
     held, seen = [], []
     for waves, truth, piece, curve in pieces:
@@ -199,6 +200,7 @@ def test_the_interval_of_a_piece_holds_the_stiffness_of_its_parent(pieces):
     assert np.mean(seen) > 0.3  # the others allow for longer waves, by wide intervals
 
 
+@pytest.mark.slow
 def test_the_periodic_half_space_is_nearer_to_the_parent_than_the_punch(pieces):
     """With roll-offs inside, from a third of contact on, 1 / k - 1 / k_s is off by a fifth."""
     free, periodic = [], []

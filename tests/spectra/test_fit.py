@@ -39,6 +39,7 @@ def found(fit, hurst, roll, cutoff, last, rms=1.0):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("amplitudes", ["fixed", "gaussian"])
 def test_whole_surfaces_are_recovered_in_95_of_100(amplitudes):
     n, rng, hits, quiet = 128, np.random.default_rng(7), np.zeros(4), 0
@@ -97,6 +98,7 @@ def piece_of_a_cut(rng, n, spectrum, longer):
     return whole[:n] + rng.normal() * np.linspace(-1, 1, n)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("n", [256, 2048])
 def test_line_scans_are_recovered_in_95_of_100(n):
     rng, hits, longer = np.random.default_rng(8), np.zeros(4), 8

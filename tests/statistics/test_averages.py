@@ -21,6 +21,7 @@ def test_the_mean_is_the_mean(ensemble):
     assert (geometric.mean < found.mean).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("realisations", [10, 20, 60])
 def test_intervals_hold_the_truth_as_often_as_they_say(realisations):
     """Of means and differences of log-normal curves of two correlated loads."""

@@ -25,6 +25,7 @@ def test_only_the_window_counts_and_its_edges_belong_to_it():
     assert rl.fit_power_law(FORCE, broken, (1e-4, 2e-2)).exponent != pytest.approx(0.55, abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("realisations", [1, 10, 20, 60])
 def test_intervals_cover_the_truth_at_their_level(realisations):
     rng = np.random.default_rng(1)
