@@ -3,6 +3,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
+TEST_PROCESSES ?= 2
+PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
 .PHONY: paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak start-up fuzz study published architecture clean
 
@@ -13,11 +15,11 @@ paper-full: $(VENV)/installed
 	$(BIN)/roughline paper --scale full --out out/paper-full
 
 test: $(VENV)/installed
-	$(BIN)/python -m pytest
+	$(PYTEST)
 
 # What matters while editing, in about a minute: no tests marked slow, no processes, no reports.
 quick: check
-	$(BIN)/python -m pytest -m "not slow" $(addprefix --ignore=tests/,campaign cli docs paper)
+	$(PYTEST) -m "not slow" $(addprefix --ignore=tests/,campaign cli docs paper)
 
 check: $(VENV)/installed
 	$(BIN)/ruff format --check .

@@ -14,6 +14,13 @@ _STUDY = Path(__file__).parents[1] / "studies" / "paper" / "data"
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
 
+def pytest_collection_modifyitems(items):
+    """Keep the tests of a file in one process, and those that share a cluster or a store too."""
+    for item in items:
+        folder, file = item.path.parent.name, item.path.stem
+        item.add_marker(pytest.mark.xdist_group(folder if folder == "campaign" else file))
+
+
 @pytest.fixture(scope="session")
 def topographies() -> Path:
     """Folder of measured files, beside the repository; tests that want it are skipped elsewhere."""
