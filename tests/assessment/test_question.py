@@ -57,6 +57,20 @@ def test_bodies_in_memory():
         rl.Question(np.zeros((8, 8)), E_star=1.0)
 
 
+def test_reading_belongs_to_files():
+    surface = rl.Surface(np.eye(8), sizes=(1.0, 1.0))
+    with pytest.raises(rl.InputError, match="reading= says how files are read"):
+        rl.Question(surface, E_star=1.0, reading=rl.Reading(unit="um"))
+
+
+def test_arrays_of_numbers():
+    question = rl.Question(NOWHERE, E_star=np.float64(1e9), loads=np.array([1.0, 2.5]))
+    assert question.headings == ["1 N", "2.5 N"]
+    assert question.forces(1.0) == [1.0, 2.5]
+    assert rl.Question(NOWHERE, E_star=1e9, loads=np.float32(2)).headings == ["2 N"]
+    assert rl.Question(NOWHERE, E_star=1e9, n_loads=np.int64(5)).n_loads == 5
+
+
 def test_reading_is_checked_too():
     with pytest.raises(rl.InputError, match="most_missing is 2"):
         rl.Reading(most_missing=2)

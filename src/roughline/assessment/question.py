@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from roughline.engineering.materials import Material, material
 from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
@@ -121,6 +123,10 @@ class Question:
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
+        if self.reading != Reading() and not any(
+            isinstance(each, Path) for each in (self.body, self.against)
+        ):
+            raise InputError("reading= says how files are read, and none is given: leave it out")
         self._check_loads()
         self._check_materials()
         if self.theories:
@@ -206,7 +212,9 @@ class Question:
         if sum(each is not None for each in given) > 1:
             raise InputError("give one of loads=, depths= and n_loads=")
         if self.n_loads is not None and (
-            not isinstance(self.n_loads, int) or isinstance(self.n_loads, bool) or self.n_loads < 2
+            not isinstance(self.n_loads, int | np.integer)
+            or isinstance(self.n_loads, bool)
+            or self.n_loads < 2
         ):
             raise InputError(f"n_loads is {self.n_loads!r}; a whole number of at least 2 is needed")
         self.forces(1.0)  # reads and checks them; a pressure waits for its area
@@ -250,7 +258,7 @@ def has_spectrum(body: Body) -> bool:
 
 def _several(given: Any) -> tuple[Any, ...]:
     """One value or several as a tuple."""
-    return (given,) if isinstance(given, str | float | int) else tuple(given)
+    return (given,) if np.ndim(given) == 0 else tuple(given)
 
 
 def _in_si(given: float | str, unit: str, name: str) -> float:
