@@ -15,6 +15,7 @@ from roughline.cli.comparison import compare_command
 from roughline.cli.contact import press_command
 from roughline.cli.flags import in_flags
 from roughline.cli.help import PanelsFirst
+from roughline.cli.lab import lab
 from roughline.cli.topography import generate, info
 from roughline.errors import ConvergenceError, RoughlineError
 
@@ -31,6 +32,7 @@ app.command()(info)
 app.command("compare")(compare_command)
 app.command()(generate)
 app.command()(paper)
+app.command()(lab)
 app.add_typer(campaign_app, name="campaign")
 
 

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import enum
 import json
-import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from roughline._version import __version__
 from roughline.assessment.assessment import Assessment
@@ -17,12 +13,13 @@ from roughline.assessment.comparison import ModelComparison
 from roughline.assessment.description import Description
 from roughline.contact.curve import Status
 from roughline.contact.quantities import IN_JSON
+from roughline.report.plain import plain
 from roughline.topography.body import Body, Surface
 
 
 def to_json(content: Mapping[str, Any]) -> str:
     """Write plain content; NaN and infinities, which JSON has not, become null."""
-    return json.dumps(_plain({"roughline_version": __version__, **content}), indent=1)
+    return json.dumps(plain({"roughline_version": __version__, **content}), indent=1)
 
 
 def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[str, Any]:
@@ -159,19 +156,3 @@ def _of_body(body: Body) -> dict[str, Any]:
         "rms_slope": body.rms_slope,
         "settings": body.settings,
     }
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist())
-    if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    if isinstance(value, Path):
-        return str(value)
-    if isinstance(value, enum.Enum):
-        return value.name.lower()
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value

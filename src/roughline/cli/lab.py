@@ -1,0 +1,63 @@
+"""The command that starts the lab."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+_MB = 1_000_000
+
+
+def lab(
+    host: Annotated[
+        str,
+        typer.Option(help="Address to listen to; another than this machine's needs a password."),
+    ] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="Port; 0 takes a free one.")] = 5107,
+    password_file: Annotated[
+        Path | None, typer.Option(help="File whose first line is the password of the page.")
+    ] = None,
+    max_upload: Annotated[float, typer.Option(help="Largest file that is taken. [MB]")] = 200,
+    max_points: Annotated[
+        int, typer.Option(help="Most points along a side of generated surfaces.")
+    ] = 1024,
+    max_seconds: Annotated[float, typer.Option(help="Longest time of one computation. [s]")] = 600,
+    max_memory: Annotated[float, typer.Option(help="Most memory of one computation. [MB]")] = 4000,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
+    ] = True,
+) -> None:
+    """Open the lab: a page in the browser to look at surfaces, press them and read the paper.
+
+    The server runs on this machine until Ctrl-C, needs no network, and is open to this machine
+    alone. With --host others can reach it; then it asks for a password.
+    """
+    import webbrowser
+
+    from roughline.lab.server import serve
+    from roughline.lab.settings import LabSettings, password_in
+
+    settings = LabSettings(
+        host=host,
+        port=port,
+        password=password_in(password_file) if password_file else None,
+        max_upload=int(max_upload * _MB),
+        max_points=max_points,
+        max_seconds=max_seconds,
+        max_memory=int(max_memory * _MB),
+    )
+
+    def ready(address: str) -> None:
+        typer.echo(f"The lab is open at {address} - Ctrl-C closes it.")
+        if not settings.is_local:
+            typer.echo(
+                f"Whoever reaches {settings.host} and has the password can upload files up to "
+                f"{max_upload:g} MB and compute on this machine. The connection is not encrypted."
+            )
+        if browser:
+            webbrowser.open(address)
+
+    serve(settings, ready)
+    typer.echo("The lab is closed.")

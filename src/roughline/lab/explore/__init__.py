@@ -1,0 +1,1 @@
+"""Explore: generated surfaces under both models, as sliders move."""

@@ -1,0 +1,61 @@
+"""The bodies of a state: its surface, and the lines of its spectrum with the same waves."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+
+from roughline.lab.explore.state import ExploreState
+from roughline.spectra.self_affine import SelfAffine
+from roughline.topography.body import Line, Surface
+
+LINES = 20
+"""Lines whose mean stiffness stands for the reduced model."""
+_SPRINGS_PER_POINT = 32
+_FEWEST_SPRINGS = 2**13
+
+
+def spectrum_of(state: ExploreState, n: int) -> SelfAffine:
+    """The spectrum of a state, with the waves that n points carry. [m]"""
+    return _spectrum(state, n, rms_height(state))
+
+
+def surface_of(state: ExploreState, n: int) -> Surface:
+    """The surface of a state on n points along a side. [m]"""
+    return _surface(spectrum_of(state, n), n, state.seed)
+
+
+def lines_of(state: ExploreState) -> tuple[Line, ...]:
+    """Lines of the spectrum of a state, with the waves of its surface. [m]"""
+    springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * state.n)
+    return _lines(spectrum_of(state, state.n), springs, state.seed)
+
+
+def rms_height(state: ExploreState) -> float:
+    """Rms height of a state, given or from its rms slope on its grid. [m]"""
+    if state.rms == "height":
+        return state.h * state.length
+    slope = _surface(_spectrum(state, state.n, 1.0), state.n, state.seed).rms_slope
+    return state.slope / slope
+
+
+def _spectrum(state: ExploreState, n: int, height: float) -> SelfAffine:
+    q_low = 2 * math.pi / state.length
+    return SelfAffine(
+        fractal_dimension=state.D_f,
+        length=state.length,
+        rms_height=height,
+        q_roll=q_low / state.roll_off,
+        q_high=q_low * min(1 / state.cutoff, n / 2),
+    )
+
+
+@lru_cache(maxsize=4)
+def _surface(spectrum: SelfAffine, n: int, seed: int) -> Surface:
+    return replace(spectrum.surface(n, seed), unit="m")
+
+
+@lru_cache(maxsize=2)
+def _lines(spectrum: SelfAffine, springs: int, seed: int) -> tuple[Line, ...]:
+    return tuple(spectrum.line(springs, seed + i) for i in range(LINES))

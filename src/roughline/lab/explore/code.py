@@ -1,0 +1,72 @@
+"""A state as code: lines of Python, or commands, that give the same again."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping
+from typing import Any
+
+from roughline.lab.explore.bodies import rms_height
+from roughline.lab.explore.state import ExploreState, state_of
+from roughline.lab.frames import frame
+from roughline.lab.tasks import Progress
+
+
+def code(arguments: Mapping[str, Any], progress: Progress) -> bytes:
+    """The code of a state: `which` says in what language."""
+    state = state_of(arguments["state"], arguments["session"]["max_points"])
+    text = as_python(state) if arguments.get("which") == "python" else as_command(state)
+    return frame({"text": text})
+
+
+def as_python(state: ExploreState) -> str:
+    """Lines that generate the surface, and press it as the page does."""
+    cutoff = max(state.cutoff, 2 / state.n)
+    periodic = ", periodic=True" if state.periodic else ""
+    return f"""import math
+
+import roughline as rl
+
+length = {_number(state.length)}  # m
+E_star = {_number(state.E_star)}  # Pa
+spectrum = rl.SelfAffine(
+    fractal_dimension={_number(state.D_f)},
+    length=length,
+    rms_height={_number(rms_height(state))},
+    q_roll=2 * math.pi / ({_number(state.roll_off)} * length),
+    q_high=2 * math.pi / ({_number(cutoff)} * length),
+)
+surface = spectrum.surface(n={state.n}, rng={state.seed})
+force = {_number(state.F)} * E_star * surface.rms_height * surface.length  # N
+curve = rl.press(surface, E_star=E_star, forces=[force]{periodic}, fields=True)
+
+print("stiffness_bar", curve.stiffness_bar[0])
+print("area_fraction_corrected", curve.area_fraction_corrected[0])
+print("depth over rms height", curve.depth[0] / surface.rms_height)
+"""
+
+
+def as_command(state: ExploreState) -> str:
+    """Commands that write the surface to a file, and press it."""
+    cutoff = max(state.cutoff, 2 / state.n)
+    force = state.F * state.E_star * rms_height(state) * state.length
+    generate = [
+        *("roughline", "generate", "--out", "surface.nc"),
+        *("--length", f"{_number(state.length)} m"),
+        *("--rms-height", f"{_number(rms_height(state))} m"),
+        *("--fractal-dimension", _number(state.D_f)),
+        *("--roll-off", f"{_number(state.roll_off * state.length)} m"),
+        *("--cutoff", f"{_number(cutoff * state.length)} m"),
+        *("--points", str(state.n), "--seed", str(state.seed)),
+    ]
+    press = [
+        *("roughline", "press", "surface.nc"),
+        *("--modulus", f"{_number(state.E_star)} Pa", "--load", f"{_number(force)} N"),
+        *(["--periodic"] if state.periodic else []),
+    ]
+    return f"{shlex.join(generate)}\n{shlex.join(press)}\n"
+
+
+def _number(value: float) -> str:
+    """A number that is read as the same again."""
+    return repr(float(f"{value:.12g}"))

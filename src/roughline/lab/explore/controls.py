@@ -1,0 +1,121 @@
+"""The controls of the view "Explore"."""
+
+from __future__ import annotations
+
+from roughline.lab.controls import Choice, Control
+
+D_F = Control(
+    "D_f",
+    "D_f",
+    "fractal dimension",
+    2.0,
+    3.0,
+    2.2,
+    "linear",
+    "How rough the surface is on small scales: 2 is smooth, 3 fills space; D_f = 3 - H, with the "
+    "Hurst exponent H. It has no unit. H may be typed instead, as H = 0.8.",
+    0.02,
+)
+ROLL_OFF = Control(
+    "roll_off",
+    "λ_r/L",
+    "roll-off wavelength",
+    1 / 32,
+    1.0,
+    1.0,
+    "logarithmic",
+    "Longer waves than this are no higher: the spectrum is flat there. In sides of the surface, or "
+    "with a unit, such as 0.2 mm; at 1 there is no plateau.",
+    0.02,
+)
+CUTOFF = Control(
+    "cutoff",
+    "λ_s/L",
+    "cutoff wavelength",
+    1 / 512,
+    0.5,
+    1 / 512,
+    "logarithmic",
+    "The shortest wave. In sides of the surface, or with a unit; a grid carries no waves shorter "
+    "than two of its points.",
+    0.02,
+)
+HEIGHT = Control(
+    "h",
+    "h/L",
+    "rms height",
+    1e-6,
+    0.1,
+    1e-3,
+    "logarithmic",
+    "Root-mean-square height. In sides of the surface, or with a unit, such as 0.3 um.",
+    0.02,
+)
+SLOPE = Control(
+    "slope",
+    "∇h",
+    "rms slope",
+    1e-4,
+    1.0,
+    0.1,
+    "logarithmic",
+    "Root-mean-square slope of the surface on its grid, without unit; the theory is made for small "
+    "ones.",
+    0.02,
+)
+SEED = Control(
+    "seed",
+    "seed",
+    "seed",
+    0,
+    999_999,
+    7,
+    "whole",
+    "Which of all such surfaces: the same seed gives the same surface, on a finer grid with more "
+    "detail.",
+    1,
+)
+FORCE = Control(
+    "F",
+    "F̄",
+    "load",
+    1e-4,
+    10.0,
+    0.1,
+    "logarithmic",
+    "Dimensionless force F / (E* h L), or with a unit: a force such as 10 N, or a mean pressure "
+    "such as 2 MPa.",
+    0.02,
+)
+POINTS = Choice(
+    "n",
+    "points",
+    {str(n): f"{n}²" for n in (64, 128, 256, 512, 1024)},
+    "512",
+    "Points along a side of the grid: more points, finer waves and a longer wait.",
+)
+ROUGHNESS = Choice(
+    "rms",
+    "roughness by",
+    {"height": "rms height", "slope": "rms slope"},
+    "height",
+    "Which of the two is kept when the spectrum changes.",
+)
+BOUNDARY = Choice(
+    "boundary",
+    "half-space",
+    {"free": "free", "periodic": "periodic"},
+    "free",
+    "Free: the half-space goes on, unloaded, around the surface. Periodic: the surface is repeated "
+    "without end; the stiffness is then that of the interface alone.",
+)
+SHOWN = Choice(
+    "shown",
+    "contact as",
+    {"area": "area", "pressure": "pressure", "gap": "gap", "displacement": "displacement"},
+    "area",
+    "What the second map shows.",
+)
+
+NUMBERS = (D_F, ROLL_OFF, CUTOFF, HEIGHT, SLOPE, SEED, FORCE)
+CHOICES = (POINTS, ROUGHNESS, BOUNDARY, SHOWN)

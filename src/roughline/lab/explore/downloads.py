@@ -1,0 +1,59 @@
+"""Files of the view "Explore": figures, curves and the surface."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from roughline.assessment.assess import assess
+from roughline.assessment.question import Question
+from roughline.files.netcdf import write
+from roughline.lab.controls import ControlError
+from roughline.lab.explore.bodies import rms_height, surface_of
+from roughline.lab.explore.state import state_of
+from roughline.lab.frames import frame
+from roughline.lab.tasks import Progress
+from roughline.report.contact_figures import write_contact
+
+FILES = (
+    *("contact.png", "contact.pdf", "curve.png", "curve.pdf", "curve.csv", "curve.nc"),
+    "surface.nc",
+)
+"""What can be saved."""
+
+
+def download(arguments: Mapping[str, Any], progress: Progress) -> bytes:
+    """Write one of the files of a state to the folder of the session."""
+    name = arguments.get("name")
+    if name not in FILES:
+        raise ControlError(f"there is no such file; there are {', '.join(FILES)}")
+    state = state_of(arguments["state"], arguments["session"]["max_points"])
+    folder = Path(arguments["session"]["folder"]) / "results"
+    folder.mkdir(parents=True, exist_ok=True)
+    surface = surface_of(state, state.n)
+    if name == "surface.nc":
+        write(surface, folder / name)
+        return frame({"file": name})
+    force = state.F * state.E_star * rms_height(state) * state.length
+    result = assess(
+        Question(
+            surface,
+            E_star=state.E_star,
+            loads=force,
+            periodic=state.periodic,
+            theories=state.theories,
+            grid_error=False,
+            whole_curve=True,
+        ),
+        progress=progress,
+    )
+    if name == "curve.csv":
+        result.curve.write(folder / name)
+        return frame({"file": name})
+    with TemporaryDirectory(dir=folder) as written:
+        write_contact(result, Path(written))
+        shutil.move(Path(written) / name, folder / name)
+    return frame({"file": name})

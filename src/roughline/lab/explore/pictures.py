@@ -1,0 +1,202 @@
+"""What the view "Explore" shows, computed in a process: lines, contacts, curves."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.computing.arrays import Real
+from roughline.contact.curve import Curve
+from roughline.contact.press import press
+from roughline.contact.scaling import stiffness_bar
+from roughline.errors import ContinuumWarning
+from roughline.lab.explore.bodies import lines_of, rms_height, spectrum_of, surface_of
+from roughline.lab.explore.state import ExploreState, state_of
+from roughline.lab.explore.words import area_rows, contact_words, line_words, status, stiffness_rows
+from roughline.lab.frames import frame
+from roughline.lab.shading import shaded
+from roughline.lab.tasks import Progress
+from roughline.spectra.isotropic import isotropic_spectrum
+from roughline.statistics.averages import average
+from roughline.theories.theory import theory
+from roughline.topography.body import Surface
+
+COARSE, COARSER = 128, 64
+"""Points along a side while a slider moves, and when many ask at once."""
+_LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
+_CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
+_CURVE_FORCES = np.geomspace(1e-3, 3, 13)
+_LINE_FORCES = np.geomspace(1e-4, 10, 41)
+
+Arguments = Mapping[str, Any]
+
+
+def reduced(arguments: Arguments, progress: Progress) -> bytes:
+    """Mean stiffness of lines over force, and at the load of the state."""
+    state = _state(arguments)
+    lines = lines_of(state)
+    forces = np.unique([*_LINE_FORCES, state.F])
+    stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
+    mean = average(stiffness)
+    here = int(np.searchsorted(forces, state.F))
+    return frame(
+        {
+            "state": state.address(),
+            "numbers": _numbers(state),
+            "line": {
+                "force_bar": forces,
+                "stiffness_bar": mean.mean,
+                "low": stiffness.min(axis=0),
+                "high": stiffness.max(axis=0),
+            },
+            "stiffness_bar_1d": float(mean.mean[here]),
+            "strip": line_words(state, float(mean.mean[here]), len(lines)),
+        }
+    )
+
+
+def coarse(arguments: Arguments, progress: Progress) -> bytes:
+    """The contact on a coarse grid, while a slider moves."""
+    state = _state(arguments)
+    crowded = arguments["crowded"] and state.roll_off > _LONG_ROLL_OFF
+    n = min(state.n, COARSER if crowded else COARSE)
+    return _contact(state, n)
+
+
+def full(arguments: Arguments, progress: Progress) -> bytes:
+    """The contact on the grid of the state."""
+    state = _state(arguments)
+    return _contact(state, state.n)
+
+
+def curve(arguments: Arguments, progress: Progress) -> bytes:
+    """Stiffness and area over force of the surface, and of theories."""
+    state = _state(arguments)
+    n = min(state.n, _CURVE_POINTS)
+    surface = surface_of(state, n)
+    pressed = press(
+        surface,
+        E_star=state.E_star,
+        forces=_force(state, _CURVE_FORCES),
+        periodic=state.periodic,
+        throw=False,
+        progress=progress,
+    )
+    return frame(
+        {
+            "state": state.address(),
+            "curve": _of_curve(pressed),
+            "grid": f"{n}²",
+            "theories": [_of_theory(name, surface, state) for name in state.theories],
+            "stiffness_table": stiffness_rows(pressed),
+            "area_table": area_rows(pressed),
+        }
+    )
+
+
+def _contact(state: ExploreState, n: int) -> bytes:
+    started = time.perf_counter()
+    surface = surface_of(state, n)
+    pressed = press(
+        surface,
+        E_star=state.E_star,
+        forces=[_force(state, state.F)],
+        periodic=state.periodic,
+        fields=True,
+        throw=False,
+    )
+    fields = pressed.fields[0]
+    seconds = time.perf_counter() - started
+    arrays: dict[str, NDArray[Any]] = {"topography": shaded(surface)}
+    if fields is not None:
+        arrays |= {
+            "area": fields.contact.astype(np.uint8),
+            "pressure": fields.pressure / state.E_star,
+            "gap": fields.gap / surface.rms_height,
+            "displacement": fields.displacement / surface.rms_height,
+        }
+    heights = (surface.heights - surface.heights.mean()) / surface.rms_height
+    return frame(
+        {
+            "state": state.address(),
+            "numbers": _numbers(state),
+            "points": n,
+            "is_coarse": n < state.n,
+            "heights": [float(heights.min()), float(heights.max())],
+            "curve": _of_curve(pressed),
+            "spectrum": _of_spectrum(surface, state, n),
+            "strip": contact_words(pressed, fields, surface),
+            "status": status(pressed, n, seconds, is_coarse=n < state.n),
+        },
+        {name: values.T for name, values in arrays.items()},  # rows of an image run along x
+    )
+
+
+def _state(arguments: Arguments) -> ExploreState:
+    return state_of(arguments["state"], arguments["session"]["max_points"])
+
+
+def _numbers(state: ExploreState) -> dict[str, float]:
+    """What the sliders of the page stand at."""
+    names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "F")
+    return {name: float(getattr(state, name)) for name in names}
+
+
+def _force(state: ExploreState, force_bar: Any) -> Any:
+    """Forces F = F̄ E* h L. [N]"""
+    return force_bar * (state.E_star * rms_height(state) * state.length)
+
+
+def _press_bar(line: Any, state: ExploreState, force_bars: Real) -> Curve:
+    """Press a line under dimensionless forces, scaled with its own rms height."""
+    scale = state.E_star * line.rms_height * line.length
+    return press(line, E_star=state.E_star, forces=force_bars * scale)
+
+
+def _of_curve(pressed: Curve) -> dict[str, Any]:
+    """What the page draws of a curve; a load that was not solved is left out there."""
+    return {
+        "force_bar": pressed.force_bar,
+        "stiffness_bar": pressed.stiffness_bar,
+        "area": pressed.area_fraction_corrected,
+        "depth": pressed.depth / pressed.rms_height,
+        "resolved": pressed.resolved,
+        "converged": pressed.converged,
+    }
+
+
+def _of_spectrum(surface: Surface, state: ExploreState, n: int) -> dict[str, Any]:
+    """Spectrum of the surface, and the law that it is drawn from, over waves in the side."""
+    measured = isotropic_spectrum(surface)
+    known = measured.C_2d > 0
+    q = measured.q[known]
+    law = spectrum_of(state, n).lattice(n).C_2d(q)
+    return {
+        "waves": q * state.length / (2 * np.pi),
+        "C_2d": measured.C_2d[known],
+        "law": np.where(law > 0, law, np.nan),
+    }
+
+
+def _of_theory(name: str, surface: Surface, state: ExploreState) -> dict[str, Any]:
+    """A theory for the waves of the surface, dimensionless like the curve."""
+    import warnings
+
+    forces = np.geomspace(1e-3, 3, 31)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ContinuumWarning)  # its sentence is in the validity
+        found = theory(name, surface, state.E_star, _force(state, forces) / surface.area)
+    stiffness = None
+    if found.stiffness is not None:
+        stiffness = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)
+    return {
+        "name": found.name,
+        "force_bar": forces,
+        "area": found.area_fraction,
+        "stiffness_bar": stiffness,
+        "validity": found.validity,
+    }

@@ -1,0 +1,123 @@
+"""The numbers of the view "Explore" in words, as the reports write them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from roughline.computing.arrays import Real
+from roughline.contact.curve import Curve, Fields, Status
+from roughline.contact.quantities import RESOLVED_FROM
+from roughline.lab.explore.state import ExploreState
+from roughline.topography.body import Surface
+from roughline.units import decimal, engineering
+
+_DIGITS = 3
+
+Item = dict[str, str]
+"""One number of the answer strip: its key, symbol, value, unit and meaning."""
+
+
+def line_words(state: ExploreState, stiffness_bar: float, lines: int) -> list[Item]:
+    """What the reduced model says at the load."""
+    return [
+        _item(
+            "stiffness_1d",
+            "k̄ (1D)",
+            decimal(stiffness_bar, _DIGITS),
+            f"Stiffness k / (E* L) of the reduced model, mean of {lines} lines with the same "
+            "waves. It is made for the free half-space.",
+        )
+    ]
+
+
+def contact_words(pressed: Curve, fields: Fields | None, surface: Surface) -> list[Item]:
+    """What the full model says at the load."""
+    if not pressed.converged[0] or fields is None:
+        reason = Status(pressed.status[0]).reason
+        return [_item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
+    force, area = float(pressed.force[0]), float(pressed.area_fraction_corrected[0])  # type: ignore[index]
+    in_contact = force / (surface.area * float(pressed.area_fraction[0]))  # type: ignore[index]
+    star = "" if pressed.resolved[0] else " *"
+    return [
+        _item(
+            "stiffness_3d",
+            "k̄ (3D)",
+            decimal(float(pressed.stiffness_bar[0]), _DIGITS) + star,
+            "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
+            "square punch."
+            + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if star else ""),
+            engineering(float(pressed.stiffness[0]), "N/m", _DIGITS),
+        ),
+        _item(
+            "area",
+            "contact",
+            f"{decimal(100 * area, _DIGITS)}%",
+            "Real contact area over the nominal one, corrected for the steps of its outline.",
+        ),
+        _item(
+            "pressure",
+            "p_c",
+            f"{decimal(in_contact / pressed.E_star, _DIGITS)} E*",
+            "Mean pressure within the contact, over the cells that touch.",
+            engineering(in_contact, "Pa", _DIGITS),
+        ),
+        _item(
+            "depth",
+            "d",
+            f"{decimal(float(pressed.depth[0]) / surface.rms_height, _DIGITS)} h",
+            "Depth since the first touch of the highest summit.",
+            engineering(float(pressed.depth[0]), "m", _DIGITS),
+        ),
+        _item(
+            "force",
+            "F",
+            engineering(force, "N", _DIGITS),
+            "Total force on the surface, for the side and the contact modulus that are set.",
+            f"{engineering(force / surface.area, 'Pa', _DIGITS)} over the nominal area",
+        ),
+        _item(
+            "roughness",
+            "h",
+            engineering(surface.rms_height, "m", _DIGITS),
+            "Rms height; the rms slope on this grid stands below it.",
+            f"slope {decimal(surface.rms_slope, _DIGITS)}",
+        ),
+    ]
+
+
+def status(pressed: Curve, n: int, seconds: float, *, is_coarse: bool) -> str:
+    """What was solved, how well, and how long it took."""
+    assert pressed.convolutions is not None
+    certified = "certified" if pressed.converged[0] else "NOT CONVERGED"
+    return (
+        f"{n}²{' (coarse)' if is_coarse else ''}, {int(pressed.convolutions[0])} convolutions, "
+        f"residual {pressed.residual[0]:.1g} {certified}, {decimal(seconds, 2)} s"
+    )
+
+
+def stiffness_rows(pressed: Curve) -> list[list[str]]:
+    """Rows of the table below the curve of the stiffness."""
+    return _rows(pressed, pressed.stiffness_bar)
+
+
+def area_rows(pressed: Curve) -> list[list[str]]:
+    """Rows of the table below the curve of the area."""
+    assert pressed.area_fraction_corrected is not None
+    return _rows(pressed, pressed.area_fraction_corrected)
+
+
+def _rows(pressed: Curve, values: Real) -> list[list[str]]:
+    rows: list[list[str]] = []
+    for i, force in enumerate(pressed.force_bar):
+        shown: Any = (
+            decimal(float(values[i]), _DIGITS)
+            if pressed.converged[i]
+            else Status(pressed.status[i]).reason
+        )
+        star = "" if pressed.resolved[i] or not pressed.converged[i] else " *"
+        rows.append([decimal(float(force), _DIGITS), f"{shown}{star}"])
+    return rows
+
+
+def _item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> Item:
+    return {"key": key, "symbol": symbol, "value": value, "below": below, "meaning": meaning}

@@ -1,0 +1,44 @@
+"""Answers as one binary message: a JSON header, and arrays behind it as the browser reads them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.report.plain import plain
+
+_ALIGNMENT = 8  # typed arrays of a browser begin at multiples of their items
+
+
+def frame(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]] | None = None) -> bytes:
+    """Put a header and arrays into one message.
+
+    Parameters
+    ----------
+    header : mapping
+        Plain content; numbers that JSON has not become null.
+    arrays : mapping of str to ndarray, optional
+        Kept as single-precision, 8-bit or 32-bit unsigned numbers; other types become single
+        precision.
+
+    Returns
+    -------
+    bytes
+        The length of the header (4 bytes, least first), the header as JSON with the type, shape
+        and place of each array, padding, and the arrays.
+    """
+    chunks, places, offset = [], {}, 0
+    for name, values in (arrays or {}).items():
+        shown = values if values.dtype in (np.uint8, np.uint32) else values.astype(np.float32)
+        content = np.ascontiguousarray(shown).tobytes()
+        places[name] = {"dtype": str(shown.dtype), "shape": shown.shape, "offset": offset}
+        padding = -len(content) % _ALIGNMENT
+        chunks.append(content + bytes(padding))
+        offset += len(content) + padding
+    text = json.dumps(plain({**header, "arrays": places}), allow_nan=False).encode()
+    text += b" " * (-(len(text) + 4) % _ALIGNMENT)
+    return b"".join([len(text).to_bytes(4, "little"), text, *chunks])

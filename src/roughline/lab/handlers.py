@@ -1,0 +1,193 @@
+"""The requests of a page apart from its websocket: itself, its parts, its files and downloads."""
+
+from __future__ import annotations
+
+import mimetypes
+from importlib.resources import files
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+from urllib.parse import unquote
+
+from tornado.web import HTTPError, RequestHandler, StaticFileHandler, stream_request_body
+
+from roughline.lab.access import HEADERS, host_is_ours, origin_is_ours, passwords_match
+from roughline.lab.page import login_page, page
+from roughline.lab.session import Session, Upload
+
+if TYPE_CHECKING:
+    from roughline.lab.server import Lab
+
+_COOKIE = "roughline_lab"
+_DAYS = 7  # that a page stays logged in
+_LATER = 3600  # that a browser keeps the parts of the page [s]
+
+
+class Guarded(RequestHandler):
+    """A request that is answered only to who may ask."""
+
+    open_to_all = False
+
+    @property
+    def lab(self) -> Lab:
+        """The lab that is asked."""
+        lab: Lab = self.application.settings["lab"]
+        return lab
+
+    def set_default_headers(self) -> None:
+        """Say what a browser may do with the answer."""
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+        self.set_header("Server", "roughline")
+
+    def prepare(self) -> None:
+        """Refuse names that are not ours, pages of other servers, and who has no password."""
+        settings = self.lab.settings
+        if not host_is_ours(self.request.host, settings):
+            raise HTTPError(403, reason="This is not a name of this server")
+        origin = self.request.headers.get("Origin")
+        reads = self.request.method in ("GET", "HEAD")
+        if (origin is not None or not reads) and not origin_is_ours(origin, self.request.host):
+            raise HTTPError(403, reason="Pages of other servers may not ask")
+        if not self.open_to_all and settings.password is not None and not self._is_logged_in():
+            if self.request.path == "/":
+                self.redirect("/login")
+            else:
+                raise HTTPError(401, reason="Log in first")
+
+    def write_error(self, status_code: int, **kwargs: Any) -> None:
+        """Answer in one line, without a trace."""
+        self.set_header("Content-Type", "text/plain; charset=utf-8")
+        self.finish(f"{status_code}: {self._reason}\n")
+
+    def session_of(self, token: str) -> Session:
+        """Return the session with a token."""
+        session = self.lab.sessions.get(token)
+        if session is None:
+            raise HTTPError(404, reason="This page is no longer connected: reload it")
+        return session
+
+    def _is_logged_in(self) -> bool:
+        return self.get_signed_cookie(_COOKIE, max_age_days=_DAYS) == b"yes"
+
+
+class Page(Guarded):
+    """The page itself."""
+
+    def get(self) -> None:
+        """Send it."""
+        self.set_header("Cache-Control", "no-store")
+        self.finish(page())
+
+
+class Login(Guarded):
+    """Where the password is asked for."""
+
+    open_to_all = True
+
+    def get(self) -> None:
+        """Ask."""
+        self.finish(login_page(""))
+
+    def post(self) -> None:
+        """Check what was given."""
+        password = self.lab.settings.password
+        if password is None:
+            self.redirect("/")
+        elif not self.lab.logins.take():
+            self.set_status(429)
+            self.finish(login_page("Too many tries: wait a minute."))
+        elif passwords_match(self.get_body_argument("password", ""), password):
+            self.set_signed_cookie(
+                _COOKIE, "yes", expires_days=_DAYS, httponly=True, samesite="Strict"
+            )
+            self.redirect("/")
+        else:
+            self.set_status(403)
+            self.finish(login_page("This is not the password."))
+
+
+class Parts(Guarded, StaticFileHandler):
+    """Scripts and styles, ours and those of Bokeh."""
+
+    open_to_all = True
+
+    def set_extra_headers(self, path: str) -> None:
+        """Let a browser keep Bokeh's, which change with its version only."""
+        is_bokehs = self.request.path.startswith("/bokeh/")
+        self.set_header("Cache-Control", f"max-age={_LATER}" if is_bokehs else "no-cache")
+
+
+class Figures(Guarded):
+    """The empty figures of a view, as BokehJS reads them."""
+
+    async def get(self, view: str) -> None:
+        """Send them."""
+        self.set_header("Content-Type", "application/octet-stream")
+        self.finish(await self.lab.figures_of(view))
+
+
+@stream_request_body
+class Uploads(Guarded):
+    """A file that a page brings, written to disk as it comes."""
+
+    upload: Upload | None = None
+
+    def prepare(self) -> None:
+        """Refuse a file that is too large before it comes."""
+        super().prepare()
+        session = self.session_of(self.get_query_argument("session"))
+        most = self.lab.settings.max_upload
+        self.request.connection.set_max_body_size(most)  # type: ignore[union-attr]
+        if not session.allowance.take():
+            raise HTTPError(429, reason="Too many files at once: wait a moment")
+        length = self.request.headers.get("Content-Length", "")
+        if not length.isdigit():
+            raise HTTPError(411, reason="The size of the file must be told first")
+        if int(length) > most:
+            raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
+        self._session = session
+        name = unquote(self.get_query_argument("name", "file"))
+        self._key, self.upload = session.new_upload(name)
+        self._file = self.upload.path.open("wb")
+
+    def data_received(self, chunk: bytes) -> None:
+        """Write what has come."""
+        self._file.write(chunk)
+
+    def post(self) -> None:
+        """Tell the page what its file is called here."""
+        assert self.upload is not None
+        self._file.close()
+        self.finish({"file": self._key, "name": self.upload.name})
+
+    def on_connection_close(self) -> None:
+        """Delete what came of a file that was broken off."""
+        super().on_connection_close()
+        if self.upload is not None:
+            self._file.close()
+            self._session.forget_upload(self._key)
+
+
+class Results(Guarded):
+    """Files that tasks have written for a page: reports, pictures, data."""
+
+    def get(self, token: str, name: str) -> None:
+        """Send one."""
+        folder = self.session_of(token).folder
+        path = (folder / "results" / name).resolve()
+        if not path.is_relative_to(folder.resolve() / "results") or not path.is_file():
+            raise HTTPError(404, reason="There is no such file any more: make it again")
+        self.set_header("Content-Type", mimetypes.guess_type(path.name)[0] or "application/binary")
+        if self.get_query_argument("save", ""):
+            self.set_header("Content-Disposition", f'attachment; filename="{path.name}"')
+        self.finish(path.read_bytes())
+
+
+def static_folder() -> Path:
+    """Where our scripts and styles are."""
+    return Path(str(files("roughline.lab").joinpath("static")))
+
+
+def bokeh_folder() -> Path:
+    """Where those of Bokeh are, in its own package."""
+    return Path(str(files("bokeh"))) / "server" / "static" / "js"

@@ -1,0 +1,89 @@
+"""How the lab's server is set up, checked before it starts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from ipaddress import ip_address
+from pathlib import Path
+
+from roughline.errors import InputError
+
+LOOPBACK = "127.0.0.1"
+
+
+@dataclass(frozen=True)
+class LabSettings:
+    """What the server listens to, and what a session may take.
+
+    Parameters
+    ----------
+    host : str
+        Address to listen to; another than that of this machine itself needs a password.
+    port : int
+        0 takes a free one.
+    password : str or None
+        Asked of every page; None asks for none.
+    max_upload : int
+        Largest file that is taken. [bytes]
+    max_points : int
+        Largest number of points along a side in the view "Explore".
+    max_seconds : float
+        Longest time of one task. [s]
+    max_memory : int
+        Most memory of one task, beside the program. [bytes]
+    max_sessions : int
+        Most pages that are open at once.
+
+    Raises
+    ------
+    InputError
+        If others could reach the server without a password, or a limit makes no sense.
+    """
+
+    host: str = LOOPBACK
+    port: int = 5107
+    password: str | None = None
+    max_upload: int = 200_000_000
+    max_points: int = 1024
+    max_seconds: float = 600.0
+    max_memory: int = 4_000_000_000
+    max_sessions: int = 100
+
+    def __post_init__(self) -> None:
+        if not self.is_local and not self.password:
+            raise InputError(
+                f'host="{self.host}" lets other machines in: put a password into a file and give '
+                "it too (password_file=)"
+            )
+        if self.password is not None and len(self.password) < 8:
+            raise InputError("the password has fewer than 8 characters; take a longer one")
+        if not 0 <= self.port < 65536:
+            raise InputError(f"port is {self.port}; 0 (any free one) to 65535 is allowed")
+        for name in ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions"):
+            if not getattr(self, name) > 0:
+                raise InputError(f"{name} is {getattr(self, name)}; a positive number is needed")
+
+    @property
+    def is_local(self) -> bool:
+        """Whether only this machine can reach it."""
+        try:
+            return ip_address(self.host).is_loopback
+        except ValueError:
+            return self.host == "localhost"
+
+
+def password_in(file: Path) -> str:
+    """Read a password: the first line of a file.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or has nothing in it.
+    """
+    try:
+        lines = file.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"cannot read the password from {file} ({error})") from error
+    if not lines or not lines[0].strip():
+        raise InputError(f"{file} has no password in its first line: write one there")
+    return lines[0].strip()

@@ -1,0 +1,34 @@
+"""A topography as an image, lit from one side."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.topography.body import Surface
+
+_LIGHT = (315.0, 45.0)  # direction and height of the light [degree]
+_RELIEF = 0.35  # rms slope that a surface is lit with, so that smooth ones show as well
+
+
+def shaded(surface: Surface) -> NDArray[np.uint32]:
+    """Return red, green, blue and opacity of every point in one number, as BokehJS reads them.
+
+    Colours are heights, as in the reports; the light shows slopes.
+    """
+    from matplotlib import colormaps  # here because it loads slowly
+    from matplotlib.colors import LightSource
+
+    slope = surface.rms_slope
+    light: Any = LightSource(*_LIGHT)
+    colours = light.shade(
+        surface.heights,
+        colormaps["cividis"],
+        blend_mode="soft",
+        vert_exag=_RELIEF / slope if slope else 1.0,
+        dx=surface.spacing[0],
+        dy=surface.spacing[1],
+    )
+    return (255 * colours).astype(np.uint8).view(np.uint32)[..., 0]

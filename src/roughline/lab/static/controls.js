@@ -1,0 +1,107 @@
+// Sliders, their text fields and choices of one view, and the texts that they stand for.
+const STEPS = 1000; // of a slider on a logarithmic scale
+
+export class Controls {
+  #root; #changed; #said = {};
+
+  // changed(key, isFinal) is called when something is set; isFinal is false while a slider moves.
+  constructor(root, changed) {
+    this.#root = root;
+    this.#changed = changed;
+    for (const slider of root.querySelectorAll('input[type="range"]')) this.#bindSlider(slider);
+    for (const text of root.querySelectorAll("input[data-text]")) {
+      text.addEventListener("change", () => this.#typed(text.dataset.text, text.value));
+      text.addEventListener("keydown", (event) => {
+        if (event.key === "Enter") { event.preventDefault(); this.#typed(text.dataset.text, text.value); }
+      });
+    }
+    for (const choice of root.querySelectorAll('select[data-key], input[type="radio"][data-key]')) {
+      choice.addEventListener("change", () => {
+        if (choice.type !== "radio" || choice.checked) this.set(choice.dataset.key, choice.value, true);
+      });
+    }
+    root.addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  // Texts by key: what the server reads.
+  get said() { return {...this.#said}; }
+
+  set(key, text, isFinal = true) {
+    this.#said[key] = text;
+    this.refuse(key, "");
+    this.#changed(key, isFinal);
+  }
+
+  // Take texts from an address, without telling anyone.
+  take(said) {
+    this.#said = {...said};
+    for (const [key, text] of Object.entries(said)) this.#show(key, text);
+  }
+
+  // Show where numbers stand after the server has read their texts.
+  showNumbers(numbers) {
+    for (const [key, value] of Object.entries(numbers)) {
+      const slider = this.#slider(key);
+      if (slider && document.activeElement !== slider) slider.value = position(slider, value);
+      const text = this.#text(key);
+      if (text && document.activeElement !== text) text.value = said(value);
+    }
+  }
+
+  // Write a sentence beside a control; an empty one takes it away.
+  refuse(key, sentence) {
+    const place = this.#root.querySelector(`[data-error="${CSS.escape(key)}"]`);
+    if (!place) return false;
+    place.textContent = sentence;
+    this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
+    return true;
+  }
+
+  #bindSlider(slider) {
+    const {low, high, scale, step, key} = slider.dataset;
+    const whole = scale === "whole", linear = scale === "linear" || whole;
+    Object.assign(slider, linear ? {min: low, max: high, step} : {min: 0, max: STEPS, step: STEPS * step / Math.log10(high / low)});
+    slider.value = position(slider, Number(slider.dataset.default));
+    this.#text(key).value = said(Number(slider.dataset.default));
+    const moved = (isFinal) => {
+      const text = said(number(slider));
+      this.#text(key).value = text;
+      slider.setAttribute("aria-valuetext", text);
+      this.set(key, text, isFinal);
+    };
+    slider.addEventListener("input", () => moved(false));
+    slider.addEventListener("change", () => moved(true));
+  }
+
+  #typed(key, text) {
+    if (this.#said[key] !== text) this.set(key, text, true);
+  }
+
+  #show(key, text) {
+    for (const radio of this.#root.querySelectorAll(`input[type="radio"][data-key="${CSS.escape(key)}"]`)) {
+      radio.checked = radio.value === text;
+    }
+    const select = this.#root.querySelector(`select[data-key="${CSS.escape(key)}"]`);
+    if (select) select.value = text;
+    const field = this.#text(key);
+    if (field) field.value = text;
+    const slider = this.#slider(key);
+    if (slider && Number.isFinite(Number(text))) slider.value = position(slider, Number(text));
+  }
+
+  #slider(key) { return this.#root.querySelector(`input[type="range"][data-key="${CSS.escape(key)}"]`); }
+  #text(key) { return this.#root.querySelector(`input[data-text="${CSS.escape(key)}"]`); }
+}
+
+// A number as it is typed: four digits, no exponent where it is short.
+export function said(value) { return String(Number(value.toPrecision(4))); }
+
+function position(slider, value) {
+  const {low, high, scale} = slider.dataset;
+  return scale === "logarithmic" ? (STEPS * Math.log(value / low)) / Math.log(high / low) : value;
+}
+
+function number(slider) {
+  const {low, high, scale} = slider.dataset;
+  return scale === "logarithmic" ? low * (high / low) ** (slider.value / STEPS) : Number(slider.value);
+}

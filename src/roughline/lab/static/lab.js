@@ -1,0 +1,92 @@
+// The page: its three views, the address, the theme, and the connection.
+import {Link} from "./link.js";
+import {recolourAll} from "./plots.js";
+
+const VIEWS = ["explore", "measured", "published"];
+const FIRST = "explore";
+const opened = new Map();
+
+const link = new Link((isOpen, isNew, reason) => {
+  const place = document.querySelector("#connection");
+  place.hidden = isOpen;
+  place.textContent = reason || "The lab does not answer: it was closed, or the connection is lost. Trying again.";
+  if (isNew) for (const view of opened.values()) view.then((each) => each.reconnected?.());
+});
+
+// The state of a view in the address of the page.
+const address = {
+  read() {
+    const said = Object.fromEntries(new URLSearchParams(location.search));
+    delete said.view;
+    return said;
+  },
+  write(view, said) {
+    const query = new URLSearchParams({view, ...said});
+    history.replaceState(null, "", `?${query}`);
+  },
+};
+
+async function show(name, said) {
+  for (const view of VIEWS) {
+    document.querySelector(`#${view}`).hidden = view !== name;
+    const item = document.querySelector(`nav [data-view="${view}"]`);
+    if (view === name) item.setAttribute("aria-current", "page");
+    else item.removeAttribute("aria-current");
+  }
+  document.title = `roughline: ${document.querySelector(`nav [data-view="${name}"]`).textContent}`;
+  if (!opened.has(name)) {
+    opened.set(name, import(`./${name}.js`).then((module) => module.open(link, address, said)));
+  } else {
+    (await opened.get(name)).shown?.();
+  }
+}
+
+document.querySelectorAll("nav a").forEach((item) => {
+  item.addEventListener("click", (event) => {
+    if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+    event.preventDefault();
+    history.pushState(null, "", item.getAttribute("href"));
+    show(item.dataset.view, {});
+  });
+});
+addEventListener("popstate", () => start());
+
+const theme = document.querySelector("#theme");
+function nameTheme() {
+  theme.textContent = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
+}
+theme.addEventListener("click", () => {
+  document.documentElement.dataset.theme = theme.textContent;
+  try { localStorage.setItem("roughline theme", theme.textContent); } catch { /* storage may be closed */ }
+  nameTheme();
+  recolourAll();
+});
+nameTheme();
+
+const help = document.querySelector("#help"), helpText = document.querySelector("#help-text");
+help.addEventListener("click", () => {
+  helpText.hidden = !helpText.hidden;
+  help.setAttribute("aria-expanded", String(!helpText.hidden));
+});
+
+const copy = document.querySelector("#copy-link");
+copy.addEventListener("click", async () => {
+  await navigator.clipboard.writeText(location.href);
+  copy.textContent = "copied";
+  setTimeout(() => { copy.textContent = "copy link"; }, 1500);
+});
+
+document.querySelectorAll(".drawer").forEach((drawer) => {
+  const controls = document.querySelector(`#${drawer.getAttribute("aria-controls")}`);
+  drawer.addEventListener("click", () => {
+    const isOpen = controls.classList.toggle("open");
+    drawer.setAttribute("aria-expanded", String(isOpen));
+  });
+});
+
+function start() {
+  const said = address.read();
+  const name = new URLSearchParams(location.search).get("view") ?? FIRST;
+  show(VIEWS.includes(name) ? name : FIRST, said);
+}
+start();

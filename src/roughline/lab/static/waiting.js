@@ -1,0 +1,37 @@
+// Waiting: nothing for 300 ms, then how far it is, the time left, and a cancel.
+const SILENT = 300; // [ms]
+
+export class Waiting {
+  #bar; #cancel; #text; #timer = null;
+
+  constructor(root, cancelled) {
+    this.#bar = root.querySelector("progress");
+    this.#cancel = root.querySelector(".cancel");
+    this.#text = root.querySelector("[data-left]");
+    this.#cancel.addEventListener("click", () => { this.end(); cancelled(); });
+  }
+
+  begin() {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      this.#bar.removeAttribute("value");
+      this.#bar.hidden = this.#cancel.hidden = false;
+    }, SILENT);
+  }
+
+  progress({done, total, left}) {
+    this.#bar.max = total;
+    this.#bar.value = done;
+    if (this.#text) this.#text.textContent = left === null ? "" : `${done} of ${total}, about ${duration(left)} left`;
+  }
+
+  end() {
+    clearTimeout(this.#timer);
+    this.#bar.hidden = this.#cancel.hidden = true;
+    if (this.#text) this.#text.textContent = "";
+  }
+}
+
+function duration(seconds) {
+  return seconds < 90 ? `${Math.max(1, Math.round(seconds))} s` : `${Math.round(seconds / 60)} min`;
+}
