@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from importlib.resources import files
 
 import jinja2
+from markupsafe import Markup, escape
 
 from roughline._version import __version__
 from roughline.lab.explore import controls as explore
+
+_SUBSCRIPT = re.compile(r"_(\w)")
 
 
 @cache
@@ -27,6 +31,13 @@ def login_page(complaint: str) -> str:
 @cache
 def _environment() -> jinja2.Environment:
     folder = str(files("roughline.lab").joinpath("templates"))
-    return jinja2.Environment(
+    environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
     )
+    environment.filters["subscripts"] = _subscripts
+    return environment
+
+
+def _subscripts(symbol: str) -> Markup:
+    """A symbol such as D_f or λ_r/L, with its letters after an underscore set low."""
+    return Markup(_SUBSCRIPT.sub(r"<sub>\1</sub>", str(escape(symbol))))

@@ -89,8 +89,8 @@ FORCE = Control(
 )
 POINTS = Choice(
     "n",
-    "points",
-    {str(n): f"{n}²" for n in (64, 128, 256, 512, 1024)},
+    "points along a side",
+    {str(n): str(n) for n in (64, 128, 256, 512, 1024)},
     "512",
     "Points along a side of the grid: more points, finer waves and a longer wait.",
 )
@@ -103,7 +103,7 @@ ROUGHNESS = Choice(
 )
 BOUNDARY = Choice(
     "boundary",
-    "half-space",
+    "around the surface",
     {"free": "free", "periodic": "periodic"},
     "free",
     "Free: the half-space goes on, unloaded, around the surface. Periodic: the surface is repeated "

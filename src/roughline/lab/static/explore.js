@@ -1,6 +1,7 @@
 // Explore: a random surface under both models, as sliders move.
 import {Controls} from "./controls.js";
 import {embedded, fillTable} from "./plots.js";
+import {Strip} from "./strip.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
@@ -10,6 +11,9 @@ const LABELS = {
   gap: "gap in rms heights",
   displacement: "deflection of the half-space in rms heights",
 };
+const DASHES = ["– –", "· · ·", "– ·"]; // as theories are drawn
+const MOST_THEORIES = DASHES.length;
+const CONTACT = ["topography", "contact"], CURVES = ["stiffness", "area", "spectrum"]; // panels
 const STRIP = ["stiffness_3d", "stiffness_1d", "area", "pressure", "depth", "force", "roughness"];
 
 export async function open(link, address, said) {
@@ -20,7 +24,7 @@ export async function open(link, address, said) {
 
 class Explore {
   #link; #address; #root = document.querySelector("#explore");
-  #controls; #plots; #waiting; #rest = null; #strip = {}; #last = null; #fromCursor = false;
+  #controls; #plots; #waiting; #rest = null; #strip; #last = null; #fromCursor = false;
 
   constructor(link, address) {
     this.#link = link;
@@ -31,6 +35,7 @@ class Explore {
       link.stop("curve");
       this.#say("stopped; the coarse answer is shown");
     });
+    this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#bindButtons();
   }
 
@@ -38,18 +43,21 @@ class Explore {
     const {view, ...texts} = said;
     this.#controls.take(texts);
     this.#showHeightOrSlope();
-    this.#askNow(false);
+    const theories = (texts.theories ?? "").split(",");
+    for (const box of this.#root.querySelectorAll("[data-theory]")) box.checked = theories.includes(box.dataset.theory);
+    this.#askNow();
     this.#plots = await embedded("explore");
     for (const name of ["stiffness", "area"]) {
       this.#plots.onMove(`${name} cursor`, (force) => this.#cursorMoved(force));
     }
+    this.#plots.frame(["explore-topography", "explore-contact"], [1, 1]);
     for (const draw of this.#missed.splice(0)) draw();
     this.#sharpen();
   }
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
 
-  reconnected() { this.#askNow(true); }
+  reconnected() { this.#askNow(); this.#sharpen(); }
 
   #missed = []; // answers that came before the plots were there
   #draw(action) { if (this.#plots) action(); else this.#missed.push(action); }
@@ -61,7 +69,9 @@ class Explore {
       return;
     }
     if (key === "rms") this.#showHeightOrSlope();
-    this.#askNow(key === "n");
+    this.#stale = key !== "F" || this.#stale;
+    this.#dim(key === "F" ? CONTACT : [...CONTACT, ...CURVES]);
+    this.#askNow();
     clearTimeout(this.#rest);
     this.#link.stop("full");
     this.#link.stop("curve");
@@ -84,10 +94,10 @@ class Explore {
     const progress = (message) => this.#waiting.progress(message);
     const args = this.#arguments();
     this.#waiting.begin();
-    this.#root.classList.add("dimmed");
     this.#link.ask("explore.full", "full", args, {
       answer: (header) => {
         this.#drawContact(header);
+        if (!this.#stale) { this.#waiting.end(); return; }
         this.#link.ask("explore.curve", "curve", args, {
           answer: (curve) => { this.#waiting.end(); this.#drawCurve(curve); }, error, progress});
       },
@@ -99,7 +109,7 @@ class Explore {
   #drawLine({state, numbers, line, strip}) {
     this.#settled(state, numbers);
     this.#plots.set("stiffness line", {x: line.force_bar, y: line.stiffness_bar, low: line.low, high: line.high});
-    this.#strip_(strip);
+    this.#strip.add(strip);
     this.#cursorTo(numbers.F);
     this.#line = line;
   }
@@ -114,10 +124,12 @@ class Explore {
     this.#plots.set("stiffness here", {x, y: stiffness_bar});
     this.#plots.set("area here", {x, y: area});
     const {waves, C_2d, law} = header.spectrum;
+    this.#plots.span("explore-spectrum", "x", waves);
+    this.#plots.span("explore-spectrum", "y", C_2d);
     this.#plots.set("spectrum", {x: waves, y: C_2d, law: law.map((value) => value ?? NaN)});
-    this.#strip_(header.strip);
+    this.#strip.add(header.strip);
     this.#say(header.status);
-    if (!header.is_coarse) this.#root.classList.remove("dimmed");
+    this.#undim(CONTACT);
     fillTable("explore-topography", ["quantity", "value"], header.strip.filter(({key}) => key === "roughness").map(({symbol, value, below}) => [`rms height ${symbol}`, `${value}, ${below}`]));
     fillTable("explore-contact", ["quantity", "value"], header.strip.map(({symbol, value, below}) => [symbol, below ? `${value} (${below})` : value]));
     const every = Math.ceil(waves.length / 40);
@@ -132,10 +144,18 @@ class Explore {
     let high = 1;
     if (shown !== "area") { high = 0; for (const value of field.values) if (value > high) high = value; }
     this.#plots.colours("contact", shown === "area" ? "marks" : shown === "pressure" ? "viridis" : "cividis");
-    this.#plots.setMap("contact", field, [1, 1], [0, high || 1]);
+    const low = shown === "pressure" ? 1e-6 * high : 0; // where nothing presses, the paper shows
+    this.#plots.setMap("contact", field, [1, 1], [low, high || 1]);
   }
 
+  #stale = true; // whether the whole curve belongs to another surface
+
+  #dim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.add("dimmed"); }
+  #undim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.remove("dimmed"); }
+
   #drawCurve({curve, grid, theories, stiffness_table, area_table}) {
+    this.#stale = false;
+    this.#undim(CURVES);
     const rows = (wanted, values) => {
       const kept = curve.force_bar.flatMap((x, i) => curve.converged[i] && values[i] !== null && curve.resolved[i] === wanted ? [i] : []);
       return {x: kept.map((i) => curve.force_bar[i]), y: kept.map((i) => values[i])};
@@ -144,13 +164,19 @@ class Explore {
       this.#plots.set(`${name} curve`, rows(true, values));
       this.#plots.set(`${name} unsure`, rows(false, values));
     }
-    const known = theories.filter((each) => each.stiffness_bar);
-    this.#plots.set("stiffness theories", {xs: known.map((each) => each.force_bar), ys: known.map((each) => each.stiffness_bar), name: known.map((each) => each.name)});
-    this.#plots.set("area theories", {xs: theories.map((each) => each.force_bar), ys: theories.map((each) => each.area), name: theories.map((each) => each.name)});
+    for (let i = 0; i < MOST_THEORIES; i++) {
+      const {force_bar = [], stiffness_bar = null, area = []} = theories[i] ?? {};
+      this.#plots.set(`stiffness theory ${i}`, {x: stiffness_bar ? force_bar : [], y: stiffness_bar ?? []});
+      this.#plots.set(`area theory ${i}`, {x: force_bar, y: area});
+    }
+    this.#plots.span("explore-stiffness", "y", curve.stiffness_bar, [1e-3, 1.3]);
+    this.#plots.span("explore-area", "y", curve.area, [1e-4, 1]);
     const failed = curve.converged.filter((each) => !each).length;
     const note = failed ? `; ${failed} loads were not solved` : "";
-    this.#caption("stiffness", `marks on ${grid} points${note}`);
-    this.#caption("area", [`marks on ${grid} points${note}`, ...theories.map(({name, validity}) => `${name}: ${validity}`)].join("; "));
+    const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${name}: ${validity}`);
+    this.#caption("stiffness", `marks of the curve on ${grid} points${note}`);
+    this.#caption("area", `marks of the curve on ${grid} points${note}`);
+    this.#caption("theories", drawn.map((each) => `${each}.`).join(" "));
     const line = this.#line;
     const lineRows = line ? line.force_bar.map((x, i) => [x.toPrecision(3), line.stiffness_bar[i].toPrecision(3), "1D"]) : [];
     fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness_table.map((cells) => [...cells, "3D"]), ...lineRows]);
@@ -181,27 +207,8 @@ class Explore {
     this.#changed("F", false);
   }
 
-  #strip_(items) {
-    for (const item of items) this.#strip[item.key] = item;
-    const shown = STRIP.filter((key) => key in this.#strip).map((key) => this.#strip[key]);
-    this.#root.querySelector(".strip").replaceChildren(...shown.map(({key, symbol, value, below, meaning}) => {
-      const item = document.createElement("div");
-      item.title = meaning;
-      item.dataset.answer = key;
-      item.tabIndex = 0;
-      item.setAttribute("aria-label", `${symbol} ${value} ${below}. ${meaning}`);
-      for (const [kind, text] of [["dt", symbol], ["dd", value], ["dd", below]]) {
-        const part = document.createElement(kind);
-        part.textContent = text;
-        item.append(part);
-      }
-      return item;
-    }));
-  }
-
   #refuse(sentence, at) {
     clearTimeout(this.#rest);
-    this.#root.classList.remove("dimmed");
     if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
   }
 
