@@ -64,13 +64,13 @@ def coarse(arguments: Arguments, progress: Progress) -> bytes:
     state = _state(arguments)
     crowded = arguments["crowded"] and state.roll_off > _LONG_ROLL_OFF
     n = min(state.n, COARSER if crowded else COARSE)
-    return _contact(state, n)
+    return _contact(state, n, progress)
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on the grid of the state."""
     state = _state(arguments)
-    return _contact(state, state.n)
+    return _contact(state, state.n, progress)
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
@@ -98,8 +98,10 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     )
 
 
-def _contact(state: ExploreState, n: int) -> bytes:
+def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
+    """The contact on a grid; on the grid of the state, with what finer ones may change."""
     started = time.perf_counter()
+    is_coarse = n < state.n
     surface = surface_of(state, n)
     pressed = press(
         surface,
@@ -107,7 +109,9 @@ def _contact(state: ExploreState, n: int) -> bytes:
         forces=[_force(state, state.F)],
         periodic=state.periodic,
         fields=True,
+        grid_error=not is_coarse,
         throw=False,
+        progress=progress,
     )
     fields = pressed.fields[0]
     seconds = time.perf_counter() - started
@@ -125,12 +129,12 @@ def _contact(state: ExploreState, n: int) -> bytes:
             "state": state.address(),
             "numbers": _numbers(state),
             "points": n,
-            "is_coarse": n < state.n,
+            "is_coarse": is_coarse,
             "heights": [float(heights.min()), float(heights.max())],
             "curve": _of_curve(pressed),
             "spectrum": _of_spectrum(surface, state, n),
             "strip": contact_words(pressed, fields, surface),
-            "status": status(pressed, n, seconds, is_coarse=n < state.n),
+            "status": status(pressed, n, seconds, is_coarse=is_coarse),
         },
         {name: values.T for name, values in arrays.items()},  # rows of an image run along x
     )

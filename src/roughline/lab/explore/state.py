@@ -10,7 +10,7 @@ from roughline.errors import UnitError
 from roughline.lab.controls import Control, ControlError
 from roughline.lab.explore import controls as c
 from roughline.theories.theory import THEORIES
-from roughline.units import decimal, in_si, load_in_newtons
+from roughline.units import engineering, in_si, load_in_newtons
 
 VERSION = "1"
 """Of the address; one of another version is refused."""
@@ -202,11 +202,18 @@ def _in_sides(said: Mapping[str, str], control: Control, side: float) -> float:
     if not _HAS_UNIT.match(text):
         return control.read(text)
     try:
-        return control.checked(in_si(text, "m", control.name) / side)
+        length = in_si(text, "m", control.name)
     except UnitError as error:
         raise ControlError(str(error), control.key) from None
-    except ControlError as error:
-        raise ControlError(f"{error} sides of {decimal(side * 1e3, 4)} mm", control.key) from None
+    try:
+        return control.checked(length / side)
+    except ControlError:
+        low, high = (engineering(end * side, "m", 3) for end in (control.low, control.high))
+        raise ControlError(
+            f"{control.name} is {text.strip()}; give one from {low} to {high}, which is "
+            f"{control.range} sides",
+            control.key,
+        ) from None
 
 
 def _force_bar(text: str, state: ExploreState) -> float:
@@ -219,7 +226,16 @@ def _force_bar(text: str, state: ExploreState) -> float:
         force = load_in_newtons(text, state.length**2)
     except UnitError as error:
         raise ControlError(str(error), c.FORCE.key) from None
-    return c.FORCE.checked(force / (state.E_star * rms_height(state) * state.length))
+    scale = state.E_star * rms_height(state) * state.length
+    try:
+        return c.FORCE.checked(force / scale)
+    except ControlError:
+        low, high = (engineering(end * scale, "N", 3) for end in (c.FORCE.low, c.FORCE.high))
+        raise ControlError(
+            f"the load {text.strip()} is F̄ = {force / scale:.3g}; give one from {low} to {high}, "
+            f"which is F̄ {c.FORCE.range}",
+            c.FORCE.key,
+        ) from None
 
 
 def _theories(text: str) -> tuple[str, ...]:

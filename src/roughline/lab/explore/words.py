@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from roughline.assessment.uncertainty import Solution
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve, Fields, Status
 from roughline.contact.quantities import RESOLVED_FROM
+from roughline.engineering.answer import Ends
 from roughline.lab.explore.state import ExploreState
+from roughline.report.values import value_and_interval, with_interval
 from roughline.topography.body import Surface
 from roughline.units import decimal, engineering
 
@@ -35,8 +38,17 @@ def contact_words(pressed: Curve, fields: Fields | None, surface: Surface) -> li
     if not pressed.converged[0] or fields is None:
         reason = Status(pressed.status[0]).reason
         return [_item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
-    force, area = float(pressed.force[0]), float(pressed.area_fraction_corrected[0])  # type: ignore[index]
-    in_contact = force / (surface.area * float(pressed.area_fraction[0]))  # type: ignore[index]
+    assert pressed.area_fraction is not None
+    assert pressed.area_fraction_corrected is not None
+    force, area = float(pressed.force[0]), float(pressed.area_fraction_corrected[0])
+    in_contact = force / (surface.area * float(pressed.area_fraction[0]))
+    with_intervals = Solution.of(pressed, interrupted=False)
+    stiffness = with_interval(
+        float(pressed.stiffness[0]), _first(with_intervals.stiffness_interval), "N/m"
+    )
+    area_interval = value_and_interval(
+        with_interval(area, _first(with_intervals.area_interval), "%")
+    )
     star = "" if pressed.resolved[0] else " *"
     return [
         _item(
@@ -45,14 +57,17 @@ def contact_words(pressed: Curve, fields: Fields | None, surface: Surface) -> li
             decimal(float(pressed.stiffness_bar[0]), _DIGITS) + star,
             "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
             "square punch."
+            + " The interval is what finer grids may change."
             + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if star else ""),
-            engineering(float(pressed.stiffness[0]), "N/m", _DIGITS),
+            stiffness,
         ),
         _item(
             "area",
             "contact",
             f"{decimal(100 * area, _DIGITS)}%",
-            "Real contact area over the nominal one, corrected for the steps of its outline.",
+            "Real contact area over the nominal one, corrected for the steps of its outline. The "
+            "interval is what finer grids, with finer roughness, may change.",
+            *area_interval[1:],
         ),
         _item(
             "pressure",
@@ -117,6 +132,11 @@ def _rows(pressed: Curve, values: Real) -> list[list[str]]:
         star = "" if pressed.resolved[i] or not pressed.converged[i] else " *"
         rows.append([decimal(float(force), _DIGITS), f"{shown}{star}"])
     return rows
+
+
+def _first(ends: Ends | None) -> tuple[float, float] | None:
+    """Both ends of an interval at the first load."""
+    return None if ends is None else (float(ends[0][0]), float(ends[1][0]))
 
 
 def _item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> Item:

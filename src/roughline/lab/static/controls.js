@@ -44,7 +44,8 @@ export class Controls {
       const slider = this.#slider(key);
       if (slider && document.activeElement !== slider) slider.value = position(slider, value);
       const text = this.#text(key);
-      if (text && document.activeElement !== text) text.value = said(value);
+      const hasUnit = Number.isNaN(Number(this.#said[key] ?? value)); // stays as it was typed
+      if (text && document.activeElement !== text && !hasUnit) text.value = said(value);
     }
   }
 
