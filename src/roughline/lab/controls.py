@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from roughline.errors import InputError
+import roughline as rl
 from roughline.units import refuse_decimal_comma
 
 
-class ControlError(InputError):
+class ControlError(rl.InputError):
     """What a control of the page is set to cannot be used.
 
     Attributes

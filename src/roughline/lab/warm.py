@@ -8,17 +8,15 @@ from functools import cache
 @cache
 def up() -> None:
     """Press a small surface and a line with one thread, and load what pictures need."""
-    from roughline.computing.fft import set_threads
-    from roughline.contact.press import press
-    from roughline.spectra.self_affine import SelfAffine
+    import roughline as rl
 
-    set_threads(1)  # many sessions share the cores
-    spectrum = SelfAffine(hurst=0.8, rms_height=1.0)
+    rl.set_threads(1)  # many sessions share the cores
+    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0)
     for periodic in (False, True):
-        press(
+        rl.press(
             spectrum.surface(32, 0), E_star=1.0, forces=[0.1, 0.2], periodic=periodic, fields=True
         )
-    press(spectrum.line(64, 0), E_star=1.0, forces=[0.1])
+    rl.press(spectrum.line(64, 0), E_star=1.0, forces=[0.1])
 
 
 up()

@@ -116,6 +116,13 @@ SHOWN = Choice(
     "area",
     "What the second map shows.",
 )
-
-NUMBERS = (D_F, ROLL_OFF, CUTOFF, HEIGHT, SLOPE, SEED, FORCE)
-CHOICES = (POINTS, ROUGHNESS, BOUNDARY, SHOWN)
+THEORIES = Choice(
+    "theories",
+    "theory",
+    {
+        "persson": "Persson",
+        "bush-gibson-thomas": "Bush, Gibson, Thomas",
+        "greenwood-williamson": "Greenwood, Williamson",
+    },
+    meaning="Theories of the same waves, drawn beside the curves; they hold for periodic surfaces.",
+)

@@ -9,21 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
-from roughline.contact.press import press
+import roughline as rl
 from roughline.contact.scaling import stiffness_bar
-from roughline.errors import ContinuumWarning
+from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import lines_of, rms_height, spectrum_of, surface_of
-from roughline.lab.explore.state import ExploreState, state_of
+from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import area_rows, contact_words, line_words, status, stiffness_rows
 from roughline.lab.frames import frame
 from roughline.lab.shading import shaded
 from roughline.lab.tasks import Progress
-from roughline.spectra.isotropic import isotropic_spectrum
-from roughline.statistics.averages import average
-from roughline.theories.theory import theory
-from roughline.topography.body import Surface
 
 COARSE, COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
@@ -41,7 +35,7 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
     lines = lines_of(state)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
-    mean = average(stiffness)
+    mean = rl.average(stiffness)
     here = int(np.searchsorted(forces, state.F))
     return frame(
         {
@@ -78,7 +72,7 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     state = _state(arguments)
     n = min(state.n, _CURVE_POINTS)
     surface = surface_of(state, n)
-    pressed = press(
+    pressed = rl.press(
         surface,
         E_star=state.E_star,
         forces=_force(state, _CURVE_FORCES),
@@ -103,7 +97,7 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
     started = time.perf_counter()
     is_coarse = n < state.n
     surface = surface_of(state, n)
-    pressed = press(
+    pressed = rl.press(
         surface,
         E_star=state.E_star,
         forces=[_force(state, state.F)],
@@ -155,13 +149,13 @@ def _force(state: ExploreState, force_bar: Any) -> Any:
     return force_bar * (state.E_star * rms_height(state) * state.length)
 
 
-def _press_bar(line: Any, state: ExploreState, force_bars: Real) -> Curve:
+def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float64]) -> rl.Curve:
     """Press a line under dimensionless forces, scaled with its own rms height."""
     scale = state.E_star * line.rms_height * line.length
-    return press(line, E_star=state.E_star, forces=force_bars * scale)
+    return rl.press(line, E_star=state.E_star, forces=force_bars * scale)
 
 
-def _of_curve(pressed: Curve) -> dict[str, Any]:
+def _of_curve(pressed: rl.Curve) -> dict[str, Any]:
     """What the page draws of a curve; a load that was not solved is left out there."""
     return {
         "force_bar": pressed.force_bar,
@@ -173,9 +167,9 @@ def _of_curve(pressed: Curve) -> dict[str, Any]:
     }
 
 
-def _of_spectrum(surface: Surface, state: ExploreState, n: int) -> dict[str, Any]:
+def _of_spectrum(surface: rl.Surface, state: ExploreState, n: int) -> dict[str, Any]:
     """Spectrum of the surface, and the law that it is drawn from, over waves in the side."""
-    measured = isotropic_spectrum(surface)
+    measured = rl.isotropic_spectrum(surface)
     known = measured.C_2d > 0
     q = measured.q[known]
     law = spectrum_of(state, n).lattice(n).C_2d(q)
@@ -186,14 +180,14 @@ def _of_spectrum(surface: Surface, state: ExploreState, n: int) -> dict[str, Any
     }
 
 
-def _of_theory(name: str, surface: Surface, state: ExploreState) -> dict[str, Any]:
+def _of_theory(name: str, surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     """A theory for the waves of the surface, dimensionless like the curve."""
     import warnings
 
     forces = np.geomspace(1e-3, 3, 31)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ContinuumWarning)  # its sentence is in the validity
-        found = theory(name, surface, state.E_star, _force(state, forces) / surface.area)
+        warnings.simplefilter("ignore", rl.ContinuumWarning)  # its sentence is in the validity
+        found = rl.theory(name, surface, state.E_star, _force(state, forces) / surface.area)
     stiffness = None
     if found.stiffness is not None:
         stiffness = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)
