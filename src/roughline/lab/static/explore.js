@@ -7,8 +7,8 @@ import {Waiting} from "./waiting.js";
 const REST = 250; // without a move, until the full grid is computed [ms]
 const LABELS = {
   area: "black: in contact",
-  pressure: "pressure over E*",
-  gap: "gap in rms heights",
+  pressure: "pressure over E*; blank where nothing touches",
+  gap: "gap in rms heights; blank where they touch",
   displacement: "deflection of the half-space in rms heights",
 };
 const DASHES = ["– –", "· · ·", "– ·"]; // as theories are drawn
