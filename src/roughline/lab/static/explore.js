@@ -98,6 +98,7 @@ class Explore {
 
   #drawLine({state, numbers, line, strip}) {
     this.#settled(state, numbers);
+    this.#plots.shows("explore-stiffness", {what: "line", numbers});
     this.#plots.set("stiffness line", {x: line.force_bar, y: line.stiffness_bar, low: line.low, high: line.high});
     this.#strip_(strip);
     this.#cursorTo(numbers.F);
@@ -108,6 +109,8 @@ class Explore {
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
     this.#last = header;
     this.#settled(header.state, header.numbers);
+    const what = {what: "contact", points: header.points, numbers: header.numbers};
+    for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
     this.#plots.setMap("topography", header.arrays.topography, [1, 1], header.heights);
     this.#drawField(header);
     const {force_bar: x, stiffness_bar, area} = header.curve;
@@ -140,6 +143,7 @@ class Explore {
       const kept = curve.force_bar.flatMap((x, i) => curve.converged[i] && values[i] !== null && curve.resolved[i] === wanted ? [i] : []);
       return {x: kept.map((i) => curve.force_bar[i]), y: kept.map((i) => values[i])};
     };
+    for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
     for (const [name, values] of [["stiffness", curve.stiffness_bar], ["area", curve.area]]) {
       this.#plots.set(`${name} curve`, rows(true, values));
       this.#plots.set(`${name} unsure`, rows(false, values));

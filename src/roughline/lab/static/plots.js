@@ -22,7 +22,31 @@ export async function embedded(view) {
 }
 
 export class Plots {
-  constructor(made) { this.made = made; }
+  #shown = new Map();
+
+  constructor(made) {
+    this.made = made;
+    for (const root of made.roots()) {
+      Bokeh.index.find_one(root)?.repainted.connect(() => this.#tellDrawn(root.name));
+    }
+  }
+
+  // Say what the next picture of a plot shows; when it is on the screen, its element tells so by the
+  // event "drawn", and its data-shown says what was drawn last.
+  shows(plot, what) { this.#shown.set(plot, [...(this.#shown.get(plot) ?? []), what]); }
+
+  #tellDrawn(plot) {
+    const shown = this.#shown.get(plot);
+    if (!shown?.length) return;
+    this.#shown.delete(plot);
+    requestAnimationFrame(() => {
+      const element = document.querySelector(`#plot-${CSS.escape(plot)}`);
+      for (const detail of shown) {
+        element.dataset.shown = JSON.stringify(detail);
+        element.dispatchEvent(new CustomEvent("drawn", {detail, bubbles: true}));
+      }
+    });
+  }
 
   model(name) { return this.made.get_model_by_name(name); }
 
