@@ -9,6 +9,7 @@ import argparse
 import os
 import platform
 import statistics
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -18,9 +19,6 @@ from playwright.sync_api import sync_playwright
 
 from roughline._version import __version__
 from roughline.computing.fft import available_cores
-
-# isort: split
-import sys
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from lab_in_browser import Pages, RunningLab, launched  # noqa: E402
@@ -162,8 +160,7 @@ def table(times, browser):
     return f"""# How soon the lab answers, measured
 
 Written by `make lab-benchmark`: roughline {__version__}, {available_cores()} cores, \
-{platform.machine()}{model()}, {os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9:.0f} \
-GB of memory, Python {platform.python_version()}, NumPy {np.__version__}, headless Chromium \
+{platform.machine()}{model()}, {memory():.0f} GB of memory, Python {platform.python_version()}, NumPy {np.__version__}, headless Chromium \
 {browser} without a graphics card, on the same machine.
 
 | from, to | median | 95th percentile | longest | measured | wanted (median) |
@@ -182,6 +179,11 @@ def shown(milliseconds):
     if milliseconds is None:
         return "-"
     return f"{milliseconds:.0f} ms" if milliseconds < 1000 else f"{milliseconds / 1e3:.2f} s"
+
+
+def memory():
+    """Return the memory of this machine. [GB]"""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9
 
 
 def model():

@@ -10,7 +10,9 @@ import sys
 import time
 from urllib.parse import urlsplit
 
-WANTED = "no Chromium: install Debian's (apt-get install chromium), or `playwright install chromium`"
+WANTED = (
+    "no Chromium: install Debian's (apt-get install chromium), or `playwright install chromium`"
+)
 _ARGUMENTS = ("--no-sandbox", "--disable-gpu")  # root has no sandbox, and pictures must not differ
 _OWN = ("data:", "blob:", "about:")
 

@@ -1,4 +1,4 @@
-"""The tests that drive a page would see what must not be: errors, foreign requests, foreign code."""
+"""The tests that drive a page would see errors, requests that leave, and foreign code."""
 
 import re
 
@@ -33,7 +33,9 @@ def test_the_first_page_draws_a_contact_and_complains_of_nothing(one_page):
 )
 def test_what_must_not_be_is_seen(one_page, pages, script, complaint):
     with pages.expecting(f"{re.escape(complaint)}|192.0.2.1"):
-        one_page.evaluate(f"() => {{ try {{ {script} }} catch (e) {{ console.error(e.message) }} }}")
+        one_page.evaluate(
+            f"() => {{ try {{ {script} }} catch (e) {{ console.error(e.message) }} }}"
+        )
         one_page.click("body", position={"x": 2, "y": 2})
         one_page.wait_for_timeout(50)
     assert one_page.title() != "1"

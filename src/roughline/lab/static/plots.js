@@ -7,9 +7,15 @@ const PALETTES = {
   get viridis() { return Bokeh.Palettes?.Viridis256 ?? Bokeh.require("api/palettes").Viridis256; },
 };
 
+// BokehJS is loaded beside the page, which asks its first questions meanwhile.
+const bokeh = new Promise((loaded) => {
+  if (window.Bokeh) loaded();
+  else document.querySelector("#bokeh").addEventListener("load", loaded);
+});
+
 // Embed the figures of a view; returns what changes them.
 export async function embedded(view) {
-  const response = await fetch(`/figures/${view}`);
+  const [response] = await Promise.all([fetch(`/figures/${view}`), bokeh]);
   if (!response.ok) throw new Error(await response.text());
   const {documents: content, items} = unpacked(await response.arrayBuffer());
   const before = new Set(Bokeh.documents);
