@@ -21,7 +21,7 @@ from roughline._version import __version__
 from roughline.computing.fft import available_cores
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from lab_in_browser import Pages, RunningLab, launched  # noqa: E402
+from lab_in_browser import Pages, RunningLab, launched
 
 TABLE = Path(__file__).parents[1] / "docs" / "lab-table.md"
 SERVERS = 5
@@ -160,8 +160,8 @@ def table(times, browser):
     return f"""# How soon the lab answers, measured
 
 Written by `make lab-benchmark`: roughline {__version__}, {available_cores()} cores, \
-{platform.machine()}{model()}, {memory():.0f} GB of memory, Python {platform.python_version()}, NumPy {np.__version__}, headless Chromium \
-{browser} without a graphics card, on the same machine.
+{platform.machine()}{model()}, {memory():.0f} GB of memory, Python {platform.python_version()}, \
+NumPy {np.__version__}, headless Chromium {browser} without a graphics card, on the same machine.
 
 | from, to | median | 95th percentile | longest | measured | wanted (median) |
 |---|---|---|---|---|---|

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
 from typing import Any
 
@@ -72,17 +71,9 @@ class Link(Guarded, WebSocketHandler):
 
     def _write(self, message: str | bytes) -> None:
         try:
-            written = self.write_message(message, binary=isinstance(message, bytes))
+            self.write_message(message, binary=isinstance(message, bytes))
         except WebSocketClosedError:
             self.on_close()
-        else:
-            written.add_done_callback(_forget)
-
-
-def _forget(written: asyncio.Future[None]) -> None:
-    """Take no notice of a page that closes while something is written to it."""
-    if not written.cancelled():
-        written.exception()
 
 
 def _number(given: Any) -> int:

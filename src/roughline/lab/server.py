@@ -147,12 +147,12 @@ async def _serve(
         with suppress(NotImplementedError, AttributeError):  # Windows raises KeyboardInterrupt
             asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
     try:
+        ready(_address(settings, sockets[0]))
         figures = asyncio.create_task(lab.figures_of(_VIEWS[0]))
         await asyncio.to_thread(start_forking)
         await lab.quick.prepare()
-        await figures
-        ready(_address(settings, sockets[0]))
         await lab.slow.prepare()
+        await figures
         await stopped.wait()
     finally:
         server.stop()
