@@ -14,7 +14,14 @@ from roughline.contact.scaling import stiffness_bar
 from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import lines_of, rms_height, spectrum_of, surface_of
 from roughline.lab.explore.state import ExploreState
-from roughline.lab.explore.words import area_rows, contact_words, line_words, status, stiffness_rows
+from roughline.lab.explore.words import (
+    area_rows,
+    contact_words,
+    line_words,
+    number_rows,
+    status,
+    stiffness_rows,
+)
 from roughline.lab.frames import frame
 from roughline.lab.shading import shaded
 from roughline.lab.tasks import Progress
@@ -22,6 +29,7 @@ from roughline.lab.tasks import Progress
 COARSE, COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
+_MOST_ROWS = 40  # of the spectrum's table
 _CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
 _CURVE_FORCES = np.geomspace(1e-3, 3, 13)
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
@@ -48,6 +56,7 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
                 "high": stiffness.max(axis=0),
             },
             "stiffness_bar_1d": float(mean.mean[here]),
+            "table": [[*row, "1D"] for row in number_rows(forces, mean.mean)],
             "strip": line_words(state, float(mean.mean[here]), len(lines)),
         }
     )
@@ -126,7 +135,7 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
             "is_coarse": is_coarse,
             "heights": [float(heights.min()), float(heights.max())],
             "curve": _of_curve(pressed),
-            "spectrum": _of_spectrum(surface, state, n),
+            **({} if is_coarse else _of_spectrum(surface, state)),
             "strip": contact_words(pressed, fields, surface),
             "status": status(pressed, n, seconds, is_coarse=is_coarse),
         },
@@ -167,16 +176,17 @@ def _of_curve(pressed: rl.Curve) -> dict[str, Any]:
     }
 
 
-def _of_spectrum(surface: rl.Surface, state: ExploreState, n: int) -> dict[str, Any]:
+def _of_spectrum(surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     """Spectrum of the surface, and the law that it is drawn from, over waves in the side."""
     measured = rl.isotropic_spectrum(surface)
     known = measured.C_2d > 0
-    q = measured.q[known]
-    law = spectrum_of(state, n).lattice(n).C_2d(q)
+    q, power = measured.q[known], measured.C_2d[known]
+    law = spectrum_of(state, state.n).lattice(state.n).C_2d(q)
+    waves = q * state.length / (2 * np.pi)
+    shown = slice(None, None, -(-waves.size // _MOST_ROWS))
     return {
-        "waves": q * state.length / (2 * np.pi),
-        "C_2d": measured.C_2d[known],
-        "law": np.where(law > 0, law, np.nan),
+        "spectrum": {"waves": waves, "C_2d": power, "law": np.where(law > 0, law, np.nan)},
+        "spectrum_table": number_rows(waves[shown], power[shown], law[shown]),
     }
 
 

@@ -124,26 +124,29 @@ def status(pressed: rl.Curve, n: int, seconds: float, *, is_coarse: bool) -> str
 
 
 def stiffness_rows(pressed: rl.Curve) -> list[list[str]]:
-    """Rows of the table below the curve of the stiffness."""
-    return _rows(pressed, pressed.stiffness_bar)
+    """Rows of the table below the curve of the stiffness: F̄, k̄ and the model."""
+    return [[*row, "3D"] for row in _rows(pressed, pressed.stiffness_bar)]
 
 
 def area_rows(pressed: rl.Curve) -> list[list[str]]:
-    """Rows of the table below the curve of the area."""
+    """Rows of the table below the curve of the area: F̄ and A / A_0."""
     assert pressed.area_fraction_corrected is not None
     return _rows(pressed, pressed.area_fraction_corrected)
 
 
+def number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
+    """Rows of a table of numbers."""
+    return [[decimal(float(value), _DIGITS) for value in row] for row in zip(*columns, strict=True)]
+
+
 def _rows(pressed: rl.Curve, values: NDArray[np.float64]) -> list[list[str]]:
-    rows: list[list[str]] = []
-    for i, force in enumerate(pressed.force_bar):
-        shown: Any = (
-            decimal(float(values[i]), _DIGITS)
-            if pressed.converged[i]
-            else rl.Status(pressed.status[i]).reason
-        )
-        star = "" if pressed.resolved[i] or not pressed.converged[i] else " *"
-        rows.append([decimal(float(force), _DIGITS), f"{shown}{star}"])
+    """Rows of a quantity over force; a star marks loads with too few cells in contact."""
+    rows = number_rows(pressed.force_bar, values)
+    for i, row in enumerate(rows):
+        if not pressed.converged[i]:
+            row[1] = rl.Status(pressed.status[i]).reason
+        elif not pressed.resolved[i]:
+            row[1] += " *"
     return rows
 
 

@@ -70,8 +70,11 @@ export class Controls {
       slider.setAttribute("aria-valuetext", text);
       this.set(key, text, isFinal);
     };
+    let byPointer = false; // a key that is pressed again and again rests between
+    slider.addEventListener("pointerdown", () => { byPointer = true; });
+    slider.addEventListener("keydown", () => { byPointer = false; });
     slider.addEventListener("input", () => moved(false));
-    slider.addEventListener("change", () => moved(true));
+    slider.addEventListener("change", () => { if (byPointer) moved(true); });
   }
 
   #typed(key, text) {

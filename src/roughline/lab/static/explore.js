@@ -106,34 +106,41 @@ class Explore {
     });
   }
 
-  #drawLine({state, numbers, line, strip}) {
+  #drawLine({state, numbers, line, table, strip}) {
     this.#settled(state, numbers);
+    this.#plots.shows("explore-stiffness", {what: "line", numbers});
     this.#plots.set("stiffness line", {x: line.force_bar, y: line.stiffness_bar, low: line.low, high: line.high});
     this.#strip.add(strip);
     this.#cursorTo(numbers.F);
-    this.#line = line;
+    this.#lineTable = table;
   }
 
   #drawContact(header) {
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
     this.#last = header;
     this.#settled(header.state, header.numbers);
+    const what = {what: "contact", points: header.points, numbers: header.numbers};
+    for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
     this.#plots.setMap("topography", header.arrays.topography, [1, 1], header.heights);
     this.#drawField(header);
     const {force_bar: x, stiffness_bar, area} = header.curve;
     this.#plots.set("stiffness here", {x, y: stiffness_bar});
     this.#plots.set("area here", {x, y: area});
-    const {waves, C_2d, law} = header.spectrum;
-    this.#plots.span("explore-spectrum", "x", waves);
-    this.#plots.span("explore-spectrum", "y", C_2d);
-    this.#plots.set("spectrum", {x: waves, y: C_2d, law: law.map((value) => value ?? NaN)});
     this.#strip.add(header.strip);
     this.#say(header.status);
     this.#undim(CONTACT);
-    fillTable("explore-topography", ["quantity", "value"], header.strip.filter(({key}) => key === "roughness").map(({symbol, value, below}) => [`rms height ${symbol}`, `${value}, ${below}`]));
-    fillTable("explore-contact", ["quantity", "value"], header.strip.map(({symbol, value, below}) => [symbol, below ? `${value} (${below})` : value]));
-    const every = Math.ceil(waves.length / 40);
-    fillTable("explore-spectrum", ["waves in the side", "C_2d [m⁴]", "law [m⁴]"], waves.flatMap((wave, i) => i % every ? [] : [[wave.toPrecision(3), C_2d[i].toExponential(2), law[i]?.toExponential(2) ?? "-"]]));
+    if (!header.is_coarse) this.#drawRest(header);
+  }
+
+  // What follows at rest: the spectrum and the tables.
+  #drawRest({spectrum: {waves, C_2d, law}, spectrum_table, strip}) {
+    this.#plots.span("explore-spectrum", "x", waves);
+    this.#plots.span("explore-spectrum", "y", C_2d);
+    this.#plots.set("spectrum", {x: waves, y: C_2d, law: law.map((value) => value ?? NaN)});
+    fillTable("explore-spectrum", ["waves in the side", "C_2d [m⁴]", "law [m⁴]"], spectrum_table);
+    const rows = (kept) => strip.filter(kept).map(({symbol, value, below}) => [symbol, value, below]);
+    fillTable("explore-topography", ["quantity", "value", ""], rows(({key}) => key === "roughness"));
+    fillTable("explore-contact", ["quantity", "value", ""], rows(({key}) => key !== "roughness"));
   }
 
   #drawField(header) {
@@ -160,6 +167,7 @@ class Explore {
       const kept = curve.force_bar.flatMap((x, i) => curve.converged[i] && values[i] !== null && curve.resolved[i] === wanted ? [i] : []);
       return {x: kept.map((i) => curve.force_bar[i]), y: kept.map((i) => values[i])};
     };
+    for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
     for (const [name, values] of [["stiffness", curve.stiffness_bar], ["area", curve.area]]) {
       this.#plots.set(`${name} curve`, rows(true, values));
       this.#plots.set(`${name} unsure`, rows(false, values));
@@ -177,12 +185,10 @@ class Explore {
     this.#caption("stiffness", `marks of the curve on ${grid} points${note}`);
     this.#caption("area", `marks of the curve on ${grid} points${note}`);
     this.#caption("theories", drawn.map((each) => `${each}.`).join(" "));
-    const line = this.#line;
-    const lineRows = line ? line.force_bar.map((x, i) => [x.toPrecision(3), line.stiffness_bar[i].toPrecision(3), "1D"]) : [];
-    fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness_table.map((cells) => [...cells, "3D"]), ...lineRows]);
+    fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness_table, ...this.#lineTable]);
     fillTable("explore-area", ["F̄", "A/A_0"], area_table);
   }
-  #line = null;
+  #lineTable = [];
 
   #settled(state, numbers) {
     this.#controls.showNumbers(numbers);

@@ -3,9 +3,15 @@ import {unpacked} from "./link.js";
 
 const documents = [];
 
+// BokehJS is loaded beside the page, which asks its first questions meanwhile.
+const bokeh = new Promise((loaded) => {
+  if (window.Bokeh) loaded();
+  else document.querySelector("#bokeh").addEventListener("load", loaded);
+});
+
 // Embed the figures of a view; returns what changes them.
 export async function embedded(view) {
-  const response = await fetch(`/figures/${view}`);
+  const [response] = await Promise.all([fetch(`/figures/${view}`), bokeh]);
   if (!response.ok) throw new Error(await response.text());
   const {documents: content, items, palettes} = unpacked(await response.arrayBuffer());
   const before = new Set(Bokeh.documents);
@@ -18,7 +24,33 @@ export async function embedded(view) {
 }
 
 export class Plots {
-  constructor(made, palettes) { this.made = made; this.palettes = palettes; }
+  #shown = new Map();
+  #palette = {};
+
+  constructor(made, palettes) {
+    this.made = made;
+    this.palettes = palettes;
+    for (const root of made.roots()) {
+      Bokeh.index.find_one(root)?.repainted.connect(() => this.#tellDrawn(root.name));
+    }
+  }
+
+  // Say what the next picture of a plot shows; when it is on the screen, its element tells so by the
+  // event "drawn", and its data-shown says what was drawn last.
+  shows(plot, what) { this.#shown.set(plot, [...(this.#shown.get(plot) ?? []), what]); }
+
+  #tellDrawn(plot) {
+    const shown = this.#shown.get(plot);
+    if (!shown?.length) return;
+    this.#shown.delete(plot);
+    requestAnimationFrame(() => {
+      const element = document.querySelector(`#plot-${CSS.escape(plot)}`);
+      for (const detail of shown) {
+        element.dataset.shown = JSON.stringify(detail);
+        element.dispatchEvent(new CustomEvent("drawn", {detail, bubbles: true}));
+      }
+    });
+  }
 
   model(name) { return this.made.get_model_by_name(name); }
 
@@ -34,6 +66,8 @@ export class Plots {
 
   // Give a map a palette: one of Bokeh's, or "marks", paper and ink.
   colours(name, palette) {
+    if (this.#palette[name] === `${palette} ${colour("paper")}`) return;
+    this.#palette[name] = `${palette} ${colour("paper")}`;
     const wanted = palette === "marks" ? [colour("paper"), colour("ink")] : this.palettes[palette];
     this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper")});
     this.model(`${name} bar`).visible = palette !== "marks";
