@@ -69,18 +69,20 @@ def state_of(said: Mapping[str, str], most_points: int) -> ExploreState:
 
 
 def _refuse_strange(said: Mapping[str, str]) -> None:
-    """Refuse an address of another version, and parameters that are none."""
+    """Refuse an address of another version, and parameters that are none, as one whole."""
     if said.get("v", VERSION) != VERSION:
         raise ControlError(
             f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '
-            f"reads version {VERSION}: set the controls by hand"
+            f"reads version {VERSION}: set the controls by hand",
+            "v",
         )
     known = {each.name for each in fields(ExploreState)} | {"v", "H", *_OF_THE_PAGE}
     strange = [name[:40] for name in said if name not in known]
     if strange:
         raise ControlError(
             f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
-            "version; set the controls by hand"
+            "version; set the controls by hand",
+            "v",
         )
 
 
