@@ -34,9 +34,7 @@ def lab(
     The server runs on this machine until Ctrl-C, needs no network, and is open to this machine
     alone. With --host others can reach it; then it asks for a password.
     """
-    import webbrowser
-
-    from roughline.lab.server import serve
+    from roughline.lab.process import start_forking
     from roughline.lab.settings import LabSettings, password_in
 
     settings = LabSettings(
@@ -48,6 +46,8 @@ def lab(
         max_seconds=max_seconds,
         max_memory=int(max_memory * _MB),
     )
+    start_forking()  # which loads numerics while this process loads the server
+    from roughline.lab.server import serve
 
     def ready(address: str) -> None:
         typer.echo(f"The lab is open at {address} - Ctrl-C closes it.")
@@ -57,6 +57,8 @@ def lab(
                 f"{max_upload:g} MB and compute on this machine. The connection is not encrypted."
             )
         if browser:
+            import webbrowser
+
             webbrowser.open(address)
 
     serve(settings, ready)

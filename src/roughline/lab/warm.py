@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
+from importlib import import_module
+
+_LOADED = ("explore.pictures", "explore.code", "shading")  # of what is asked while a slider moves
 
 
 @cache
@@ -19,6 +22,9 @@ def up() -> None:
             spectrum.surface(32, 0), E_star=1.0, forces=[0.1, 0.2], periodic=periodic, fields=True
         )
     press(spectrum.line(64, 0), E_star=1.0, forces=[0.1])
+    for name in _LOADED:
+        import_module(f"roughline.lab.{name}")
+    import_module("matplotlib.colors")
 
 
 up()

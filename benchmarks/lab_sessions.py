@@ -1,0 +1,153 @@
+"""How soon the lab answers one page and 20 at once, and what memory they take: ``make lab-sessions``.
+
+All pages are plain websockets in this process; each has a seed of its own. They ask all at the same
+instant (burst), or each moves a slider ten times a second for two seconds and rests then (people).
+The time of an answer ends when the page has it all; that of the browser comes on top.
+"""
+
+import asyncio
+import json
+import statistics
+import subprocess
+import sys
+import time
+from collections import defaultdict
+
+import psutil
+from tornado.httpclient import HTTPRequest
+from tornado.websocket import websocket_connect
+
+SESSIONS, LONELY_ROUNDS, MOVES, PAUSE = 20, 7, 20, 0.1
+TASKS = {"explore.reduced": "reduced", "explore.coarse": "coarse", "explore.full": "full"}
+
+
+class Page:
+    """One page: a websocket, and when its questions were asked and answered."""
+
+    def __init__(self, socket, seed):
+        self.socket, self.seed, self.number, self.asked = socket, seed, 0, {}
+        self.waiting: dict[int, asyncio.Future] = {}
+        self.reading = asyncio.create_task(self._read())
+
+    @classmethod
+    async def open(cls, address, seed):
+        url = f"ws{address.removeprefix('http')}link"
+        socket = await websocket_connect(
+            HTTPRequest(url, headers={"Origin": address.rstrip("/")}), max_message_size=2**28
+        )
+        await socket.read_message()
+        return cls(socket, seed)
+
+    async def _read(self):
+        while (message := await self.socket.read_message()) is not None:
+            if isinstance(message, str) and "error" not in json.loads(message):
+                continue  # progress
+            number = int.from_bytes(message[:8], "little") if isinstance(message, bytes) else None
+            if number is None:
+                number, error = json.loads(message)["id"], json.loads(message)["error"]
+                self.waiting[number].set_exception(RuntimeError(error))
+            elif not self.waiting[number].done():
+                self.waiting[number].set_result(message)
+
+    async def ask(self, task, force="0.1"):
+        """Ask, and return the seconds until all of the answer is here."""
+        self.number += 1
+        answer = self.waiting[self.number] = asyncio.get_running_loop().create_future()
+        started = time.perf_counter()
+        state = {"seed": str(self.seed), "F": force}
+        said = {"id": self.number, "slot": TASKS[task], "task": task, "arguments": {"state": state}}
+        self.socket.write_message(json.dumps(said))
+        await answer
+        return time.perf_counter() - started
+
+    async def move(self, times):
+        """Move the load for two seconds, then rest; keep the times of answers that came."""
+        pending = defaultdict(list)
+        for move in range(MOVES):
+            for task in ("explore.reduced", "explore.coarse"):
+                asked = asyncio.create_task(self.ask(task, f"{0.05 + 0.01 * move:.3g}"))
+                pending[task].append(asked)
+            await asyncio.sleep(PAUSE)
+        await asyncio.sleep(0.25)
+        times["explore.full"].append(await self.ask("explore.full", f"{0.04 + 0.01 * MOVES:.3g}"))
+        for task, all_asked in pending.items():
+            await all_asked[-1]  # the last one is never replaced
+            times[f"{task}, last"].append(all_asked[-1].result())
+            times[task] += [asked.result() for asked in all_asked if asked.done()]
+            for asked in all_asked:
+                asked.cancel()
+
+    async def close(self):
+        self.socket.close()
+        await self.reading
+
+
+def told(times, lonely):
+    """The percentiles of times, in ms and over the lonely median."""
+    times = sorted(times)
+    parts = (statistics.median(times), times[int(0.95 * (len(times) - 1))], times[-1])
+    return " ".join(f"{1e3 * part:7.0f} ({part / lonely:4.1f})" for part in parts)
+
+
+def megabytes(pid):
+    """What the server, and all its processes, hold for themselves."""
+    server = psutil.Process(pid)
+    own = [each.memory_full_info().uss for each in (server, *server.children(recursive=True))]
+    return own[0] / 1e6, sum(own) / 1e6
+
+
+async def measure(address, pid):
+    """Measure one page, and many; print the table."""
+    before = megabytes(pid)
+    lone = await Page.open(address, 1000)
+    lonely = {}
+    for task in TASKS:
+        await lone.ask(task)
+        taken = []
+        for lone.seed in range(1000, 1000 + LONELY_ROUNDS):
+            taken.append(await lone.ask(task))
+            await asyncio.sleep(0.1)
+        lonely[task] = statistics.median(taken)
+    await lone.close()
+    pages = [await Page.open(address, seed) for seed in range(SESSIONS)]
+    print(f"{SESSIONS} pages; median, 95th percentile and worst in ms (and in lonely medians)")
+    print(f"{'':24} lonely {'burst':^42} {'people':^42}")
+    people = defaultdict(list)
+    bursts = {}
+    for task in TASKS:
+        for page in pages:
+            page.seed += SESSIONS
+        bursts[task] = await asyncio.gather(*(page.ask(task) for page in pages))
+    await asyncio.gather(*(page.move(people) for page in pages))
+    for task in TASKS:
+        print(
+            f"{task:24} {1e3 * lonely[task]:6.0f} {told(bursts[task], lonely[task])} "
+            f"{told(people[task], lonely[task])}  {len(people[task])} answers"
+        )
+        if f"{task}, last" in people:
+            print(f"{'  of the last move':73} {told(people[f'{task}, last'], lonely[task])}")
+    during = megabytes(pid)
+    await asyncio.gather(*(page.close() for page in pages))
+    await asyncio.sleep(1)
+    for name, (server, everything) in {
+        "before": before,
+        "with all pages": during,
+        "closed again": megabytes(pid),
+    }.items():
+        print(f"memory {name:16} server {server:5.0f} MB, with its processes {everything:5.0f} MB")
+
+
+def main():
+    """Start a lab, measure it and close it."""
+    command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            address = server.stdout.readline().split(" at ")[1].split(" ")[0]
+            time.sleep(3)  # what is prepared in the background
+            asyncio.run(measure(address, server.pid))
+        finally:
+            server.terminate()
+
+
+if __name__ == "__main__":
+    main()
