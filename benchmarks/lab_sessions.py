@@ -1,4 +1,4 @@
-"""How soon the lab answers one page and 20 at once, and what memory they take: ``make lab-sessions``.
+"""How soon the lab answers one page and 20 at once, and the memory of it: ``make lab-sessions``.
 
 All pages are plain websockets in this process; each has a seed of its own. They ask all at the same
 instant (burst), or each moves a slider ten times a second for two seconds and rests then (people).
@@ -18,7 +18,7 @@ from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 SESSIONS, LONELY_ROUNDS, MOVES, PAUSE = 20, 7, 20, 0.1
-TASKS = {"explore.reduced": "reduced", "explore.coarse": "coarse", "explore.full": "full"}
+TASKS = ("explore.reduced", "explore.coarse", "explore.full")
 
 
 class Page:
@@ -49,16 +49,27 @@ class Page:
             elif not self.waiting[number].done():
                 self.waiting[number].set_result(message)
 
-    async def ask(self, task, force="0.1"):
-        """Ask, and return the seconds until all of the answer is here."""
+    async def ask(self, task, force="0.1", refines=False):
+        """Ask; return the seconds until all of the answer is here, and whether it is coarse."""
         self.number += 1
         answer = self.waiting[self.number] = asyncio.get_running_loop().create_future()
         started = time.perf_counter()
-        state = {"seed": str(self.seed), "F": force}
-        said = {"id": self.number, "slot": TASKS[task], "task": task, "arguments": {"state": state}}
+        arguments = {"state": {"seed": str(self.seed), "F": force}, "refines": refines}
+        slot = f"{task} finer" if refines else task
+        said = {"id": self.number, "slot": slot, "task": task, "arguments": arguments}
         self.socket.write_message(json.dumps(said))
-        await answer
-        return time.perf_counter() - started
+        message = await answer
+        taken = time.perf_counter() - started
+        length = int.from_bytes(message[8:12], "little")
+        return taken, bool(json.loads(message[12 : 12 + length]).get("is_coarse"))
+
+    async def ask_twice(self, task, times, force="0.1"):
+        """Ask, and again if the first answer was one for a crowd; keep both times."""
+        taken, is_coarse = await self.ask(task, force)
+        times[task].append(taken)
+        if is_coarse and task != "explore.coarse":
+            taken += (await self.ask(task, force, refines=True))[0]
+        times[f"{task}, all of it"].append(taken)
 
     async def move(self, times):
         """Move the load for two seconds, then rest; keep the times of answers that came."""
@@ -69,11 +80,11 @@ class Page:
                 pending[task].append(asked)
             await asyncio.sleep(PAUSE)
         await asyncio.sleep(0.25)
-        times["explore.full"].append(await self.ask("explore.full", f"{0.04 + 0.01 * MOVES:.3g}"))
+        await self.ask_twice("explore.full", times, f"{0.04 + 0.01 * MOVES:.3g}")
         for task, all_asked in pending.items():
             await all_asked[-1]  # the last one is never replaced
-            times[f"{task}, last"].append(all_asked[-1].result())
-            times[task] += [asked.result() for asked in all_asked if asked.done()]
+            times[f"{task}, last move"].append(all_asked[-1].result()[0])
+            times[task] += [asked.result()[0] for asked in all_asked if asked.done()]
             for asked in all_asked:
                 asked.cancel()
 
@@ -82,11 +93,12 @@ class Page:
         await self.reading
 
 
-def told(times, lonely):
+def row(times, lonely):
     """The percentiles of times, in ms and over the lonely median."""
     times = sorted(times)
     parts = (statistics.median(times), times[int(0.95 * (len(times) - 1))], times[-1])
-    return " ".join(f"{1e3 * part:7.0f} ({part / lonely:4.1f})" for part in parts)
+    told = " ".join(f"{1e3 * part:7.0f} ({part / lonely:4.1f})" for part in parts)
+    return f"{len(times):4} {told}"
 
 
 def megabytes(pid):
@@ -105,27 +117,23 @@ async def measure(address, pid):
         await lone.ask(task)
         taken = []
         for lone.seed in range(1000, 1000 + LONELY_ROUNDS):
-            taken.append(await lone.ask(task))
+            taken.append((await lone.ask(task))[0])
             await asyncio.sleep(0.1)
         lonely[task] = statistics.median(taken)
     await lone.close()
     pages = [await Page.open(address, seed) for seed in range(SESSIONS)]
-    print(f"{SESSIONS} pages; median, 95th percentile and worst in ms (and in lonely medians)")
-    print(f"{'':24} lonely {'burst':^42} {'people':^42}")
-    people = defaultdict(list)
-    bursts = {}
+    print(f"{SESSIONS} pages; answers, median, 95th percentile, worst in ms (in lonely medians)")
+    burst, people = defaultdict(list), defaultdict(list)
     for task in TASKS:
         for page in pages:
             page.seed += SESSIONS
-        bursts[task] = await asyncio.gather(*(page.ask(task) for page in pages))
+        await asyncio.gather(*(page.ask_twice(task, burst) for page in pages))
     await asyncio.gather(*(page.move(people) for page in pages))
     for task in TASKS:
-        print(
-            f"{task:24} {1e3 * lonely[task]:6.0f} {told(bursts[task], lonely[task])} "
-            f"{told(people[task], lonely[task])}  {len(people[task])} answers"
-        )
-        if f"{task}, last" in people:
-            print(f"{'  of the last move':73} {told(people[f'{task}, last'], lonely[task])}")
+        print(f"{task}, one page alone: {1e3 * lonely[task]:.0f} ms")
+        for name, times in {"burst": burst, "people": people}.items():
+            for what in (each for each in times if each.startswith(task)):
+                print(f"  {name:7} {what:28} {row(times[what], lonely[task])}")
     during = megabytes(pid)
     await asyncio.gather(*(page.close() for page in pages))
     await asyncio.sleep(1)

@@ -17,6 +17,7 @@ from roughline.lab.tasks import Outcome
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 1.5  # after which a task lets shorter ones pass [s]
+_CROWD = 2  # requests that wait for each process, from which on answers are coarser
 _MOST_PARTS = 16  # of a page that may wait for something at once
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
 
@@ -33,7 +34,7 @@ class Request:
     task : str
         One of :data:`roughline.lab.tasks.TASKS`.
     arguments : mapping
-        Of the task.
+        Of the task; with "refines" it makes an answer finer that is there, and lets others pass.
     answer : callable
         Told the outcome, unless the request was replaced or withdrawn.
     progress : callable
@@ -52,6 +53,11 @@ class Request:
     def key(self) -> tuple[str, str]:
         """What a newer request must share to take its place."""
         return self.session, self.slot
+
+    @property
+    def refines(self) -> bool:
+        """Whether it makes an answer finer that is there already."""
+        return self.arguments.get("refines") is True
 
 
 @dataclass(frozen=True)
@@ -92,7 +98,8 @@ class _Job:
 class Lane:
     """Some processes and the requests that wait for them: first come, first served.
 
-    An address, and among its pages a page, that has fewer tasks running goes first.
+    What makes an answer finer that is there already goes last, and an address, and among its pages
+    a page, that has fewer tasks running goes first.
 
     Parameters
     ----------
@@ -183,7 +190,7 @@ class Lane:
             job = _Job(request)
             self._jobs.add(job)
             self._running[request.key] = job
-            crowded = len(self._waiting) >= 2 * self._limits.count
+            crowded = len(self._waiting) >= _CROWD * self._limits.count
             task = asyncio.create_task(self._do(job, crowded))
             self._work.add(task)
             task.add_done_callback(self._work.discard)
@@ -200,7 +207,11 @@ class Lane:
             for key, request in self._waiting.items()
             if key not in self._running and pages[request.session] < self._limits.per_session
         ]
-        return min(free, key=lambda its: (addresses[its.address], pages[its.session]), default=None)
+
+        def turn(its: Request) -> tuple[bool, int, int]:
+            return its.refines, addresses[its.address], pages[its.session]
+
+        return min(free, key=turn, default=None)
 
     async def _do(self, job: _Job, crowded: bool) -> None:
         """Serve one request, and then the next."""

@@ -26,10 +26,10 @@ def surface_of(state: ExploreState, n: int) -> Surface:
     return _surface(spectrum_of(state, n), n, state.seed)
 
 
-def lines_of(state: ExploreState) -> tuple[Line, ...]:
+def lines_of(state: ExploreState, count: int = LINES) -> tuple[Line, ...]:
     """Lines of the spectrum of a state, with the waves of its surface. [m]"""
     springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * state.n)
-    return _lines(spectrum_of(state, state.n), springs, state.seed)
+    return _lines(spectrum_of(state, state.n), springs, state.seed, count)
 
 
 def rms_height(state: ExploreState) -> float:
@@ -57,5 +57,5 @@ def _surface(spectrum: SelfAffine, n: int, seed: int) -> Surface:
 
 
 @lru_cache(maxsize=2)
-def _lines(spectrum: SelfAffine, springs: int, seed: int) -> tuple[Line, ...]:
-    return tuple(spectrum.line(springs, seed + i) for i in range(LINES))
+def _lines(spectrum: SelfAffine, springs: int, seed: int, count: int) -> tuple[Line, ...]:
+    return tuple(spectrum.line(springs, seed + i) for i in range(count))

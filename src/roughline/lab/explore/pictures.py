@@ -14,19 +14,21 @@ from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.contact.scaling import stiffness_bar
 from roughline.errors import ContinuumWarning
-from roughline.lab.explore.bodies import lines_of, rms_height, spectrum_of, surface_of
+from roughline.lab.explore.bodies import LINES, lines_of, rms_height, spectrum_of, surface_of
 from roughline.lab.explore.state import ExploreState, state_of
 from roughline.lab.explore.words import area_rows, contact_words, line_words, status, stiffness_rows
 from roughline.lab.frames import frame
 from roughline.lab.shading import shaded
 from roughline.lab.tasks import Progress
 from roughline.spectra.isotropic import isotropic_spectrum
-from roughline.statistics.averages import average
 from roughline.theories.theory import theory
 from roughline.topography.body import Surface
 
 COARSE, COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
+FEWER_LINES = 5
+"""Lines of the reduced model when many ask at once."""
+_FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
 _CURVE_FORCES = np.geomspace(1e-3, 3, 13)
@@ -36,12 +38,15 @@ Arguments = Mapping[str, Any]
 
 
 def reduced(arguments: Arguments, progress: Progress) -> bytes:
-    """Mean stiffness of lines over force, and at the load of the state."""
+    """Mean stiffness of lines over force, and at the load of the state.
+
+    In a crowd it is that of fewer lines first; the page asks for the others by "refines".
+    """
     state = _state(arguments)
-    lines = lines_of(state)
+    lines = lines_of(state, FEWER_LINES if _is_first_step(arguments) else LINES)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
-    mean = average(stiffness)
+    mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
     here = int(np.searchsorted(forces, state.F))
     return frame(
         {
@@ -49,12 +54,13 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
             "numbers": _numbers(state),
             "line": {
                 "force_bar": forces,
-                "stiffness_bar": mean.mean,
+                "stiffness_bar": mean,
                 "low": stiffness.min(axis=0),
                 "high": stiffness.max(axis=0),
             },
-            "stiffness_bar_1d": float(mean.mean[here]),
-            "strip": line_words(state, float(mean.mean[here]), len(lines)),
+            "stiffness_bar_1d": float(mean[here]),
+            "strip": line_words(state, float(mean[here]), len(lines)),
+            "is_coarse": len(lines) < LINES,
         }
     )
 
@@ -68,9 +74,12 @@ def coarse(arguments: Arguments, progress: Progress) -> bytes:
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
-    """The contact on the grid of the state."""
+    """The contact on the grid of the state.
+
+    In a crowd it is on fewer points first; the page asks for the full grid by "refines".
+    """
     state = _state(arguments)
-    return _contact(state, state.n)
+    return _contact(state, min(state.n, _FIRST_STEP) if _is_first_step(arguments) else state.n)
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
@@ -138,6 +147,11 @@ def _contact(state: ExploreState, n: int) -> bytes:
 
 def _state(arguments: Arguments) -> ExploreState:
     return state_of(arguments["state"], arguments["session"]["max_points"])
+
+
+def _is_first_step(arguments: Arguments) -> bool:
+    """Whether many ask at once, and this page has no answer yet."""
+    return bool(arguments["crowded"]) and arguments.get("refines") is not True
 
 
 def _numbers(state: ExploreState) -> dict[str, float]:
