@@ -41,10 +41,10 @@ def lab(
         host=host,
         port=port,
         password=password_in(password_file) if password_file else None,
-        max_upload=int(max_upload * _MB),
+        max_upload=max_upload * _MB,
         max_points=max_points,
         max_seconds=max_seconds,
-        max_memory=int(max_memory * _MB),
+        max_memory=max_memory * _MB,
     )
     start_forking()  # which loads numerics while this process loads the server
     from roughline.lab.server import serve

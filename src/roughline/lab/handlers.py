@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import mimetypes
+from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -150,6 +151,12 @@ class Parts(Guarded, StaticFileHandler):
 
     open_to_all = True
 
+    def parse_url_path(self, url_path: str) -> str:
+        """Refuse what the system would not take for a name."""
+        if "\0" in url_path:
+            raise HTTPError(404, reason="There is nothing at this address")
+        return super().parse_url_path(url_path)
+
     def set_extra_headers(self, path: str) -> None:
         """Let a browser keep Bokeh's, which change with its version only."""
         is_bokehs = self.request.path.startswith("/bokeh/")
@@ -176,13 +183,14 @@ class Uploads(Guarded):
     _key = ""
     _upload: Upload | None = None
     _file: BinaryIO | None = None
+    _is_full = False
 
     def prepare(self) -> None:
         """Refuse a file that is too large before it comes."""
         super().prepare()
         session = self.session_of(self.get_query_argument("session", ""))
         most = self.lab.settings.max_upload
-        self.request.connection.set_max_body_size(most)  # type: ignore[union-attr]
+        self.request.connection.set_max_body_size(int(most))  # type: ignore[union-attr]
         if not session.allowance.take():
             raise HTTPError(429, reason="Too many files at once: wait a moment")
         length = self.request.headers.get("Content-Length", "")
@@ -197,19 +205,28 @@ class Uploads(Guarded):
 
     def data_received(self, chunk: bytes) -> None:
         """Write what has come, as long as somebody wants it."""
-        if self._session is None or self._key not in self._session.uploads:
-            raise HTTPError(410, reason="The page that sent this file is closed, or sent too many")
-        if self._file is not None:
+        if self._session is None or self._file is None or self._is_full:
+            return
+        if self._key not in self._session.uploads:
+            self._file.close()
+            self._session = None
+            return
+        try:
             self._file.write(chunk)
+        except OSError:
+            self._is_full = True
 
     def post(self) -> None:
         """Tell the page what its file is called here."""
         if self._session is None or self._upload is None or self._file is None:
-            raise HTTPError(400, reason="There is no file in this request")
-        if self._key not in self._session.uploads:
-            raise HTTPError(410, reason="The page that sent this file is closed, or sent too many")
-        self._file.close()
-        self._session = None  # the file is whole and stays
+            raise HTTPError(410, reason="The page of this file is closed, or brought too many")
+        try:
+            self._file.close()
+        except OSError:
+            self._is_full = True
+        if self._is_full:
+            raise HTTPError(507, reason="The lab has no room for this file")
+        self._session = None  # the file is whole, and stays
         self.finish({"file": self._key, "name": self._upload.name})
 
     def on_finish(self) -> None:
@@ -223,7 +240,8 @@ class Uploads(Guarded):
 
     def _forget(self) -> None:
         if self._file is not None:
-            self._file.close()
+            with suppress(OSError):
+                self._file.close()
         if self._session is not None:
             self._session.forget_upload(self._key)
             self._session = None

@@ -74,7 +74,7 @@ class Limits:
         Processes that work for one page.
     seconds : float
         Time of a task. [s]
-    memory : int
+    memory : float
         Memory of a task, beside the program. [bytes]
     """
 
@@ -82,7 +82,7 @@ class Limits:
     most: int
     per_session: int
     seconds: float
-    memory: int
+    memory: float
 
 
 @dataclass(eq=False)

@@ -18,7 +18,7 @@ from roughline.lab.tasks import TASKS
 
 MOST_BYTES = 2**16
 """Longest message of a page; files come another way."""
-_SLOT_LENGTH = 40
+_SLOT_LENGTH, _TEXT_LENGTH, _MOST_DEPTH = 40, 2000, 6
 _MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
 _MOST_HELD = 16
 
@@ -66,10 +66,12 @@ class Link(Guarded, WebSocketHandler):
         elif said.get("stop") is True:
             self._held.pop(slot, None)
             self.session.withdraw(slot)
-        elif isinstance(task, str) and task in TASKS and isinstance(said.get("arguments"), dict):
-            self._ask(slot, said)
-        else:
+        elif not isinstance(task, str) or task not in TASKS:
             self._refuse(number, "the lab has no such task: reload the page")
+        elif not isinstance(said.get("arguments"), dict) or not _is_plain(said["arguments"]):
+            self._refuse(number, "what is set here is too long, or in no form the lab knows")
+        else:
+            self._ask(slot, said)
 
     def on_close(self) -> None:
         """End the session with its page."""
@@ -114,6 +116,16 @@ class Link(Guarded, WebSocketHandler):
         while self._held and self._unsent <= _MOST_UNSENT:
             slot = next(iter(self._held))
             self._ask(slot, self._held.pop(slot))
+
+
+def _is_plain(content: Any, depth: int = _MOST_DEPTH) -> bool:
+    """Whether texts in what a page said are short, and lists and tables in it are not deep."""
+    if isinstance(content, str):
+        return len(content) <= _TEXT_LENGTH
+    if isinstance(content, dict | list):
+        parts = [*content, *content.values()] if isinstance(content, dict) else content
+        return depth > 0 and all(_is_plain(part, depth - 1) for part in parts)
+    return True
 
 
 def _number(given: Any) -> int:

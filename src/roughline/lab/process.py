@@ -37,7 +37,7 @@ class Process:
 
     Parameters
     ----------
-    memory : int
+    memory : float
         What it may take beside the program itself. [bytes]
     gives_way : bool
         Whether processes that do not give way come first when both want a core.
@@ -48,7 +48,7 @@ class Process:
         Number of tasks that it was asked for.
     """
 
-    def __init__(self, memory: int, *, gives_way: bool = False) -> None:
+    def __init__(self, memory: float, *, gives_way: bool = False) -> None:
         self.tasks = 0
         self._ending = threading.Lock()
         self._connection, theirs = _CONTEXT.Pipe()
@@ -126,7 +126,7 @@ def _without_interrupts() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _serve(connection: Connection, memory: int) -> None:
+def _serve(connection: Connection, memory: float) -> None:
     """Do tasks until the other end is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it could not be kept away from the start
     threading.Thread(target=_end_with_server, daemon=True).start()
@@ -150,7 +150,7 @@ def _end_with_server() -> None:
         os._exit(1)
 
 
-def _limit(memory: int) -> None:
+def _limit(memory: float) -> None:
     """Refuse more memory than allowed beside what is loaded, and huge files, where possible."""
     if sys.platform != "linux":
         return
@@ -158,7 +158,7 @@ def _limit(memory: int) -> None:
 
     import psutil
 
-    most = psutil.Process().memory_info().vms + memory
+    most = psutil.Process().memory_info().vms + int(memory)
     resource.setrlimit(resource.RLIMIT_AS, (most, most))
     resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -9,7 +9,7 @@ import secrets
 import signal
 import socket
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from ipaddress import ip_address
 from pathlib import Path
 from typing import Any
@@ -156,10 +156,10 @@ def serve(settings: LabSettings, ready: Callable[[str], None]) -> None:
     InputError
         If the address is not free, or not one of this machine.
     """
-    sockets = _listening(settings)
     logging.getLogger("tornado.general").setLevel(logging.ERROR)  # refusals are told to the page
-    with folder_of_files() as root, suppress(KeyboardInterrupt):
-        asyncio.run(_serve(settings, sockets, root, ready))
+    with suppress(KeyboardInterrupt), ExitStack() as opened:
+        sockets = [opened.enter_context(each) for each in _listening(settings)]
+        asyncio.run(_serve(settings, sockets, opened.enter_context(folder_of_files()), ready))
 
 
 async def _serve(
