@@ -7,9 +7,11 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import asynccontextmanager, contextmanager
+from contextlib import asynccontextmanager, contextmanager, suppress
 from pathlib import Path
+from urllib.parse import urlencode
 
+import psutil
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
@@ -139,3 +141,75 @@ async def becomes(is_so, seconds=PATIENCE):
     while not is_so():
         assert time.monotonic() < end
         await asyncio.sleep(0.02)
+
+
+def run(scenario):
+    """Run a scenario."""
+    asyncio.run(scenario())
+
+
+async def upload(lab, token, content, name, origin=None):
+    """Send a file as a page does."""
+    return await lab.fetch(
+        f"/upload?{urlencode({'session': token, 'name': name})}",
+        method="POST",
+        body=content,
+        headers={"Origin": origin or lab.address},
+    )
+
+
+async def log_in(lab, password):
+    """Send the form with a password."""
+    return await lab.fetch(
+        "/login",
+        method="POST",
+        body=urlencode({"password": password}),
+        headers={"Origin": lab.address},
+    )
+
+
+async def raw(lab, request):
+    """Send bytes; returns what comes back first."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
+    writer.write(request)
+    said = await asyncio.wait_for(reader.read(2000), 10)
+    writer.close()
+    assert_tells_nothing(said)
+    return said
+
+
+def alive(lab):
+    """Processes of a lab that compute."""
+    found = []
+    for each in psutil.Process(lab.process.pid).children(recursive=True):
+        with suppress(psutil.Error):  # it has ended meanwhile
+            if "forkserver" in " ".join(each.cmdline()):
+                found.append(each)
+    return found[1:]  # the first is the one that the others are forked from
+
+
+def busy(process):
+    """Whether a process computes just now."""
+    with suppress(psutil.Error):
+        before = sum(process.cpu_times()[:2])
+        time.sleep(0.1)
+        return sum(process.cpu_times()[:2]) - before > 0.02
+    return False
+
+
+def alive_still(process):
+    """Whether a process runs, and is not only waited for."""
+    try:
+        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
+
+
+def held(lab):
+    """Memory of the server, and of it with all its processes. [bytes]"""
+    server = psutil.Process(lab.process.pid)
+    children = 0
+    for each in alive(lab):
+        with suppress(psutil.Error):
+            children += each.memory_full_info().uss
+    return server.memory_info().rss, server.memory_full_info().uss + children

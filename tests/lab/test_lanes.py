@@ -11,7 +11,8 @@ import pytest
 
 from lab import doings
 from roughline.lab import process as processes
-from roughline.lab.lanes import Lane, Limits, Request
+from roughline.lab.lanes import Lane
+from roughline.lab.requests import Limits, Request
 from roughline.lab.tasks import without_paths
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Coroutine
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
@@ -13,6 +13,7 @@ from functools import partial
 from typing import Any
 
 from roughline.lab.process import LOST, LOWEST, Process
+from roughline.lab.requests import Limits, Request
 from roughline.lab.tasks import Outcome
 
 _log = logging.getLogger(__name__)
@@ -20,69 +21,6 @@ _PATIENCE = 1.5  # after which a task lets shorter ones pass [s]
 _CROWD = 2  # requests that wait for each process, from which on answers are coarser
 _MOST_PARTS = 16  # of a page that may wait for something at once
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
-
-
-@dataclass(frozen=True)
-class Request:
-    """One thing that a page asks for.
-
-    Attributes
-    ----------
-    address, session, slot : str
-        From where, who asks, and for which part of the page: a newer request for it takes the place
-        of an older one.
-    task : str
-        One of :data:`roughline.lab.tasks.TASKS`.
-    arguments : mapping
-        Of the task; with "refines" it makes an answer finer that is there, and lets others pass.
-    answer : callable
-        Told the outcome, unless the request was replaced or withdrawn.
-    progress : callable
-        Told (steps done, steps in all).
-    """
-
-    address: str
-    session: str
-    slot: str
-    task: str
-    arguments: Mapping[str, Any]
-    answer: Callable[[Outcome], None]
-    progress: Callable[[int, int], None]
-
-    @property
-    def key(self) -> tuple[str, str]:
-        """What a newer request must share to take its place."""
-        return self.session, self.slot
-
-    @property
-    def refines(self) -> bool:
-        """Whether it makes an answer finer that is there already."""
-        return self.arguments.get("refines") is True
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What a lane and one task in it may take.
-
-    Attributes
-    ----------
-    count : int
-        Processes that work side by side; one that takes long lets others start beside it.
-    most : int
-        Processes in all.
-    per_session : int
-        Processes that work for one page.
-    seconds : float
-        Time of a task. [s]
-    memory : float
-        Memory of a task, beside the program. [bytes]
-    """
-
-    count: int
-    most: int
-    per_session: int
-    seconds: float
-    memory: float
 
 
 @dataclass(eq=False)
@@ -154,15 +92,8 @@ class Lane:
         return [process.pid for process in self._idle] + busy
 
     async def prepare(self) -> None:
-        """Start processes ahead of the requests."""
-        while not self._closed and self._wants_spare():
-            try:
-                process = await self._new_process()
-            except OSError:
-                return _log.exception("no process could be started")
-            if not process.is_alive:
-                return _log.error("a process that was started ended at once")
-            await self._put_back(process)
+        """Start processes ahead of the first request."""
+        await self._begin(self._fill())
 
     async def close(self) -> None:
         """Stop everything, and wait until it is gone."""
@@ -176,6 +107,24 @@ class Lane:
         while self._idle:
             self._idle.pop().end()
         self._threads.shutdown(wait=False)
+
+    def _begin(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
+        """Begin what has to end before the lane is closed."""
+        task = asyncio.create_task(work)
+        self._work.add(task)
+        task.add_done_callback(self._work.discard)
+        return task
+
+    async def _fill(self) -> None:
+        """Have processes stand by."""
+        while not self._closed and self._wants_spare():
+            try:
+                process = await self._new_process()
+            except OSError:
+                return _log.exception("no process could be started")
+            if not process.is_alive:
+                return _log.error("a process that was started ended at once")
+            await self._put_back(process)
 
     def _wants_spare(self) -> bool:
         """Whether a process more should stand by."""
@@ -191,9 +140,7 @@ class Lane:
             self._jobs.add(job)
             self._running[request.key] = job
             crowded = len(self._waiting) >= _CROWD * self._limits.count
-            task = asyncio.create_task(self._do(job, crowded))
-            self._work.add(task)
-            task.add_done_callback(self._work.discard)
+            self._begin(self._do(job, crowded))
 
     def _next(self) -> Request | None:
         """Who is served next; none if nobody waits, or all processes are busy."""
@@ -229,7 +176,7 @@ class Lane:
             self._start()
             if job.process is not None:
                 await self._put_back(job.process)
-        await self.prepare()
+        await self._fill()
 
     async def _outcome(self, job: _Job, crowded: bool) -> Outcome:
         """Have a request done by a process."""

@@ -64,10 +64,10 @@ class Process:
 
     @property
     def is_alive(self) -> bool:
-        """Whether it can be asked."""
+        """Whether it can be asked; one that waits has nothing to say unless it has just died."""
         try:
-            return self._process.is_alive()
-        except ValueError:  # it was ended
+            return self._process.is_alive() and not self._connection.poll()
+        except (ValueError, OSError):  # it was ended
             return False
 
     def ask(

@@ -33,10 +33,11 @@ from roughline.lab.handlers import (
     bokeh_folder,
     static_folder,
 )
-from roughline.lab.lanes import Lane, Limits
+from roughline.lab.lanes import Lane
 from roughline.lab.leftovers import folder_of_files
 from roughline.lab.link import MOST_BYTES, Link
 from roughline.lab.page import page
+from roughline.lab.requests import Limits
 from roughline.lab.session import Session
 from roughline.lab.settings import LabSettings
 
@@ -65,7 +66,6 @@ class Lab:
         self.visitors = Visitors()
         self.figures = EmptyFigures()
         self.quick, self.slow = _lanes(settings)
-        self._preparing: set[asyncio.Task[None]] = set()
 
     def application(self) -> Application:
         """The handlers, by address."""
@@ -115,10 +115,8 @@ class Lab:
 
     async def prepare(self) -> None:
         """Start processes ahead of the first page."""
-        for lane in (self.quick, self.slow):
-            task = asyncio.create_task(lane.prepare())
-            self._preparing.add(task)
-            await task
+        await self.quick.prepare()
+        await self.slow.prepare()
         await self.figures.of_view(VIEWS[0])
 
     async def close(self) -> None:
@@ -127,7 +125,6 @@ class Lab:
         for session in list(self.sessions.values()):
             self.close_session(session)
         await asyncio.gather(self.quick.close(), self.slow.close())
-        await asyncio.gather(*self._preparing, return_exceptions=True)
 
 
 def _lanes(settings: LabSettings) -> tuple[Lane, Lane]:
@@ -171,10 +168,10 @@ async def _serve(
             asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
     lab = Lab(settings, root)
     server = HTTPServer(lab.application(), max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS)
+    preparing = asyncio.create_task(lab.prepare())
     try:
         server.add_sockets(sockets)
         page()
-        preparing = asyncio.create_task(lab.prepare())
         with suppress(TimeoutError):
             await asyncio.wait_for(asyncio.shield(preparing), _READY)
         if not stopped.is_set():
@@ -183,6 +180,7 @@ async def _serve(
     finally:
         server.stop()
         await lab.close()
+        await preparing
 
 
 def _listening(settings: LabSettings) -> list[socket.socket]:

@@ -13,8 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from roughline.lab.access import Allowance
-from roughline.lab.lanes import Lane, Request
+from roughline.lab.lanes import Lane
 from roughline.lab.process import Process
+from roughline.lab.requests import Request
 from roughline.lab.settings import LabSettings
 from roughline.lab.tasks import TASKS, Outcome
 
