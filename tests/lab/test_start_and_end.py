@@ -11,14 +11,21 @@ import time
 
 import psutil
 import pytest
+from tornado.httpclient import HTTPRequest
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+from tornado.websocket import websocket_connect
 
 from lab.serving import (
     alive_still,
+    becomes,
     run,
     running_lab,
     upload,
     wait_until,
 )
+from roughline.lab.server import Lab
+from roughline.lab.settings import LabSettings
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 PASSWORD = "correct horse"
@@ -114,18 +121,51 @@ def test_a_port_that_is_taken_is_one_line(invoke):
     assert "--port" in errors
 
 
-def test_ctrl_c_before_it_is_up_ends_it_quietly(tmp_path):
+@pytest.mark.parametrize("moment", ["forking", "folder"])
+def test_ctrl_c_before_it_is_up_ends_it_quietly(moment, tmp_path):
+    """In a terminal it reaches all processes of the lab at once."""
     command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0"]
-    for moment in (0.3, 0.6, 1.0):
-        with subprocess.Popen(
-            command,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            env=os.environ | {"TMPDIR": str(tmp_path)},
-        ) as process:
-            time.sleep(moment)
-            process.send_signal(signal.SIGINT)
-            said = process.communicate(timeout=20)[0]
-        assert "KeyboardInterrupt" not in said, (moment, said)
-        assert not list(tmp_path.glob("roughline-lab-*"))
+    with subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+        start_new_session=True,
+    ) as process:
+        if moment == "forking":
+            wait_until(psutil.Process(process.pid).children)
+        else:
+            wait_until(lambda: list(tmp_path.glob("roughline-lab-*")))
+        os.killpg(process.pid, signal.SIGINT)
+        said = process.communicate(timeout=20)[0]
+    assert "KeyboardInterrupt" not in said
+    assert "Task" not in said
+    assert not list(tmp_path.glob("roughline-lab-*"))
+
+
+def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
+    monkeypatch.setattr("roughline.lab.server._PING", 0.3)
+
+    async def scenario():
+        lab = Lab(LabSettings(), tmp_path)
+        (listening,) = bind_sockets(0, "127.0.0.1")
+        server = HTTPServer(lab.application())
+        server.add_sockets([listening])
+        port = listening.getsockname()[1]
+        page = await websocket_connect(
+            HTTPRequest(
+                f"ws://127.0.0.1:{port}/link", headers={"Origin": f"http://127.0.0.1:{port}"}
+            )
+        )
+        await page.read_message()
+        await asyncio.sleep(0.7)
+        (session,) = lab.sessions.values()
+        session.new_upload("a.txt", 1)[1].path.write_text("1")
+        page.protocol._handle_message = lambda opcode, data: None  # it answers no ping any more
+        await becomes(lambda: not lab.sessions and not list(tmp_path.iterdir()), 15)
+        page.close()
+        server.stop()
+        await lab.close()
+
+    run(scenario)

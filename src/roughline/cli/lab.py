@@ -53,8 +53,10 @@ def lab(
         typer.echo(f"The lab is open at {address} - Ctrl-C closes it.")
         if not settings.is_local:
             typer.echo(
-                f"Whoever reaches {settings.host} and has the password can upload files up to "
-                f"{max_upload:g} MB and compute on this machine. The connection is not encrypted."
+                f"It listens on {settings.host}: whoever reaches that port of this machine and has "
+                f"the password can upload files up to {max_upload:g} MB and compute here. The "
+                "connection is not encrypted: use it in a network that you trust, or behind a "
+                "proxy or tunnel that encrypts."
             )
         if browser:
             import webbrowser

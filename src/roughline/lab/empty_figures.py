@@ -18,6 +18,8 @@ from contextlib import suppress
 from importlib import import_module
 from typing import IO
 
+from roughline.lab.process import without_interrupts
+
 VIEWS = ("explore", "measured", "published")
 _LENGTH = 8  # bytes
 
@@ -27,11 +29,12 @@ class EmptyFigures:
 
     def __init__(self) -> None:
         self._drawn: dict[str, asyncio.Task[bytes | None]] = {}
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", __name__, *VIEWS],
-            stdout=subprocess.PIPE,
-            stdin=subprocess.DEVNULL,
-        )
+        with without_interrupts():
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", __name__, *VIEWS],
+                stdout=subprocess.PIPE,
+                stdin=subprocess.DEVNULL,
+            )
 
     def of_view(self, view: str) -> asyncio.Future[bytes | None]:
         """The figures of a view, as soon as they are there; None if they could not be drawn."""
@@ -79,5 +82,5 @@ def _write(views: Sequence[str], stream: IO[bytes]) -> None:
 
 
 if __name__ == "__main__":
-    with suppress(KeyboardInterrupt, BrokenPipeError):
+    with suppress(BrokenPipeError):  # the server is gone
         _write(sys.argv[1:], sys.stdout.buffer)

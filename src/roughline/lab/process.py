@@ -52,7 +52,7 @@ class Process:
         self.tasks = 0
         self._ending = threading.Lock()
         self._connection, theirs = _CONTEXT.Pipe()
-        with _without_interrupts():
+        with without_interrupts():
             self._process = _CONTEXT.Process(
                 target=_serve, args=(theirs, memory), daemon=True, name="roughline lab"
             )
@@ -109,16 +109,19 @@ def start_forking() -> None:
     if _FORKS:
         from multiprocessing import forkserver
 
-        with _without_interrupts():
+        with without_interrupts():
             forkserver.ensure_running()
 
 
 @contextmanager
-def _without_interrupts() -> Iterator[None]:
+def without_interrupts() -> Iterator[None]:
     """Have processes started that Ctrl-C does not reach: it is the server's."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    from multiprocessing import resource_tracker
+
+    resource_tracker.ensure_running()  # now, since it unblocks interrupts when it has started
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
