@@ -16,6 +16,7 @@ from roughline.campaign.layout import GALLERY, GALLERY_DONE
 from roughline.campaign.mending import read_or_none
 from roughline.campaign.plan import Gallery
 from roughline.computing import fft
+from roughline.computing.cores import available_cores
 from roughline.contact.press import press
 from roughline.errors import StoreError
 from roughline.spectra.self_affine import SelfAffine
@@ -32,7 +33,7 @@ _DIMENSIONS = {
 def evaluate_gallery(gallery: Gallery, threads: int, version: str) -> Results:
     """Press one surface and one line for each fractal dimension; keep what the figures show."""
     check_version(version)
-    fft.set_threads(min(threads, fft.available_cores()))
+    fft.set_threads(min(threads, available_cores()))
     kept: dict[str, list[NDArray[Any] | float]] = {name: [] for name in _DIMENSIONS}
     for fractal_dimension in gallery.fractal_dimensions:
         spectrum = SelfAffine(fractal_dimension=fractal_dimension, rms_height=1.0)

@@ -81,24 +81,34 @@ class Explore {
   #arguments() { return {state: this.#controls.said}; }
 
   #askNow() {
-    const error = (sentence, at) => this.#refuse(sentence, at);
-    this.#link.ask("explore.reduced", "reduced", this.#arguments(), {
-      answer: (header) => this.#draw(() => this.#drawLine(header)), error});
+    const error = (sentence, at) => this.#refuse(sentence, at), args = this.#arguments();
+    this.#link.stop("finer lines");
+    this.#link.ask("explore.reduced", "reduced", args, {
+      answer: (header) => {
+        this.#draw(() => this.#drawLine(header));
+        if (header.is_coarse) { // many ask at once
+          this.#link.ask("explore.reduced", "finer lines", {...args, refines: true}, {
+            answer: (finer) => this.#draw(() => this.#drawLine(finer))});
+        }
+      },
+      error,
+    });
     this.#link.ask("explore.coarse", "coarse", this.#arguments(), {
       answer: (header) => this.#draw(() => this.#drawContact(header)), error});
   }
 
-  #sharpen() {
+  #sharpen(refines = false) {
     if (!this.#plots) return;
     const error = (sentence, at) => { this.#waiting.end(); this.#refuse(sentence, at); };
     const progress = (message) => this.#waiting.progress(message);
-    const args = this.#arguments();
+    const args = {...this.#arguments(), refines};
     this.#waiting.begin();
     this.#link.ask("explore.full", "full", args, {
       answer: (header) => {
         this.#drawContact(header);
+        if (header.is_coarse && !args.refines) { this.#sharpen(true); return; } // many ask at once
         if (!this.#stale) { this.#waiting.end(); return; }
-        this.#link.ask("explore.curve", "curve", args, {
+        this.#link.ask("explore.curve", "curve", {...args, refines: true}, {
           answer: (curve) => { this.#waiting.end(); this.#drawCurve(curve); }, error, progress});
       },
       error,
