@@ -9,14 +9,14 @@ import jinja2
 
 from roughline._version import __version__
 from roughline.lab.explore import controls as explore
+from roughline.lab.published import controls as published
 
 
 @cache
 def page() -> str:
     """Return the page; it is the same for everyone."""
-    return (
-        _environment().get_template("index.html.jinja").render(version=__version__, explore=explore)
-    )
+    template = _environment().get_template("index.html.jinja")
+    return template.render(version=__version__, explore=explore, published=published)
 
 
 def login_page(complaint: str) -> str:

@@ -55,7 +55,13 @@ def mean_curve(
     averaged = np.log(stiffness) if averaging == "geometric" else stiffness
     mean = np.nanmean(averaged, axis=0)
     error = np.nanstd(averaged, axis=0, ddof=1) / np.sqrt(stiffness.shape[0])
-    ends = np.array([mean, mean - error, mean + error])
+    low, high = mean - error, mean + error
     if averaging == "geometric":
-        ends = np.exp(ends)
-    return MeanCurve(one.force_bar.values, *ends, (one.resolved.values == 1).all(axis=0))
+        mean, low, high = np.exp([mean, low, high])
+    return MeanCurve(
+        force_bar=one.force_bar.values,
+        mean=mean,
+        low=low,
+        high=high,
+        resolved=(one.resolved.values == 1).all(axis=0),
+    )
