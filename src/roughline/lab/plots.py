@@ -56,6 +56,24 @@ def log_figure(
     return plot
 
 
+def linear_figure(
+    x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float] | None
+) -> figure:
+    """Return an empty plot with two linear axes; without y_range it follows the data."""
+    ranges = {} if y_range is None else {"y_range": y_range}
+    plot = figure(
+        tools=_TOOLS,
+        active_scroll="wheel_zoom",
+        x_range=x_range,
+        sizing_mode="stretch_both",
+        **ranges,
+    )
+    plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
+    plot.toolbar.logo = None
+    plot.toolbar.autohide = True
+    return plot
+
+
 def empty_map(name: str, x_range: Range1d, y_range: Range1d, *, colours: str, label: str) -> figure:
     """Return an empty map over both sides; its source has the name `name`.
 

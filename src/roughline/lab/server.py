@@ -39,7 +39,13 @@ from roughline.lab.settings import LabSettings
 
 _QUICK = Limits(seconds=20.0, memory=1_000_000_000)
 _PING = 20  # a page that does not answer within this time is gone [s]
-_VIEWS = ("explore", "measured", "published")
+_FIGURES = {
+    "explore": ("explore.figures", "figures"),
+    "measured": ("measured.figures", "figures"),
+    "published": ("published.figures", "figures"),
+    "bodies": ("published.body_figures", "figures"),
+}
+"""Sets of figures that a page embeds at once: module and function of each."""
 
 
 class Lab:
@@ -71,7 +77,7 @@ class Lab:
                 (r"/login", Login),
                 (r"/link", Link),
                 (r"/upload", Uploads),
-                (rf"/figures/({'|'.join(_VIEWS)})", Figures),
+                (rf"/figures/({'|'.join(_FIGURES)})", Figures),
                 (r"/results/([\w-]+)/([\w.-]+)", Results),
                 (r"/lab/(.*)", Parts, {"path": str(static_folder())}),
                 (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", Parts, {"path": str(bokeh_folder())}),
@@ -112,7 +118,8 @@ class Lab:
 
 def _figures(view: str) -> bytes:
     """The empty figures of a view."""
-    made: bytes = import_module(f"roughline.lab.{view}.figures").figures()
+    module, function = _FIGURES[view]
+    made: bytes = getattr(import_module(f"roughline.lab.{module}"), function)()
     return made
 
 
@@ -148,7 +155,7 @@ async def _serve(
             asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
     try:
         ready(_address(settings, sockets[0]))
-        figures = asyncio.create_task(lab.figures_of(_VIEWS[0]))
+        figures = asyncio.create_task(lab.figures_of("explore"))
         await asyncio.to_thread(start_forking)
         await lab.quick.prepare()
         await lab.slow.prepare()

@@ -6,13 +6,19 @@ from bokeh.models import BoxAnnotation, BoxSelectTool, ColumnDataSource, Range1d
 from bokeh.palettes import Viridis256
 from bokeh.plotting import figure
 
-from roughline.lab.plots import embedded, empty_map, log_figure
-from roughline.lab.published.controls import DIMENSIONS, GALLERY, MODELS, ROLL_OFF
+from roughline.lab.plots import embedded, linear_figure, log_figure
+from roughline.lab.published.controls import DIMENSIONS, MODELS, ROLL_OFF
 
 _FORCE = "force F / (E* h L)"
 _FORCES = {"1D": (1e-5, 10), "3D": (1e-3, 10)}
 _STIFFNESSES = {"1D": (1e-4, 1.6), "3D": (5e-3, 1.6)}
-_PLOT_TOOLS = "pan,wheel_zoom,box_zoom,reset,save"
+_HATCH = {
+    "hatch_pattern": "right_diagonal_line",
+    "hatch_color": "#1c1c1a",
+    "hatch_alpha": 0.7,
+    "hatch_scale": 7,
+    "hatch_weight": 0.8,
+}
 _MAP_TOOLS = "pan,wheel_zoom,reset,save"
 
 
@@ -27,8 +33,7 @@ def figures() -> bytes:
     dimensions, forces = Range1d(1.95, 3.05), Range1d(7.5e-4, 4.217)
     for roll_off in ROLL_OFF.options:
         plots[f"published-trust-{roll_off}"] = _trust(roll_off, forces, dimensions)
-    plots["published-indented"] = _indented()
-    return embedded(plots | _bodies())
+    return embedded(plots)
 
 
 def _stiffness(model: str) -> figure:
@@ -72,7 +77,7 @@ def _draw_curves(plot: figure, name: str) -> None:
 
 def _exponents() -> figure:
     """Figure 5: exponents of both models, and the two predictions."""
-    plot = _linear("fractal dimension D_f", "exponent α", (1.97, 3.03), (0.4, 1.02))
+    plot = linear_figure("fractal dimension D_f", "exponent α", (1.97, 3.03), (0.4, 1.02))
     dashes = ("solid", "dashed", "dotted")
     for i, dash in enumerate(dashes):
         empty: dict[str, list[float]] = {key: [] for key in ("x", "y", "low", "high", "label")}
@@ -139,18 +144,10 @@ def _colours() -> dict[str, list[str]]:
 
 def _kappa() -> figure:
     """κ of eq. 4 over fractal dimension, beside two theories."""
-    plot = _linear("fractal dimension D_f", "κ = A E* ∇h / F", (1.95, 3.05), (0, 6))
+    plot = linear_figure("fractal dimension D_f", "κ = A E* ∇h / F", (1.95, 3.05), (0, 6))
     for name, dash in (("Bush, Gibson, Thomas", "dashed"), ("Persson", "dotted")):
-        plot.add_layout(
-            Span(
-                dimension="width",
-                line_dash=dash,
-                line_width=1.5,
-                name=f"kappa {name}",
-                tags=[{"colours": {"line_color": "theory"}}],
-            )
-        )
-        line = plot.line([], [], line_dash=dash, line_width=1.5, legend_label=name)
+        source = ColumnDataSource({"x": [], "y": []}, name=f"kappa {name}")
+        line = plot.line("x", "y", source=source, line_dash=dash, line_width=1.5, legend_label=name)
         line.glyph.tags = [{"colours": {"line_color": "theory"}}]
     _draw_with_intervals(plot, "kappa corrected", "circle", "dark-line", "area corrected")
     _draw_with_intervals(plot, "kappa cells", "triangle", "here", "area in cells", filled=False)
@@ -170,23 +167,14 @@ def _trust(roll_off: str, forces: Range1d, dimensions: Range1d) -> figure:
         sizing_mode="stretch_both",
         title=f"q_r/q_0 = {roll_off}",
     )
-    sides = ("left", "right", "bottom", "top", "colour", "hatch")
-    empty: dict[str, list[float]] = {key: [] for key in sides}
-    source = ColumnDataSource(empty, name=f"trust {roll_off}")
-    plot.quad(
-        left="left",
-        right="right",
-        bottom="bottom",
-        top="top",
-        source=source,
-        fill_color="colour",
-        line_color=None,
-        hatch_pattern="hatch",
-        hatch_color="#1c1c1a",
-        hatch_alpha=0.7,
-        hatch_scale=7,
-        hatch_weight=0.8,
-    )
+    sides = ("left", "right", "bottom", "top")
+    for name, look in (
+        (f"trust {roll_off}", {"fill_color": "colour"}),
+        (f"trust {roll_off} unsure", {"fill_color": None, **_HATCH}),
+    ):
+        empty: dict[str, list[float]] = {key: [] for key in (*sides, "colour")}
+        source = ColumnDataSource(empty, name=name)
+        plot.quad(**{side: side for side in sides}, source=source, line_color=None, **look)
     point = ColumnDataSource({"x": [], "y": []}, name=f"trust point {roll_off}")
     for colour, width in (("#ffffff", 5), ("#000000", 2)):  # seen on any colour
         plot.scatter(
@@ -201,74 +189,7 @@ def _trust(roll_off: str, forces: Range1d, dimensions: Range1d) -> figure:
         )
     plot.grid.visible = False
     plot.xaxis.axis_label, plot.yaxis.axis_label = "F̄", "D_f"
-    plot.toolbar.logo = None
-    plot.toolbar.autohide = True
-    return plot
-
-
-def _indented() -> figure:
-    """Figure 2: the indented line."""
-    plot = _linear("x / L", "height z / h", (0, 1), None)
-    empty: dict[str, list[float]] = {key: [] for key in ("x", "z", "level", "above", "bar")}
-    source = ColumnDataSource(empty, name="indented")
-    force = plot.varea("x", "level", "above", source=source, legend_label="F / E* = shaded area")
-    force.glyph.tags = [{"colours": {"fill_color": "light-line"}}]
-    for column, width, dash, colour, label in (
-        ("z", 1, "solid", "quiet", "rough line"),
-        ("level", 1, "dashed", "text", "level z = z_max - d"),
-        ("bar", 5, "solid", "text", "springs in contact: k = E* Σ L_i"),
-    ):
-        line = plot.line(
-            "x", column, source=source, line_width=width, line_dash=dash, legend_label=label
-        )
-        line.glyph.tags = [{"colours": {"line_color": colour}}]
-    plot.legend.location = "top_left"
-    plot.legend.ncols = 2
-    return plot
-
-
-def _bodies() -> dict[str, figure]:
-    """Figure 1: line, topography, contact and deflection, a row for each fractal dimension."""
-    plots = {}
-    for row in range(len(GALLERY)):
-        plots[f"published-line-{row}"] = _line(row)
-        x, y = Range1d(0, 1, bounds="auto"), Range1d(0, 1, bounds="auto")
-        for what, colours in (
-            ("topography", "rgba"),
-            ("contact", "cividis"),
-            ("deflection", "cividis"),
-        ):
-            plot = empty_map(f"{what} {row}", x, y, colours=colours, label="u / h")
-            plot.select_one({"name": f"{what} {row} bar"}).visible = what == "deflection"
-            plot.toolbar_location = None
-            plots[f"published-{what}-{row}"] = plot
-    return plots
-
-
-def _line(row: int) -> figure:
-    plot = _linear("x / L", "height z / h", (0, 1), (-4.5, 4.5))
     plot.toolbar_location = None
-    source = ColumnDataSource({"x": [], "z": []}, name=f"line {row}")
-    line = plot.line("x", "z", source=source, line_width=0.7)
-    line.glyph.tags = [{"colours": {"line_color": "text"}}]
-    return plot
-
-
-def _linear(
-    x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float] | None
-) -> figure:
-    """An empty plot with two linear axes."""
-    ranges = {} if y_range is None else {"y_range": y_range}
-    plot = figure(
-        tools=_PLOT_TOOLS,
-        active_scroll="wheel_zoom",
-        x_range=x_range,
-        sizing_mode="stretch_both",
-        **ranges,
-    )
-    plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
-    plot.toolbar.logo = None
-    plot.toolbar.autohide = True
     return plot
 
 

@@ -8,6 +8,7 @@ import {Waiting} from "./waiting.js";
 
 const MODELS = ["1D", "3D"];
 const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
+const LATEST = 2000; // that the plots, which keep the page busy, wait for the first numbers [ms]
 const OF_THE_POINT = ["roll_off", "map_D_f", "map_F", "tolerance"];
 
 export async function open(link, address, said) {
@@ -32,18 +33,22 @@ class Published {
     this.#bindButtons();
   }
 
+  #firstNumbers; #numbers = new Promise((resolve) => { this.#firstNumbers = resolve; });
+
   async open(said) {
     const {view, ...texts} = said;
     this.#take(texts);
     this.#askAll();
+    await Promise.race([this.#numbers, new Promise((resolve) => setTimeout(resolve, LATEST))]);
     this.#plots = await embedded("published");
     for (const model of MODELS) this.#bindWindow(model);
     this.#bindMaps();
     this.#drawAll();
-    this.#bodies.watch(this.#plots);
+    this.#bodies.watch();
     new MutationObserver(() => { this.#drawAll(); this.#bodies.recolour(); })
       .observe(document.documentElement, {attributeFilter: ["data-theme"]});
     this.#opening = false;
+    this.#askClaims();
   }
 
   shown() { this.#address.write("published", this.#state); }
@@ -57,7 +62,7 @@ class Published {
     for (const [name, draw] of [["exponents", () => this.#drawExponents()], ["area", () => this.#drawArea()], ["trust", () => this.#drawTrust()]]) {
       this.#ask(name, name, {}, (header) => { this.#got[name] = header; draw(); });
     }
-    this.#askClaims();
+    if (!this.#opening) this.#askClaims(); // else it waits, as it takes all of a core
   }
 
   #askFits(model) {
@@ -65,6 +70,7 @@ class Published {
       this.#got.fits[model] = header;
       this.#settled(header, EDGES[model]);
       this.#showStrip();
+      if (Object.keys(this.#got.fits).length === MODELS.length) this.#firstNumbers();
       if (this.#plots) this.#drawFits(model);
       else showFits(header);
       tableOfExponents(this.#got.fits, this.#got.exponents);

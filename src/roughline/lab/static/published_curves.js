@@ -107,7 +107,7 @@ export function drawArea(plots, {curves, window, kappas, theories, header, rows,
   drawCurves(plots, "area", curves);
   plots.model("window area").setv({left: window[0], right: window[1]});
   for (const [name, columns] of Object.entries(kappas)) plots.set(`kappa ${name}`, columns);
-  for (const {name, kappa} of theories) plots.model(`kappa ${name}`).location = kappa;
+  for (const {name, kappa} of theories) plots.set(`kappa ${name}`, {x: [1.9, 3.1], y: [kappa, kappa]});
   fillTable("published-area", area_table.header, area_table.rows);
   const named = theories.map(({name, kappa}) => [name, kappa.toFixed(2), "", "", ""]);
   fillTable("published-kappa", header, [...rows, ...named]);

@@ -1,6 +1,6 @@
 // The trust map, the claims and the bodies of the view "The paper".
 import {colourVerdicts} from "./published_curves.js";
-import {fillTable} from "./plots.js";
+import {embedded, fillTable} from "./plots.js";
 import {Waiting} from "./waiting.js";
 
 const INDENTED = 1; // row of the bodies that Figure 2 shows
@@ -8,9 +8,10 @@ const ROWS = 4;
 
 export function drawTrust(plots, {panels, legend}) {
   for (const panel of panels) {
-    const {left, right, bottom, top, colour, resolved} = panel;
-    const hatch = resolved.map((each) => (each ? " " : "right_diagonal_line"));
-    plots.set(`trust ${panel.roll_off}`, {left, right, bottom, top, colour, hatch});
+    const {left, right, bottom, top, colour, resolved} = panel, columns = {left, right, bottom, top, colour};
+    plots.set(`trust ${panel.roll_off}`, columns);
+    const unsure = Object.entries(columns).map(([name, values]) => [name, values.filter((_, i) => !resolved[i])]);
+    plots.set(`trust ${panel.roll_off} unsure`, Object.fromEntries(unsure));
   }
   document.querySelector("#published [data-legend]").replaceChildren(...legend.map(({colour, text}) => {
     const item = document.createElement("li"), patch = document.createElement("span");
@@ -62,13 +63,13 @@ export class Bodies {
     this.#root.querySelector("#published-press").addEventListener("click", () => this.#press());
   }
 
-  // Compute as soon as the figures come into sight.
-  watch(plots) {
-    this.#plots = plots;
+  // Embed the figures and compute as soon as they come into sight.
+  watch() {
     const observer = new IntersectionObserver((entries) => {
       if (!entries.some(({isIntersecting}) => isIntersecting) || this.#asked) return;
       observer.disconnect();
-      this.#press();
+      this.#asked = true;
+      embedded("bodies").then((plots) => { this.#plots = plots; this.#press(); });
     }, {rootMargin: "200px"});
     observer.observe(this.#root);
   }
@@ -78,7 +79,6 @@ export class Bodies {
   }
 
   #press() {
-    this.#asked = true;
     this.#root.querySelector("#published-press").hidden = true;
     this.#say("Four surfaces and four lines are pressed; this takes some seconds.");
     this.#waiting.begin();
@@ -113,7 +113,7 @@ export class Bodies {
     document.querySelector('[data-caption="bodies"]').textContent = `Surfaces of ${points} points, F̄ = ${force_bar}; all deflections have one scale.`;
     fillTable("published-bodies", ["D_f", "real contact of the surface", "springs of the line in contact", "largest deflection u / h"],
       [...this.#found].sort().map(([, each]) => [each.D_f, each.contact, each.springs, each.deepest.toPrecision(3)]));
-    if (this.#found.size === ROWS) { this.#waiting.end(); this.#say(""); }
+    if (this.#found.size === ROWS) { this.#waiting.end(); this.#say(""); this.#root.querySelector(".status").hidden = true; }
   }
 
   #drawIndented(x, z, level) {
