@@ -24,14 +24,13 @@ def _indented() -> figure:
     for column, width, dash, colour, label in (
         ("z", 1, "solid", "quiet", "rough line"),
         ("level", 1, "dashed", "text", "level z = z_max - d"),
-        ("bar", 5, "solid", "text", "springs in contact: k = E* Σ L_i"),
+        ("bar", 5, "solid", "text", "springs in contact"),
     ):
         line = plot.line(
             "x", column, source=source, line_width=width, line_dash=dash, legend_label=label
         )
         line.glyph.tags = [{"colours": {"line_color": colour}}]
     plot.legend.location = "top_left"
-    plot.legend.ncols = 2
     return plot
 
 
@@ -46,9 +45,10 @@ def _bodies() -> dict[str, figure]:
             ("contact", "cividis"),
             ("deflection", "cividis"),
         ):
-            plot = empty_map(f"{what} {row}", x, y, colours=colours, label="u / h")
-            plot.select_one({"name": f"{what} {row} bar"}).visible = what == "deflection"
+            plot = empty_map(f"{what} {row}", x, y, colours=colours, label="")
+            plot.select_one({"name": f"{what} {row} bar"}).visible = False
             plot.toolbar_location = None
+            plot.axis.ticker.desired_num_ticks = 3
             plots[f"published-{what}-{row}"] = plot
     return plots
 

@@ -169,12 +169,12 @@ def _trust(roll_off: str, forces: Range1d, dimensions: Range1d) -> figure:
     )
     sides = ("left", "right", "bottom", "top")
     for name, look in (
-        (f"trust {roll_off}", {"fill_color": "colour"}),
-        (f"trust {roll_off} unsure", {"fill_color": None, **_HATCH}),
+        (f"trust {roll_off}", {"fill_color": "colour", "line_color": "colour"}),
+        (f"trust {roll_off} unsure", {"fill_color": None, "line_color": None, **_HATCH}),
     ):
         empty: dict[str, list[float]] = {key: [] for key in (*sides, "colour")}
         source = ColumnDataSource(empty, name=name)
-        plot.quad(**{side: side for side in sides}, source=source, line_color=None, **look)
+        plot.quad(**{side: side for side in sides}, source=source, **look)
     point = ColumnDataSource({"x": [], "y": []}, name=f"trust point {roll_off}")
     for colour, width in (("#ffffff", 5), ("#000000", 2)):  # seen on any colour
         plot.scatter(

@@ -107,6 +107,7 @@ export class Bodies {
     plots.setMap(`contact ${row}`, arrays.contact, [1, 1], [0, 1]);
     plots.setMap(`deflection ${row}`, arrays.deflection, [1, 1], []);
     const all = Math.max(...[...this.#found.values()].map((each) => each.deepest));
+    document.querySelector("[data-deepest]").textContent = all.toPrecision(3);
     for (const each of this.#found.keys()) plots.model(`deflection ${each} colours`).setv({low: 0, high: all});
     document.querySelector(`[data-body="${row}"]`).textContent = `contact ${contact}`;
     if (row === INDENTED) this.#drawIndented(x, z, level);
@@ -122,7 +123,7 @@ export class Bodies {
       x, z, level: z.map(() => level), above: z.map((height) => Math.max(height, level)),
       bar: z.map((height) => (height > level ? bottom : NaN)),
     });
-    this.#plots.model("published-indented").y_range.setv({start: bottom - 0.3, end: Math.max(...z) + 2.6});
+    this.#plots.model("published-indented").y_range.setv({start: bottom - 0.3, end: Math.max(...z) + 2.2});
   }
 
   #say(text) { this.#root.querySelector("[data-status]").textContent = text; }
