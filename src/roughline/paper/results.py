@@ -151,6 +151,19 @@ def published_results() -> PaperResults:
     )
 
 
+@cache
+def published_dataset(name: str) -> xarray.Dataset:
+    """Return one part of that study alone, which is sooner read than all; it is read once.
+
+    Parameters
+    ----------
+    name : {"lines", "surfaces", "exponents"}
+        The reduced ensemble, the full one, or the exponents of the reduced model over all
+        fractal dimensions, as in :class:`PaperResults`.
+    """
+    return _read_netcdf(published_folder() / f"{name}.nc")
+
+
 def published_folder() -> Path:
     """Where the files of the study are that comes with the package."""
     return Path(str(files("roughline.paper").joinpath("data")))

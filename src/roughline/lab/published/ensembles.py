@@ -16,7 +16,7 @@ from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
 from roughline.lab.published.state import PublishedState, Window
 from roughline.paper.exponents import converged_stiffness
 from roughline.paper.mean_curve import MeanCurve, mean_curve
-from roughline.paper.results import published_results
+from roughline.paper.results import published_dataset
 from roughline.statistics.averages import Averaging
 from roughline.statistics.power_law import PowerLaw, fit_power_law
 from roughline.statistics.window import inside_window
@@ -37,8 +37,7 @@ def model_of(said: object) -> ModelLabel:
 
 def ensemble(model: ModelLabel) -> xarray.Dataset:
     """Lines or surfaces over fractal dimension, realisation and load."""
-    results = published_results()
-    return results.reduced if model == "1D" else results.full
+    return published_dataset("lines" if model == "1D" else "surfaces")
 
 
 def one_dimension(model: ModelLabel, fractal_dimension: float) -> xarray.Dataset:

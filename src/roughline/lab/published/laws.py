@@ -14,7 +14,7 @@ from roughline.lab.published.state import PublishedState, state_of
 from roughline.lab.tasks import Progress
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.contact_area import AreaLaw, area_law, mean_area
-from roughline.paper.results import published_results
+from roughline.paper.results import published_dataset, published_results
 from roughline.paper.tables import estimate_cell
 from roughline.paper.windows import WINDOW_AREA
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
@@ -29,7 +29,7 @@ Arguments = Mapping[str, Any]
 
 def exponents(arguments: Arguments, progress: Progress) -> bytes:
     """The published exponents of the reduced model in three windows, and the two predictions."""
-    data = published_results().exponents
+    data = published_dataset("exponents")
     windows = [data.isel(window=i) for i in range(data.sizes["window"])]
     fine = np.linspace(2, 3, 101)
     labels = [f"F̄ = {float(one.window_low):g} to {float(one.window_high):g}" for one in windows]

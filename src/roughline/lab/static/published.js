@@ -38,6 +38,7 @@ class Published {
   async open(said) {
     const {view, ...texts} = said;
     this.#take(texts);
+    this.#linked = texts;
     this.#askAll();
     await Promise.race([this.#numbers, new Promise((resolve) => setTimeout(resolve, LATEST))]);
     this.#plots = await embedded("published");
@@ -69,6 +70,7 @@ class Published {
     this.#ask("fits", `fits ${model}`, {model}, (header) => {
       this.#got.fits[model] = header;
       this.#settled(header, EDGES[model]);
+      this.#root.querySelector(`[data-fit-error="${model}"]`).textContent = "";
       this.#showStrip();
       if (Object.keys(this.#got.fits).length === MODELS.length) this.#firstNumbers();
       if (this.#plots) this.#drawFits(model);
@@ -120,6 +122,7 @@ class Published {
 
   #changed(key) {
     this.#controls.refuse("", "");
+    this.#linked = {};
     const model = MODELS.find((each) => EDGES[each].includes(key));
     if (model) this.#askFits(model);
     else if (OF_THE_POINT.includes(key)) this.#askPoint();
@@ -140,14 +143,18 @@ class Published {
 
   // Put a sentence at its control. What a link sets wrongly is then left at its default.
   #refuse(sentence, at) {
-    const isLinks = this.#opening && (at === "" ? Object.keys(this.#controls.said).length > 0 : at in this.#controls.said);
-    if (isLinks) {
-      const {[at]: wrong, ...rest} = this.#controls.said;
-      this.#take(at === "" ? {} : rest);
+    const model = MODELS.find((each) => EDGES[each].includes(at));
+    const wrong = at === "" ? Object.keys(this.#linked) : (model ? EDGES[model] : [at]).filter((key) => key in this.#linked);
+    if (wrong.length) {
+      const left = Object.entries(this.#controls.said).filter(([key]) => !wrong.includes(key));
+      this.#linked = Object.fromEntries(Object.entries(this.#linked).filter(([key]) => !wrong.includes(key)));
+      this.#take(Object.fromEntries(left));
       this.#askAll();
     }
-    if (!this.#controls.refuse(at, sentence) || isLinks) this.#controls.refuse("", sentence);
+    if (model && !wrong.length) this.#root.querySelector(`[data-fit-error="${model}"]`).textContent = sentence;
+    if (!this.#controls.refuse(at, sentence) || wrong.length) this.#controls.refuse("", sentence);
   }
+  #linked = {}; // what the link sets, until something is changed
 
   #take(texts) {
     this.#controls.take(texts);
