@@ -20,7 +20,14 @@ from typing import IO
 
 from roughline.lab.process import without_interrupts
 
-VIEWS = ("explore", "measured", "published")
+VIEWS = {
+    "explore": "explore.figures",
+    "measured": "measured.figures",
+    "published": "published.figures",
+    "bodies": "published.body_figures",
+}
+"""Sets of figures that a page embeds at once, and the module of each; the first is wanted first."""
+
 _LENGTH = 8  # bytes
 
 
@@ -72,7 +79,7 @@ def _write(views: Sequence[str], stream: IO[bytes]) -> None:
     for view in views:
         drawn = b""
         try:
-            drawn = import_module(f"roughline.lab.{view}.figures").figures()
+            drawn = import_module(f"roughline.lab.{VIEWS[view]}").figures()
         except Exception:
             traceback.print_exc(file=sys.stderr)
         stream.write(len(drawn).to_bytes(_LENGTH, "little") + drawn)

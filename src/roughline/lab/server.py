@@ -117,7 +117,7 @@ class Lab:
         """Start processes ahead of the first page."""
         await self.quick.prepare()
         await self.slow.prepare()
-        await self.figures.of_view(VIEWS[0])
+        await self.figures.of_view(next(iter(VIEWS)))
 
     async def close(self) -> None:
         """End everything."""

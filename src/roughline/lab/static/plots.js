@@ -60,7 +60,7 @@ export class Plots {
   // Give a map its image over both sides, and its colours their range.
   setMap(name, {values, shape, dtype}, [width, height], [low, high]) {
     const {ndarray} = Bokeh.require("core/util/ndarray");
-    this.model(`${name} colours`).setv({low, high});
+    if (low !== undefined) this.model(`${name} colours`).setv({low, high});
     this.set(name, {image: [ndarray(values, {dtype, shape})], x: [0], y: [0], dw: [width], dh: [height]});
   }
 
@@ -143,7 +143,7 @@ function recolour(made) {
     LinearAxis: labels,
     LogAxis: labels,
     Grid: {grid_line_color: grid},
-    Legend: {label_text_color: text, background_fill_color: paper, background_fill_alpha: 0.85,
+    Legend: {label_text_color: text, title_text_color: text, background_fill_color: paper, background_fill_alpha: 0.85,
       border_line_color: null, label_text_font_size: "11px", spacing: 0, padding: 4},
     ColorBar: {major_label_text_color: text, title_text_color: text, background_fill_color: null,
       title_text_font_style: "normal"},

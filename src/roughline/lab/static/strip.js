@@ -12,9 +12,12 @@ export class Strip {
   add(items) {
     for (const item of items) this.#items[item.key] = item;
     const shown = this.#order.filter((key) => key in this.#items).map((key) => this.#items[key]);
-    this.#place.replaceChildren(...shown.map(number));
+    fillStrip(this.#place, shown);
   }
 }
+
+// Show numbers in words, and no others.
+export function fillStrip(place, items) { place.replaceChildren(...items.map(number)); }
 
 function number({key, symbol, value, below, meaning}) {
   const item = document.createElement("div");
