@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 import mimetypes
+from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-from urllib.parse import unquote
+from typing import TYPE_CHECKING, Any, BinaryIO
 
+from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError, RequestHandler, StaticFileHandler, stream_request_body
 
-from roughline.lab.access import HEADERS, host_is_ours, origin_is_ours, passwords_match
+from roughline.lab.access import (
+    HEADERS,
+    RESULTS_POLICY,
+    host_is_ours,
+    neighbourhood,
+    origin_is_ours,
+    passwords_match,
+)
 from roughline.lab.page import login_page, page
 from roughline.lab.session import Session, Upload
 
@@ -20,6 +28,7 @@ if TYPE_CHECKING:
 _COOKIE = "roughline_lab"
 _DAYS = 7  # that a page stays logged in
 _LATER = 3600  # that a browser keeps the parts of the page [s]
+_DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml", "application/xml")
 
 
 class Guarded(RequestHandler):
@@ -32,6 +41,11 @@ class Guarded(RequestHandler):
         """The lab that is asked."""
         lab: Lab = self.application.settings["lab"]
         return lab
+
+    @property
+    def address(self) -> str:
+        """Where the request comes from."""
+        return neighbourhood(self.request.remote_ip or "")
 
     def set_default_headers(self) -> None:
         """Say what a browser may do with the answer."""
@@ -67,7 +81,19 @@ class Guarded(RequestHandler):
         return session
 
     def _is_logged_in(self) -> bool:
-        return self.get_signed_cookie(_COOKIE, max_age_days=_DAYS) == b"yes"
+        """Whether the password was given, for the name by which the server is called now."""
+        said = self.get_signed_cookie(_COOKIE, max_age_days=_DAYS)
+        return said == self.request.host.lower().encode()
+
+
+class Nothing(Guarded):
+    """What there is not."""
+
+    def prepare(self) -> None:
+        """Say so, to who may ask."""
+        super().prepare()
+        if not self._finished:
+            raise HTTPError(404, reason="There is nothing at this address")
 
 
 class Page(Guarded):
@@ -84,23 +110,37 @@ class Login(Guarded):
 
     open_to_all = True
 
+    def set_default_headers(self) -> None:
+        """Let the form say from where it comes, which "no-referrer" hides."""
+        super().set_default_headers()
+        self.set_header("Referrer-Policy", "same-origin")
+        self.set_header("Cache-Control", "no-store")
+
     def get(self) -> None:
         """Ask."""
-        self.finish(login_page(""))
+        if self.lab.settings.password is None:
+            self.redirect("/")
+        else:
+            self.finish(login_page(""))
 
     def post(self) -> None:
         """Check what was given."""
         password = self.lab.settings.password
         if password is None:
             self.redirect("/")
-        elif not self.lab.logins.take():
+        elif not self.lab.visitors.may_try(self.address):
             self.set_status(429)
             self.finish(login_page("Too many tries: wait a minute."))
-        elif passwords_match(self.get_body_argument("password", ""), password):
+        elif passwords_match(self.get_body_argument("password", "", strip=False), password):
             self.set_signed_cookie(
-                _COOKIE, "yes", expires_days=_DAYS, httponly=True, samesite="Strict"
+                _COOKIE,
+                self.request.host.lower(),
+                expires_days=_DAYS,
+                httponly=True,
+                samesite="Strict",
+                secure=self.request.protocol == "https",
             )
-            self.redirect("/")
+            self.redirect("/", status=303)
         else:
             self.set_status(403)
             self.finish(login_page("This is not the password."))
@@ -110,6 +150,12 @@ class Parts(Guarded, StaticFileHandler):
     """Scripts and styles, ours and those of Bokeh."""
 
     open_to_all = True
+
+    def parse_url_path(self, url_path: str) -> str:
+        """Refuse what the system would not take for a name."""
+        if "\0" in url_path:
+            raise HTTPError(404, reason="There is nothing at this address")
+        return super().parse_url_path(url_path)
 
     def set_extra_headers(self, path: str) -> None:
         """Let a browser keep Bokeh's, which change with its version only."""
@@ -123,64 +169,107 @@ class Figures(Guarded):
     async def get(self, view: str) -> None:
         """Send them."""
         self.set_header("Content-Type", "application/octet-stream")
-        self.finish(await self.lab.figures_of(view))
+        figures = await self.lab.figures.of_view(view)
+        if figures is None:
+            raise HTTPError(500, reason="The figures of this view could not be made")
+        self.finish(figures)
 
 
 @stream_request_body
 class Uploads(Guarded):
     """A file that a page brings, written to disk as it comes."""
 
-    upload: Upload | None = None
+    _session: Session | None = None
+    _key = ""
+    _upload: Upload | None = None
+    _file: BinaryIO | None = None
+    _is_full = False
 
     def prepare(self) -> None:
         """Refuse a file that is too large before it comes."""
         super().prepare()
-        session = self.session_of(self.get_query_argument("session"))
+        session = self.session_of(self.get_query_argument("session", ""))
         most = self.lab.settings.max_upload
-        self.request.connection.set_max_body_size(most)  # type: ignore[union-attr]
+        self.request.connection.set_max_body_size(int(most))  # type: ignore[union-attr]
         if not session.allowance.take():
             raise HTTPError(429, reason="Too many files at once: wait a moment")
         length = self.request.headers.get("Content-Length", "")
-        if not length.isdigit():
+        if not (length.isascii() and length.isdigit()):
             raise HTTPError(411, reason="The size of the file must be told first")
         if int(length) > most:
             raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
+        name = self.get_query_argument("name", "file")
         self._session = session
-        name = unquote(self.get_query_argument("name", "file"))
-        self._key, self.upload = session.new_upload(name)
-        self._file = self.upload.path.open("wb")
+        self._key, self._upload = session.new_upload(name, int(length))
+        self._file = self._upload.path.open("wb")
 
     def data_received(self, chunk: bytes) -> None:
-        """Write what has come."""
-        self._file.write(chunk)
+        """Write what has come, as long as somebody wants it."""
+        if self._session is None or self._file is None or self._is_full:
+            return
+        if self._key not in self._session.uploads:
+            self._file.close()
+            self._session = None
+            return
+        try:
+            self._file.write(chunk)
+        except OSError:
+            self._is_full = True
 
     def post(self) -> None:
         """Tell the page what its file is called here."""
-        assert self.upload is not None
-        self._file.close()
-        self.finish({"file": self._key, "name": self.upload.name})
+        if self._session is None or self._upload is None or self._file is None:
+            raise HTTPError(410, reason="The page of this file is closed, or brought too many")
+        try:
+            self._file.close()
+        except OSError:
+            self._is_full = True
+        if self._is_full:
+            raise HTTPError(507, reason="The lab has no room for this file")
+        self._session = None  # the file is whole, and stays
+        self.finish({"file": self._key, "name": self._upload.name})
+
+    def on_finish(self) -> None:
+        """Delete what came of a file that was refused or could not be written."""
+        self._forget()
 
     def on_connection_close(self) -> None:
         """Delete what came of a file that was broken off."""
         super().on_connection_close()
-        if self.upload is not None:
-            self._file.close()
+        self._forget()
+
+    def _forget(self) -> None:
+        if self._file is not None:
+            with suppress(OSError):
+                self._file.close()
+        if self._session is not None:
             self._session.forget_upload(self._key)
+            self._session = None
 
 
 class Results(Guarded):
     """Files that tasks have written for a page: reports, pictures, data."""
 
-    def get(self, token: str, name: str) -> None:
-        """Send one."""
-        folder = self.session_of(token).folder
-        path = (folder / "results" / name).resolve()
-        if not path.is_relative_to(folder.resolve() / "results") or not path.is_file():
+    async def get(self, token: str, name: str) -> None:
+        """Send one, piece by piece."""
+        folder = (self.session_of(token).folder / "results").resolve()
+        path = (folder / name).resolve()
+        if path.parent != folder or not path.is_file():
             raise HTTPError(404, reason="There is no such file any more: make it again")
-        self.set_header("Content-Type", mimetypes.guess_type(path.name)[0] or "application/binary")
+        kind = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
+        self.set_header("Content-Type", kind)
+        self.set_header("Content-Length", str(path.stat().st_size))
+        self.set_header("Cache-Control", "no-store")
+        if kind in _DOCUMENTS:
+            self.set_header("Content-Security-Policy", RESULTS_POLICY)
         if self.get_query_argument("save", ""):
             self.set_header("Content-Disposition", f'attachment; filename="{path.name}"')
-        self.finish(path.read_bytes())
+        for piece in StaticFileHandler.get_content(str(path)):
+            self.write(piece)
+            try:
+                await self.flush()
+            except StreamClosedError:  # the page wants it no more
+                return
 
 
 def static_folder() -> Path:
@@ -190,4 +279,9 @@ def static_folder() -> Path:
 
 def bokeh_folder() -> Path:
     """Where those of Bokeh are, in its own package."""
-    return Path(str(files("bokeh"))) / "server" / "static" / "js"
+    from importlib.util import find_spec
+
+    found = find_spec("bokeh")  # without loading it, which takes long
+    assert found is not None
+    assert found.origin is not None
+    return Path(found.origin).parent / "server" / "static" / "js"

@@ -11,6 +11,7 @@ from markupsafe import Markup, escape
 
 from roughline._version import __version__
 from roughline.lab.explore import controls as explore
+from roughline.lab.published import controls as published
 
 _SUBSCRIPT = re.compile(r"_(\w)")
 
@@ -18,9 +19,8 @@ _SUBSCRIPT = re.compile(r"_(\w)")
 @cache
 def page() -> str:
     """Return the page; it is the same for everyone."""
-    return (
-        _environment().get_template("index.html.jinja").render(version=__version__, explore=explore)
-    )
+    template = _environment().get_template("index.html.jinja")
+    return template.render(version=__version__, explore=explore, published=published)
 
 
 def login_page(complaint: str) -> str:

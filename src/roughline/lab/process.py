@@ -6,11 +6,13 @@ Processes are forked from one that has loaded and compiled everything, where the
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
 import sys
-from collections.abc import Callable, Mapping
-from contextlib import suppress
-from multiprocessing.connection import Connection
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection, wait
 from typing import Any
 
 from roughline.lab.tasks import Outcome
@@ -19,6 +21,9 @@ _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
 if _FORKS:
     _CONTEXT.set_forkserver_preload(["__main__", "roughline.lab.warm"])
+_LARGEST_FILE = 2_000_000_000  # that a task may write [bytes]
+_LOW, LOWEST = 5, 15
+"""Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
 
 LOST = Outcome(
     error="the process that computed this ended unexpectedly, perhaps for want of memory: ask "
@@ -32,38 +37,44 @@ class Process:
 
     Parameters
     ----------
-    memory : int
+    memory : float
         What it may take beside the program itself. [bytes]
+    gives_way : bool
+        Whether processes that do not give way come first when both want a core.
+
+    Attributes
+    ----------
+    tasks : int
+        Number of tasks that it was asked for.
     """
 
-    def __init__(self, memory: int) -> None:
+    def __init__(self, memory: float, *, gives_way: bool = False) -> None:
+        self.tasks = 0
+        self._ending = threading.Lock()
         self._connection, theirs = _CONTEXT.Pipe()
-        self._process = _CONTEXT.Process(
-            target=_serve, args=(theirs, memory), daemon=True, name="roughline lab"
-        )
-        self._process.start()
+        with without_interrupts():
+            self._process = _CONTEXT.Process(
+                target=_serve, args=(theirs, memory), daemon=True, name="roughline lab"
+            )
+            self._process.start()
         theirs.close()
-
-    @property
-    def pid(self) -> int | None:
-        """Its number in the system; None if it was stopped."""
-        try:
-            return self._process.pid
-        except ValueError:
-            return None
+        self.pid: int = self._process.pid
+        if gives_way:
+            self.lower_priority(_LOW)
 
     @property
     def is_alive(self) -> bool:
-        """Whether it can be asked."""
+        """Whether it can be asked; one that waits has nothing to say unless it has just died."""
         try:
-            return self._process.is_alive()
-        except ValueError:  # it was stopped
+            return self._process.is_alive() and not self._connection.poll()
+        except (ValueError, OSError):  # it was ended
             return False
 
     def ask(
         self, task: str, arguments: Mapping[str, Any], progress: Callable[[int, int], None]
     ) -> Outcome:
         """Have a task done; waits for it, so it is called from a thread."""
+        self.tasks += 1
         try:
             self._connection.send((task, arguments))
             while True:
@@ -74,12 +85,23 @@ class Process:
         except (EOFError, OSError):  # it was stopped, or died
             return LOST
 
+    def lower_priority(self, nice: int) -> None:
+        """Let other processes of this machine go first."""
+        with suppress(AttributeError, OSError):  # not everywhere, and it may have ended
+            os.setpriority(os.PRIO_PROCESS, self.pid, nice)
+
     def stop(self) -> None:
-        """End it at once, whatever it is doing."""
-        with suppress(ValueError):  # it is closed already
+        """Stop it at once, whatever it is doing."""
+        with suppress(ValueError):  # it was ended
             self._process.kill()
+
+    def end(self) -> None:
+        """Stop it, wait until it is gone, and give back what the server keeps for it."""
+        self.stop()
+        with self._ending, suppress(ValueError):  # it was ended
             self._process.join()
-            self._process.close()
+            self._process.close()  # one that no signal reaches any more ends itself now
+            self._connection.close()
 
 
 def start_forking() -> None:
@@ -87,17 +109,35 @@ def start_forking() -> None:
     if _FORKS:
         from multiprocessing import forkserver
 
-        forkserver.ensure_running()
+        with without_interrupts():
+            forkserver.ensure_running()
 
 
-def _serve(connection: Connection, memory: int) -> None:
+@contextmanager
+def without_interrupts() -> Iterator[None]:
+    """Have processes started that Ctrl-C does not reach: it is the server's."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    from multiprocessing import resource_tracker
+
+    resource_tracker.ensure_running()  # now, since it unblocks interrupts when it has started
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _serve(connection: Connection, memory: float) -> None:
     """Do tasks until the other end is closed."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it could not be kept away from the start
+    threading.Thread(target=_end_with_server, daemon=True).start()
     from roughline.lab import warm
     from roughline.lab.tasks import outcome_of
 
     warm.up()
-    _limit_memory(memory)
+    _limit(memory)
     with suppress(EOFError, OSError):  # the server is gone
         while True:
             task, arguments = connection.recv()
@@ -105,13 +145,23 @@ def _serve(connection: Connection, memory: int) -> None:
             connection.send(outcome)
 
 
-def _limit_memory(memory: int) -> None:
-    """Refuse more memory than allowed beside what is loaded, where the system can."""
+def _end_with_server() -> None:
+    """End this process, even in a task, when the server is gone or wants it no more."""
+    server = multiprocessing.parent_process()
+    if server is not None:
+        wait([server.sentinel])
+        os._exit(1)
+
+
+def _limit(memory: float) -> None:
+    """Refuse more memory than allowed beside what is loaded, and huge files, where possible."""
     if sys.platform != "linux":
         return
     import resource
 
     import psutil
 
-    loaded = psutil.Process().memory_info().vms
-    resource.setrlimit(resource.RLIMIT_AS, (loaded + memory, loaded + memory))
+    most = psutil.Process().memory_info().vms + int(memory)
+    resource.setrlimit(resource.RLIMIT_AS, (most, most))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))

@@ -3,27 +3,29 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import os
 import secrets
 import signal
 import socket
 from collections.abc import Callable
-from contextlib import suppress
-from importlib import import_module
+from contextlib import ExitStack, suppress
+from ipaddress import ip_address
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 from tornado.web import Application
 
-from roughline.computing.fft import available_cores
+from roughline.computing.cores import available_cores
 from roughline.errors import InputError
-from roughline.lab.access import Allowance
+from roughline.lab.access import Visitors
+from roughline.lab.empty_figures import VIEWS, EmptyFigures
 from roughline.lab.handlers import (
     Figures,
     Login,
+    Nothing,
     Page,
     Parts,
     Results,
@@ -31,15 +33,20 @@ from roughline.lab.handlers import (
     bokeh_folder,
     static_folder,
 )
-from roughline.lab.lanes import Lane, Limits
+from roughline.lab.lanes import Lane
+from roughline.lab.leftovers import folder_of_files
 from roughline.lab.link import MOST_BYTES, Link
-from roughline.lab.process import start_forking
+from roughline.lab.page import page
+from roughline.lab.requests import Limits
 from roughline.lab.session import Session
 from roughline.lab.settings import LabSettings
 
-_QUICK = Limits(seconds=20.0, memory=1_000_000_000)
+_QUICK_SECONDS, _QUICK_MEMORY = 20.0, 1_000_000_000
+_MOST_SLOW = 20  # processes for tasks that take long
 _PING = 20  # a page that does not answer within this time is gone [s]
-_VIEWS = ("explore", "measured", "published")
+_READY = 1.5  # that the first page waits for what it will need first [s]
+_MOST_BODY = 2**16  # of a request that brings no file [bytes]
+_MOST_HEADERS = 2**14  # [bytes]
 
 
 class Lab:
@@ -56,12 +63,9 @@ class Lab:
     def __init__(self, settings: LabSettings, root: Path) -> None:
         self.settings, self.root = settings, root
         self.sessions: dict[str, Session] = {}
-        self.logins = Allowance(rate=5 / 60, most=5)
-        cores = available_cores()
-        self.quick = Lane(cores, _QUICK, lasting=True)
-        slow = Limits(settings.max_seconds, settings.max_memory)
-        self.slow = Lane(cores, slow, lasting=False)
-        self._figures: dict[str, asyncio.Task[bytes]] = {}
+        self.visitors = Visitors()
+        self.figures = EmptyFigures()
+        self.quick, self.slow = _lanes(settings)
 
     def application(self) -> Application:
         """The handlers, by address."""
@@ -71,23 +75,36 @@ class Lab:
                 (r"/login", Login),
                 (r"/link", Link),
                 (r"/upload", Uploads),
-                (rf"/figures/({'|'.join(_VIEWS)})", Figures),
-                (r"/results/([\w-]+)/([\w.-]+)", Results),
+                (rf"/figures/({'|'.join(VIEWS)})", Figures),
+                (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]+)", Results),
                 (r"/lab/(.*)", Parts, {"path": str(static_folder())}),
                 (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", Parts, {"path": str(bokeh_folder())}),
             ],
+            default_handler_class=Nothing,
             lab=self,
             cookie_secret=secrets.token_hex(32),
             websocket_max_message_size=MOST_BYTES,
             websocket_ping_interval=_PING,
+            websocket_ping_timeout=_PING,
             log_function=lambda handler: None,
         )
 
+    def has_place(self, address: str) -> bool:
+        """Whether one more page may be open there; from afar, an address has half of all places."""
+        most = self.settings.max_sessions
+        own = sum(session.address == address for session in self.sessions.values())
+        return len(self.sessions) < most and (self.settings.is_local or own < max(1, most // 2))
+
     def open_session(
-        self, send: Callable[[dict[str, Any]], None], send_answer: Callable[[int, bytes], None]
+        self,
+        address: str,
+        send: Callable[[dict[str, Any]], None],
+        send_answer: Callable[[int, bytes], None],
     ) -> Session:
         """Begin a session."""
-        session = Session(self.root, self.settings, self.quick, self.slow, send, send_answer)
+        session = Session(
+            address, self.root, self.settings, self.quick, self.slow, send, send_answer
+        )
         self.sessions[session.token] = session
         return session
 
@@ -96,24 +113,29 @@ class Lab:
         self.sessions.pop(session.token, None)
         session.close()
 
-    async def figures_of(self, view: str) -> bytes:
-        """The empty figures of a view, made once."""
-        if view not in self._figures:
-            self._figures[view] = asyncio.create_task(asyncio.to_thread(_figures, view))
-        return await asyncio.shield(self._figures[view])
+    async def prepare(self) -> None:
+        """Start processes ahead of the first page."""
+        await self.quick.prepare()
+        await self.slow.prepare()
+        await self.figures.of_view(next(iter(VIEWS)))
 
-    def close(self) -> None:
+    async def close(self) -> None:
         """End everything."""
+        self.figures.close()
         for session in list(self.sessions.values()):
             self.close_session(session)
-        self.quick.close()
-        self.slow.close()
+        await asyncio.gather(self.quick.close(), self.slow.close())
 
 
-def _figures(view: str) -> bytes:
-    """The empty figures of a view."""
-    made: bytes = import_module(f"roughline.lab.{view}.figures").figures()
-    return made
+def _lanes(settings: LabSettings) -> tuple[Lane, Lane]:
+    """Processes for quick tasks, and for the others: as many as have memory, at least two."""
+    import psutil  # here because it is wanted once
+
+    cores = available_cores()
+    most = min(_MOST_SLOW, int(psutil.virtual_memory().total / settings.max_memory))
+    quick = Limits(cores, 2 * cores + 2, cores, _QUICK_SECONDS, _QUICK_MEMORY)
+    slow = Limits(cores, max(cores + 1, most), 2, settings.max_seconds, settings.max_memory)
+    return Lane(quick, lasting=True), Lane(slow, lasting=False)
 
 
 def serve(settings: LabSettings, ready: Callable[[str], None]) -> None:
@@ -131,48 +153,61 @@ def serve(settings: LabSettings, ready: Callable[[str], None]) -> None:
     InputError
         If the address is not free, or not one of this machine.
     """
-    sockets = _listening(settings)
-    with TemporaryDirectory(prefix="roughline-lab-") as root, suppress(KeyboardInterrupt):
-        asyncio.run(_serve(settings, sockets, Path(root), ready))
+    logging.getLogger("tornado.general").setLevel(logging.ERROR)  # refusals are told to the page
+    with suppress(KeyboardInterrupt), ExitStack() as opened:
+        sockets = [opened.enter_context(each) for each in _listening(settings)]
+        asyncio.run(_serve(settings, sockets, opened.enter_context(folder_of_files()), ready))
 
 
 async def _serve(
     settings: LabSettings, sockets: list[socket.socket], root: Path, ready: Callable[[str], None]
 ) -> None:
-    lab = Lab(settings, root)
-    server = HTTPServer(lab.application(), max_body_size=2**20)
-    server.add_sockets(sockets)
     stopped = asyncio.Event()
     for name in ("SIGINT", "SIGTERM"):
         with suppress(NotImplementedError, AttributeError):  # Windows raises KeyboardInterrupt
             asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
+    lab = Lab(settings, root)
+    server = HTTPServer(lab.application(), max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS)
+    preparing = asyncio.create_task(lab.prepare())
     try:
-        ready(_address(settings, sockets[0]))
-        figures = asyncio.create_task(lab.figures_of(_VIEWS[0]))
-        await asyncio.to_thread(start_forking)
-        await lab.quick.prepare()
-        await lab.slow.prepare()
-        await figures
+        server.add_sockets(sockets)
+        page()
+        with suppress(TimeoutError):
+            await asyncio.wait_for(asyncio.shield(preparing), _READY)
+        if not stopped.is_set():
+            ready(_address(settings, sockets[0]))
         await stopped.wait()
     finally:
         server.stop()
-        lab.close()
+        await lab.close()
+        await preparing
 
 
 def _listening(settings: LabSettings) -> list[socket.socket]:
     """Sockets on the address of the settings."""
     try:
-        return bind_sockets(settings.port, settings.host)
-    except OSError as error:
+        sockets = bind_sockets(settings.port, settings.host)
+    except socket.gaierror as error:
         raise InputError(
-            f"cannot listen on {settings.host}, port {settings.port} "
-            f"({os.strerror(error.errno) if error.errno else error}): take another port=, or 0 "
-            "for any free one"
+            f'host="{settings.host}" is no address of this machine: give one, or 127.0.0.1 for '
+            "this machine alone"
         ) from error
+    except (OSError, UnicodeError) as error:
+        why = os.strerror(error.errno) if isinstance(error, OSError) and error.errno else error
+        raise InputError(
+            f"cannot listen on {settings.host}, port {settings.port} ({why}): take another port=, "
+            "or 0 for any free one, and an address of this machine"
+        ) from error
+    found = {each.getsockname()[0] for each in sockets}
+    if settings.is_local and not all(ip_address(each).is_loopback for each in found):
+        for each in sockets:
+            each.close()
+        raise InputError(f'host="{settings.host}" leads to other machines here: give 127.0.0.1')
+    return sockets
 
 
 def _address(settings: LabSettings, listening: socket.socket) -> str:
     """The address of the page."""
     port = listening.getsockname()[1]
-    host = settings.host if ":" not in settings.host else f"[{settings.host}]"
-    return f"http://{host}:{port}/"
+    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(settings.host, settings.host)
+    return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"

@@ -43,6 +43,14 @@ TASKS: Mapping[str, Place] = {
     "explore.curve": Place("explore.pictures", "curve"),
     "explore.code": Place("explore.code", "code", is_quick=True),
     "explore.download": Place("explore.downloads", "download"),
+    "published.curves": Place("published.stiffness", "curves", is_quick=True),
+    "published.fits": Place("published.stiffness", "fits", is_quick=True),
+    "published.exponents": Place("published.laws", "exponents", is_quick=True),
+    "published.area": Place("published.laws", "area", is_quick=True),
+    "published.trust": Place("published.trust", "trust", is_quick=True),
+    "published.point": Place("published.trust", "point", is_quick=True),
+    "published.claims": Place("published.laws", "claims"),
+    "published.body": Place("published.bodies", "body"),
 }
 """All tasks by name."""
 

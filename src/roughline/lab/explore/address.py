@@ -7,15 +7,14 @@ from collections.abc import Mapping
 from dataclasses import fields, replace
 
 import roughline as rl
-from roughline.lab.controls import Control, ControlError
+from roughline.lab.controls import Control, ControlError, refuse_strange
 from roughline.lab.explore import controls as c
 from roughline.lab.explore.bodies import rms_height
-from roughline.lab.explore.state import VERSION, ExploreState
+from roughline.lab.explore.state import ExploreState
 from roughline.units import engineering, in_si, load_in_newtons
 
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
 _HAS_UNIT = re.compile(r"[-+.\d]+(e[-+]?\d+)?\s*[^\W\d]", re.IGNORECASE)
-_OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of this state
 
 
 def state_of(said: Mapping[str, str], most_points: int) -> ExploreState:
@@ -33,7 +32,7 @@ def state_of(said: Mapping[str, str], most_points: int) -> ExploreState:
     ControlError
         If the version is another, or a text cannot be used; it says at which control.
     """
-    _refuse_strange(said)
+    refuse_strange(said, {each.name for each in fields(ExploreState)} | {"H"})
     state = ExploreState(
         D_f=_dimension(said.get("D_f"), said.get("H")),
         rms=c.ROUGHNESS.read(said.get("rms", c.ROUGHNESS.default)),
@@ -66,24 +65,6 @@ def state_of(said: Mapping[str, str], most_points: int) -> ExploreState:
             c.POINTS.key,
         )
     return replace(state, F=_force_bar(said.get("F", str(c.FORCE.default)), state))
-
-
-def _refuse_strange(said: Mapping[str, str]) -> None:
-    """Refuse an address of another version, and parameters that are none, as one whole."""
-    if said.get("v", VERSION) != VERSION:
-        raise ControlError(
-            f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '
-            f"reads version {VERSION}: set the controls by hand",
-            "v",
-        )
-    known = {each.name for each in fields(ExploreState)} | {"v", "H", *_OF_THE_PAGE}
-    strange = [name[:40] for name in said if name not in known]
-    if strange:
-        raise ControlError(
-            f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
-            "version; set the controls by hand",
-            "v",
-        )
 
 
 def _dimension(text: str | None, hurst: str | None) -> float:

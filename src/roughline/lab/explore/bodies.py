@@ -25,10 +25,10 @@ def surface_of(state: ExploreState, n: int) -> rl.Surface:
     return _surface(spectrum_of(state, n), n, state.seed)
 
 
-def lines_of(state: ExploreState) -> tuple[rl.Line, ...]:
+def lines_of(state: ExploreState, count: int = LINES) -> tuple[rl.Line, ...]:
     """Lines of the spectrum of a state, with the waves of its surface. [m]"""
     springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * state.n)
-    return _lines(spectrum_of(state, state.n), springs, state.seed)
+    return _lines(spectrum_of(state, state.n), springs, state.seed, count)
 
 
 def rms_height(state: ExploreState) -> float:
@@ -56,5 +56,5 @@ def _surface(spectrum: rl.SelfAffine, n: int, seed: int) -> rl.Surface:
 
 
 @lru_cache(maxsize=2)
-def _lines(spectrum: rl.SelfAffine, springs: int, seed: int) -> tuple[rl.Line, ...]:
-    return tuple(spectrum.line(springs, seed + i) for i in range(LINES))
+def _lines(spectrum: rl.SelfAffine, springs: int, seed: int, count: int) -> tuple[rl.Line, ...]:
+    return tuple(spectrum.line(springs, seed + i) for i in range(count))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.explore.address import state_of
-from roughline.lab.explore.bodies import lines_of, rms_height, spectrum_of, surface_of
+from roughline.lab.explore.bodies import LINES, lines_of, rms_height, spectrum_of, surface_of
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import (
     area_rows,
@@ -28,6 +28,9 @@ from roughline.lab.tasks import Progress
 
 COARSE, COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
+FEWER_LINES = 5
+"""Lines of the reduced model when many ask at once."""
+_FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
 _CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
@@ -38,12 +41,15 @@ Arguments = Mapping[str, Any]
 
 
 def reduced(arguments: Arguments, progress: Progress) -> bytes:
-    """Mean stiffness of lines over force, and at the load of the state."""
+    """Mean stiffness of lines over force, and at the load of the state.
+
+    In a crowd it is that of fewer lines first; the page asks for the others by "refines".
+    """
     state = _state(arguments)
-    lines = lines_of(state)
+    lines = lines_of(state, FEWER_LINES if _is_first_step(arguments) else LINES)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
-    mean = rl.average(stiffness)
+    mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
     here = int(np.searchsorted(forces, state.F))
     return frame(
         {
@@ -51,13 +57,14 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
             "numbers": _numbers(state),
             "line": {
                 "force_bar": forces,
-                "stiffness_bar": mean.mean,
+                "stiffness_bar": mean,
                 "low": stiffness.min(axis=0),
                 "high": stiffness.max(axis=0),
             },
-            "stiffness_bar_1d": float(mean.mean[here]),
-            "table": [[*row, "1D"] for row in number_rows(forces, mean.mean)],
-            "strip": line_words(state, float(mean.mean[here]), len(lines)),
+            "stiffness_bar_1d": float(mean[here]),
+            "table": [[*row, "1D"] for row in number_rows(forces, mean)],
+            "strip": line_words(state, float(mean[here]), len(lines)),
+            "is_coarse": len(lines) < LINES,
         }
     )
 
@@ -71,9 +78,13 @@ def coarse(arguments: Arguments, progress: Progress) -> bytes:
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
-    """The contact on the grid of the state."""
+    """The contact on the grid of the state.
+
+    In a crowd it is on fewer points first; the page asks for the full grid by "refines".
+    """
     state = _state(arguments)
-    return _contact(state, state.n, progress)
+    n = min(state.n, _FIRST_STEP) if _is_first_step(arguments) else state.n
+    return _contact(state, n, progress)
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
@@ -145,6 +156,11 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
 
 def _state(arguments: Arguments) -> ExploreState:
     return state_of(arguments["state"], arguments["session"]["max_points"])
+
+
+def _is_first_step(arguments: Arguments) -> bool:
+    """Whether many ask at once, and this page has no answer yet."""
+    return bool(arguments["crowded"]) and arguments.get("refines") is not True
 
 
 def _numbers(state: ExploreState) -> dict[str, float]:

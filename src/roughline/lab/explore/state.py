@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
+from roughline.lab.controls import VERSION
 from roughline.lab.explore import controls as c
 from roughline.units import in_si
-
-VERSION = "1"
-"""Of the address; one of another version is refused."""
 
 
 @dataclass(frozen=True)

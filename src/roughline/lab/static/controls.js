@@ -107,7 +107,10 @@ export class Controls {
 }
 
 // A number as it is typed: four digits, no exponent where it is short.
-export function said(value) { return String(Number(value.toPrecision(4))); }
+export function said(value) {
+  const rounded = Number(value.toPrecision(4));
+  return rounded !== 0 && Math.abs(rounded) < 1e-4 ? rounded.toExponential() : String(rounded);
+}
 
 function place(slider, value) {
   slider.value = position(slider, value);

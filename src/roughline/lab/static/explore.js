@@ -95,16 +95,26 @@ class Explore {
   #arguments() { return {state: this.#controls.said}; }
 
   #askNow() {
-    const turn = ++this.#turn, error = (sentence, at) => this.#refuse(sentence, at, turn);
-    this.#link.ask("explore.reduced", "reduced", this.#arguments(), {
-      answer: (header) => this.#draw(() => this.#drawLine(header, turn)), error});
+    const turn = ++this.#turn, args = this.#arguments();
+    const error = (sentence, at) => this.#refuse(sentence, at, turn);
+    this.#link.stop("finer lines");
+    this.#link.ask("explore.reduced", "reduced", args, {
+      answer: (header) => {
+        this.#draw(() => this.#drawLine(header, turn));
+        if (header.is_coarse && turn === this.#turn) { // many ask at once
+          this.#link.ask("explore.reduced", "finer lines", {...args, refines: true}, {
+            answer: (finer) => this.#draw(() => this.#drawLine(finer, turn))});
+        }
+      },
+      error,
+    });
     this.#link.ask("explore.coarse", "coarse", this.#arguments(), {
       answer: (header) => this.#draw(() => this.#drawContact(header, turn)), error});
   }
 
-  #sharpen() {
+  #sharpen(refines = false) {
     if (!this.#plots) return;
-    const turn = this.#turn, args = this.#arguments();
+    const turn = this.#turn, args = {...this.#arguments(), refines};
     const progress = (message) => this.#waiting.progress(message);
     const error = (sentence, at) => {
       if (turn === this.#turn) this.#stop(["full", "curve"]);
@@ -114,9 +124,10 @@ class Explore {
     this.#link.ask("explore.full", "full", args, {
       answer: (header) => {
         this.#drawContact(header, turn);
+        if (header.is_coarse && !refines) { this.#sharpen(true); return; } // many ask at once
         if (this.#stale) {
           this.#waiting.begin("curve");
-          this.#link.ask("explore.curve", "curve", args, {
+          this.#link.ask("explore.curve", "curve", {...args, refines: true}, {
             answer: (curve) => { this.#waiting.end("curve"); this.#drawCurve(curve); }, error, progress});
         }
         this.#waiting.end("full");

@@ -66,7 +66,7 @@ export class Plots {
   // Give a map its image over both sides, and its colours their range.
   setMap(name, {values, shape, dtype}, [width, height], [low, high]) {
     const {ndarray} = Bokeh.require("core/util/ndarray");
-    this.model(`${name} colours`).setv({low, high});
+    if (low !== undefined) this.model(`${name} colours`).setv({low, high});
     this.set(name, {image: [ndarray(values, {dtype, shape})], x: [0], y: [0], dw: [width], dh: [height]});
   }
 

@@ -15,13 +15,18 @@ export class Strip {
       write(this.#items.get(item.key), item);
     }
     const wanted = this.#order.filter((key) => this.#items.has(key)).map((key) => this.#items.get(key).element);
-    if (wanted.length !== this.#place.children.length) this.#place.replaceChildren(...wanted);
+    if (wanted.length !== this.#place.children.length || wanted[0] !== this.#place.children[0]) this.#place.replaceChildren(...wanted);
   }
 
   // Its numbers in one line, for who hears the page.
   get spoken() {
     return [...this.#items.values()].map(({said}) => `${said.symbol} ${said.value}`).join(", ");
   }
+}
+
+// Show numbers in words, and no others.
+export function fillStrip(place, items) {
+  new Strip(place, items.map(({key}) => key)).add(items);
 }
 
 function empty(key) {
