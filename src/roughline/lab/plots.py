@@ -25,10 +25,9 @@ def embedded(plots: Mapping[str, figure]) -> bytes:
         By the element of the page that each belongs to, without its prefix "plot-".
     """
     document = Document()
-    with document.models.freeze():  # otherwise each root would have all the others searched again
-        for element, plot in plots.items():
-            plot.name = element
-            document.add_root(plot)
+    for element, plot in plots.items():
+        plot.name = element
+        document.add_root(plot)
     documents, (item, *_) = standalone_docs_json_and_render_items(document)
     places = {plot.id: f"plot-{element}" for element, plot in plots.items()}
     return frame({"documents": documents, "items": [{**item.to_json(), "roots": places}]})
@@ -49,24 +48,6 @@ def log_figure(
         sizing_mode="stretch_both",
         output_backend="canvas",
         **{name: value for name, value in ranges.items() if value is not None},
-    )
-    plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
-    plot.toolbar.logo = None
-    plot.toolbar.autohide = True
-    return plot
-
-
-def linear_figure(
-    x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float] | None
-) -> figure:
-    """Return an empty plot with two linear axes; without y_range it follows the data."""
-    ranges = {} if y_range is None else {"y_range": y_range}
-    plot = figure(
-        tools=_TOOLS,
-        active_scroll="wheel_zoom",
-        x_range=x_range,
-        sizing_mode="stretch_both",
-        **ranges,
     )
     plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
     plot.toolbar.logo = None

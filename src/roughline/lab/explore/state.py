@@ -7,13 +7,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 
 from roughline.errors import UnitError
-from roughline.lab.controls import VERSION, Control, ControlError, refuse_strange
+from roughline.lab.controls import Control, ControlError
 from roughline.lab.explore import controls as c
 from roughline.theories.theory import THEORIES
 from roughline.units import decimal, in_si, load_in_newtons
 
+VERSION = "1"
+"""Of the address; one of another version is refused."""
+
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
 _HAS_UNIT = re.compile(r"[-+.\d]+(e[-+]?\d+)?\s*[^\W\d]", re.IGNORECASE)
+_OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of this state
 
 
 @dataclass(frozen=True)
@@ -107,7 +111,7 @@ def state_of(said: Mapping[str, str], most_points: int) -> ExploreState:
     ControlError
         If the version is another, or a text cannot be used; it says at which control.
     """
-    refuse_strange(said, {each.name for each in fields(ExploreState)} | {"H"})
+    _refuse_strange(said)
     state = ExploreState(
         D_f=_dimension(said.get("D_f"), said.get("H")),
         rms=c.ROUGHNESS.read(said.get("rms", c.ROUGHNESS.default)),
@@ -140,6 +144,22 @@ def state_of(said: Mapping[str, str], most_points: int) -> ExploreState:
             c.POINTS.key,
         )
     return replace(state, F=_force_bar(said.get("F", str(c.FORCE.default)), state))
+
+
+def _refuse_strange(said: Mapping[str, str]) -> None:
+    """Refuse an address of another version, and parameters that are none."""
+    if said.get("v", VERSION) != VERSION:
+        raise ControlError(
+            f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '
+            f"reads version {VERSION}: set the controls by hand"
+        )
+    known = {each.name for each in fields(ExploreState)} | {"v", "H", *_OF_THE_PAGE}
+    strange = [name[:40] for name in said if name not in known]
+    if strange:
+        raise ControlError(
+            f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
+            "version; set the controls by hand"
+        )
 
 
 def _dimension(text: str | None, hurst: str | None) -> float:

@@ -1,7 +1,6 @@
 // Explore: a random surface under both models, as sliders move.
 import {Controls} from "./controls.js";
 import {embedded, fillTable} from "./plots.js";
-import {fillStrip} from "./strip.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
@@ -185,7 +184,19 @@ class Explore {
   #strip_(items) {
     for (const item of items) this.#strip[item.key] = item;
     const shown = STRIP.filter((key) => key in this.#strip).map((key) => this.#strip[key]);
-    fillStrip(this.#root.querySelector(".strip"), shown);
+    this.#root.querySelector(".strip").replaceChildren(...shown.map(({key, symbol, value, below, meaning}) => {
+      const item = document.createElement("div");
+      item.title = meaning;
+      item.dataset.answer = key;
+      item.tabIndex = 0;
+      item.setAttribute("aria-label", `${symbol} ${value} ${below}. ${meaning}`);
+      for (const [kind, text] of [["dt", symbol], ["dd", value], ["dd", below]]) {
+        const part = document.createElement(kind);
+        part.textContent = text;
+        item.append(part);
+      }
+      return item;
+    }));
   }
 
   #refuse(sentence, at) {

@@ -88,7 +88,7 @@ function recolour(made) {
         break;
       case "Grid": model.setv({grid_line_color: grid}); break;
       case "Legend":
-        model.setv({label_text_color: text, title_text_color: text, background_fill_color: paper, background_fill_alpha: 0.8,
+        model.setv({label_text_color: text, background_fill_color: paper, background_fill_alpha: 0.8,
           border_line_color: null, label_text_font_size: "11px", spacing: 0, padding: 4});
         break;
       case "ColorBar":
