@@ -26,9 +26,10 @@ def embedded(plots: Mapping[str, figure]) -> bytes:
         By the element of the page that each belongs to, without its prefix "plot-".
     """
     document = Document()
-    for element, plot in plots.items():
-        plot.name = element
-        document.add_root(plot)
+    with document.models.freeze():  # otherwise each root would have all the others searched again
+        for element, plot in plots.items():
+            plot.name = element
+            document.add_root(plot)
     documents, (item, *_) = standalone_docs_json_and_render_items(document)
     places = {plot.id: f"plot-{element}" for element, plot in plots.items()}
     return frame(
