@@ -22,7 +22,7 @@ _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
 if _FORKS:
     _CONTEXT.set_forkserver_preload(["__main__", "roughline.lab.warm"])
 _LARGEST_FILE = 2_000_000_000  # that a task may write [bytes]
-_LOW, LOWEST = 5, 15
+_LOW, LOWEST = 3, 15
 """Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
 
 LOST = Outcome(

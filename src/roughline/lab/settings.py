@@ -10,7 +10,7 @@ from pathlib import Path
 from roughline.errors import InputError
 
 LOOPBACK = "127.0.0.1"
-_LEAST_MEMORY = 100_000_000  # of a task [bytes]
+_LEAST_MEMORY = 500_000_000  # of a task [bytes]
 
 
 @dataclass(frozen=True)

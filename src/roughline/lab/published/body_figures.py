@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource, LinearColorMapper
+from bokeh.palettes import Cividis256
 from bokeh.plotting import figure
 
-from roughline.lab.plots import embedded, empty_map, linear_figure
+from roughline.lab.plots import embedded, linear_figure
 from roughline.lab.published.controls import GALLERY
 
 
@@ -39,15 +40,25 @@ def _bodies() -> dict[str, figure]:
     plots = {}
     for row in range(len(GALLERY)):
         plots[f"published-line-{row}"] = _line(row)
-        x, y = Range1d(0, 1), Range1d(0, 1)
         for what in ("topography", "contact", "deflection"):
-            plot = empty_map(f"{what} {row}", x, y, rgba=what == "topography", label="")
-            plot.min_border_left = plot.min_border_right = 5
-            plot.select_one({"name": f"{what} {row} bar"}).visible = False
-            plot.toolbar_location = None
-            plot.axis.ticker.desired_num_ticks = 3
-            plots[f"published-{what}-{row}"] = plot
+            plots[f"published-{what}-{row}"] = _map(f"{what} {row}", rgba=what == "topography")
     return plots
+
+
+def _map(name: str, *, rgba: bool) -> figure:
+    """An empty map over both sides; its colours have the name of its source, and "colours"."""
+    plot = linear_figure("x / L", "y / L", (0, 1), (0, 1))
+    empty: dict[str, list[float]] = {key: [] for key in ("image", "x", "y", "dw", "dh")}
+    source = ColumnDataSource(empty, name=name)
+    if rgba:
+        plot.image_rgba("image", "x", "y", "dw", "dh", source=source)
+    else:
+        mapper = LinearColorMapper(palette=Cividis256, low=0, high=1, name=f"{name} colours")
+        plot.image("image", "x", "y", "dw", "dh", source=source, color_mapper=mapper)
+    plot.grid.visible = False
+    plot.toolbar_location = None
+    plot.axis.ticker.desired_num_ticks = 3
+    return plot
 
 
 def _line(row: int) -> figure:

@@ -51,7 +51,7 @@ def _stiffness(model: str) -> figure:
     fits = ColumnDataSource({"xs": [], "ys": []}, name=f"{name} fits")
     law = plot.multi_line("xs", "ys", source=fits, line_width=1.5, line_dash=[6, 3])
     law.glyph.tags = [{"colours": {"line_color": "text"}}]
-    plot.legend.location, plot.legend.title = "bottom_right", "D_f"
+    _name_dimensions(plot)
     return plot
 
 
@@ -73,6 +73,12 @@ def _draw_curves(plot: figure, name: str) -> None:
         color="colour",
         legend_field="D_f",
     )
+
+
+def _name_dimensions(plot: figure) -> None:
+    """Say which mark is which fractal dimension."""
+    plot.legend.location, plot.legend.title = "bottom_right", "D_f"
+    plot.legend.tags = [{"colours": {"title_text_color": "text"}}]
 
 
 def _exponents() -> figure:
@@ -126,7 +132,7 @@ def _area() -> figure:
     plot.add_layout(_window("window area", editable=False))
     _draw_curves(plot, "area")
     plot.tags = [_colours()]
-    plot.legend.location, plot.legend.title = "bottom_right", "D_f"
+    _name_dimensions(plot)
     return plot
 
 

@@ -3,11 +3,12 @@ import {Controls, said as asText} from "./controls.js";
 import {embedded} from "./plots.js";
 import {drawArea, drawExponents, drawFits, drawStiffness, showFits, tableOfExponents} from "./published_curves.js";
 import {Bodies, drawPoint, drawTrust, showClaims} from "./published_maps.js";
-import {fillStrip} from "./strip.js";
+import {Strip} from "./strip.js";
 import {Waiting} from "./waiting.js";
 
 const MODELS = ["1D", "3D"];
 const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
+const STRIP = ["exponent_1D", "stated_1D", "exponent_3D", "stated_3D"];
 const LATEST = 2000; // that the plots, which keep the page busy, wait for the first numbers [ms]
 const OF_THE_POINT = ["roll_off", "map_D_f", "map_F", "tolerance"];
 
@@ -18,7 +19,7 @@ export async function open(link, address, said) {
 }
 
 class Published {
-  #link; #address; #root = document.querySelector("#published"); #controls; #plots; #bodies; #waiting;
+  #link; #address; #root = document.querySelector("#published"); #controls; #plots; #bodies; #strip; #waiting;
   #got = {fits: {}}; #later = new Set(); #state = {}; #placing = false; #opening = true;
 
   constructor(link, address) {
@@ -26,6 +27,7 @@ class Published {
     this.#address = address;
     this.#controls = new Controls(this.#root, (key) => this.#changed(key));
     this.#bodies = new Bodies(link);
+    this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#waiting = new Waiting(this.#root.querySelector('[aria-labelledby="claims-title"] .status'), () => {
       link.stop("claims");
       this.#status("stopped");
@@ -213,8 +215,7 @@ class Published {
   }
 
   #showStrip() {
-    const items = MODELS.flatMap((model) => this.#got.fits[model]?.strip ?? []);
-    fillStrip(this.#root.querySelector(".strip"), items);
+    this.#strip.add(MODELS.flatMap((model) => this.#got.fits[model]?.strip ?? []));
     for (const item of this.#root.querySelectorAll('.strip [data-answer^="stated"]')) {
       item.dataset.verdict = item.querySelector("dd").textContent;
     }

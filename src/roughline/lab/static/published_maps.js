@@ -75,7 +75,9 @@ export class Bodies {
   }
 
   recolour() {
-    for (const row of this.#found.keys()) this.#plots.colours(`contact ${row}`, "marks");
+    const style = getComputedStyle(document.documentElement);
+    const palette = ["--paper", "--ink"].map((colour) => style.getPropertyValue(colour).trim());
+    for (const row of this.#found.keys()) this.#plots.model(`contact ${row} colours`).setv({palette});
   }
 
   #press() {
@@ -102,10 +104,8 @@ export class Bodies {
     this.#waiting.progress({done: this.#found.size, total: ROWS, left: null});
     const z = Array.from(arrays.line.values), x = z.map((_, i) => i / z.length);
     plots.set(`line ${row}`, {x, z});
-    plots.setMap(`topography ${row}`, arrays.topography, [1, 1], []);
-    plots.colours(`contact ${row}`, "marks");
-    plots.setMap(`contact ${row}`, arrays.contact, [1, 1], [0, 1]);
-    plots.setMap(`deflection ${row}`, arrays.deflection, [1, 1], []);
+    for (const what of ["topography", "contact", "deflection"]) plots.set(`${what} ${row}`, image(arrays[what]));
+    this.recolour();
     const all = Math.max(...[...this.#found.values()].map((each) => each.deepest));
     document.querySelector("[data-deepest]").textContent = all.toPrecision(3);
     for (const each of this.#found.keys()) plots.model(`deflection ${each} colours`).setv({low: 0, high: all});
@@ -127,4 +127,10 @@ export class Bodies {
   }
 
   #say(text) { this.#root.querySelector("[data-status]").textContent = text; }
+}
+
+// The column of an image over both sides.
+function image({values, shape, dtype}) {
+  const {ndarray} = Bokeh.require("core/util/ndarray");
+  return {image: [ndarray(values, {dtype, shape})], x: [0], y: [0], dw: [1], dh: [1]};
 }
