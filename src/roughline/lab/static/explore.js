@@ -40,6 +40,7 @@ class Explore {
 
   async open(said) {
     this.#take(said);
+    this.#dim([...CONTACT, ...CURVES]);
     this.#askNow();
     this.#plots = await embedded("explore");
     for (const name of ["stiffness", "area"]) {
