@@ -57,9 +57,10 @@ export class Controls {
   refuse(key, sentence) {
     const place = this.#root.querySelector(`[data-error="${CSS.escape(key)}"]`);
     if (!place) return false;
+    if (place.textContent === sentence) return true;
     place.textContent = sentence;
     this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
-    return place.parentElement.checkVisibility();
+    return sentence === "" || place.parentElement.checkVisibility();
   }
 
   // Take all sentences away: all that is set was used.

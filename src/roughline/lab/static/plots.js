@@ -133,11 +133,17 @@ export function fillTable(id, header, rows) {
 }
 
 // Draw all plots in the colours of the theme.
-export function recolourAll() { documents.forEach(recolour); }
+export function recolourAll() {
+  known.clear();
+  documents.forEach(recolour);
+}
+
+const known = new Map(); // colours: to ask for one makes the browser style the page again
 
 // A colour of the theme by its name in the style of the page.
 function colour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  if (!known.has(name)) known.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+  return known.get(name);
 }
 
 function recolour(made) {
