@@ -12,8 +12,8 @@ from roughline.comparison.trust import Difference, TrustMap, trust_map
 from roughline.computing.arrays import Real
 from roughline.lab.frames import frame
 from roughline.lab.published.state import PublishedState, state_of
-from roughline.lab.tasks import Progress
 from roughline.paper.trust_page import trust_cell
+from roughline.server.tasks import Progress
 from roughline.units import decimal
 
 _DIGITS = 3
