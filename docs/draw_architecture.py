@@ -25,6 +25,7 @@ PLACES = {
     "lab": 6.0,
     "paper": 7.6,
     "report": 4.0,
+    "server": 7.6,
     "assessment": 4.0,
     "campaign": 7.2,
     "engineering": 1.1,

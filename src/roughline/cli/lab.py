@@ -34,10 +34,10 @@ def lab(
     The server runs on this machine until Ctrl-C, needs no network, and is open to this machine
     alone. With --host others can reach it; then it asks for a password.
     """
-    from roughline.lab.process import start_forking
-    from roughline.lab.settings import LabSettings, password_in
+    from roughline.server.process import start_forking
+    from roughline.server.settings import ServerSettings, password_in
 
-    settings = LabSettings(
+    settings = ServerSettings(
         host=host,
         port=port,
         password=password_in(password_file) if password_file else None,
@@ -46,8 +46,9 @@ def lab(
         max_seconds=max_seconds,
         max_memory=max_memory * _MB,
     )
-    start_forking()  # which loads numerics while this process loads the server
-    from roughline.lab.server import serve
+    start_forking("roughline.lab.warm")  # which loads numerics while this process loads the server
+    from roughline.lab.site import site
+    from roughline.server.serve import serve
 
     def ready(address: str) -> None:
         typer.echo(f"The lab is open at {address} - Ctrl-C closes it.")
@@ -63,5 +64,5 @@ def lab(
 
             webbrowser.open(address)
 
-    serve(settings, ready)
+    serve(site(), settings, ready)
     typer.echo("The lab is closed.")

@@ -9,7 +9,7 @@ from importlib.resources import files
 import jinja2
 from markupsafe import Markup, escape
 
-from roughline._version import __version__
+import roughline as rl
 from roughline.lab.explore import controls as explore
 from roughline.lab.published import controls as published
 
@@ -20,7 +20,7 @@ _SUBSCRIPT = re.compile(r"_(\w)")
 def page() -> str:
     """Return the page; it is the same for everyone."""
     template = _environment().get_template("index.html.jinja")
-    return template.render(version=__version__, explore=explore, published=published)
+    return template.render(version=rl.__version__, explore=explore, published=published)
 
 
 def login_page(complaint: str) -> str:

@@ -24,7 +24,7 @@ from roughline.lab.explore.words import (
 )
 from roughline.lab.frames import frame
 from roughline.lab.shading import shaded
-from roughline.lab.tasks import Progress
+from roughline.server.tasks import Progress
 
 COARSE, COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
+import roughline as rl
 from roughline.campaign.gallery import bodies_of
 from roughline.lab.controls import ControlError
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
 from roughline.lab.shading import shaded
-from roughline.lab.tasks import Progress
 from roughline.paper.plan import paper_plan
-from roughline.topography.body import Surface
+from roughline.server.tasks import Progress
 
 _POINTS = 512  # along a side; the paper's own plan has 1024
 
@@ -43,7 +43,7 @@ def body(arguments: Mapping[str, Any], progress: Progress) -> bytes:
             "force_bar": f"{gallery.force_bar:g}",
         },
         {
-            "topography": shaded(Surface(heights, (1.0, 1.0))).T,
+            "topography": shaded(rl.Surface(heights, (1.0, 1.0))).T,
             "contact": found["contact"].astype(np.uint8).T,
             "deflection": found["displacement"].T,
             "line": line,

@@ -7,10 +7,10 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
+import roughline as rl
 from roughline.contact import scaling
-from roughline.errors import InputError
 from roughline.lab.controls import ControlError
 from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
 from roughline.lab.published.state import PublishedState, Window
@@ -70,7 +70,7 @@ def law_of(state: PublishedState, model: ModelLabel, fractal_dimension: float) -
     low, high = (_on_load(force, edge) for edge in state.windows[model])
     try:
         law = _law(model, fractal_dimension, (low, high), state.mean)
-    except InputError as error:
+    except rl.InputError as error:
         raise ControlError(str(error), WINDOWS[model][1].key) from None
     punch = punch_of(state, model)
     first, last = law.prefactor_interval
@@ -94,7 +94,7 @@ def _law(
     return fit_power_law(one.force_bar.values, stiffness, window, averaging=averaging)
 
 
-def _on_load(force: Real, edge: float) -> float:
+def _on_load(force: NDArray[np.float64], edge: float) -> float:
     """An edge of a window; one that was rounded for the address is that of its load again."""
     nearest = float(force[np.argmin(np.abs(np.log(force / edge)))])
     return nearest if abs(nearest / edge - 1) < _SAME else edge

@@ -7,13 +7,13 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughline.comparison.trust import Difference, TrustMap, trust_map
-from roughline.computing.arrays import Real
 from roughline.lab.frames import frame
 from roughline.lab.published.state import PublishedState, state_of
-from roughline.lab.tasks import Progress
 from roughline.paper.trust_page import trust_cell
+from roughline.server.tasks import Progress
 from roughline.units import decimal
 
 _DIGITS = 3
@@ -80,7 +80,9 @@ def sentence(state: PublishedState, difference: Difference) -> str:
     )
 
 
-def _panel(whole: TrustMap, i: int, levels: Real, colours: list[str]) -> dict[str, Any]:
+def _panel(
+    whole: TrustMap, i: int, levels: NDArray[np.float64], colours: list[str]
+) -> dict[str, Any]:
     """The cells of one panel, each around its point, and the panel as a table."""
     dimensions, forces = whole.fractal_dimensions, whole.force_bars
     across, up = np.exp(_edges(np.log(forces))), _edges(dimensions)
@@ -116,7 +118,7 @@ def _difference(whole: TrustMap, at: tuple[int, int, int]) -> Difference:
     )
 
 
-def _edges(middles: Real) -> Real:
+def _edges(middles: NDArray[np.float64]) -> NDArray[np.float64]:
     """Edges of the cells around evenly spaced points."""
     half = (middles[1] - middles[0]) / 2
     return np.append(middles - half, middles[-1] + half)

@@ -12,12 +12,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from roughline.lab.access import Allowance
-from roughline.lab.lanes import Lane
-from roughline.lab.process import Process
-from roughline.lab.requests import Request
-from roughline.lab.settings import LabSettings
-from roughline.lab.tasks import TASKS, Outcome
+from roughline.server.access import Allowance
+from roughline.server.lanes import Lane
+from roughline.server.process import Process
+from roughline.server.requests import Request
+from roughline.server.settings import ServerSettings
+from roughline.server.site import Site
+from roughline.server.tasks import Outcome
 
 _MOST_FILES = 20  # of one session at once
 _MOST_UPLOADS = 3  # largest files that a session's files may make together
@@ -57,7 +58,9 @@ class Session:
         Known to the page alone; who has it may speak for the page.
     root : Path
         Folder of all sessions; this one's lies in it from the first file on.
-    settings : LabSettings
+    site : Site
+        What may be asked for.
+    settings : ServerSettings
         Limits.
     quick, slow : Lane
         Processes for what takes some milliseconds, and for the rest.
@@ -67,7 +70,8 @@ class Session:
 
     address: str
     root: Path
-    settings: LabSettings
+    site: Site
+    settings: ServerSettings
     quick: Lane
     slow: Lane
     send: Callable[[dict[str, Any]], None]
@@ -102,8 +106,9 @@ class Session:
             self.send({"id": number, "done": done, "total": total, "left": left})
 
         told = {**arguments, "session": self._context()}
-        request = Request(self.address, self.token, slot, task, told, answer, progress)
-        (self.quick if TASKS[task].is_quick else self.slow).submit(request)
+        place = self.site.tasks[task]
+        request = Request(self.address, self.token, slot, place, told, answer, progress)
+        (self.quick if place.is_quick else self.slow).submit(request)
 
     def withdraw(self, slot: str | None = None) -> list[Process]:
         """Stop what was asked for a part of the page, or for all of it; returns what is stopped."""

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from roughline.lab.process import LOST, LOWEST, Process
-from roughline.lab.requests import Limits, Request
-from roughline.lab.tasks import Outcome
+from roughline.server.process import LOST, LOWEST, Process
+from roughline.server.requests import Limits, Request
+from roughline.server.tasks import Outcome
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 1.5  # after which a task lets shorter ones pass [s]
@@ -166,7 +166,7 @@ class Lane:
         try:
             outcome = await self._outcome(job, crowded)
         except Exception:  # such as no process to be had, or an argument that cannot be sent
-            _log.exception("%s failed in the server", job.request.task)
+            _log.exception("%s failed in the server", job.request.place)
         finally:
             self._jobs.discard(job)
             if self._running.get(job.request.key) is job:
@@ -196,7 +196,7 @@ class Lane:
 
         arguments = {**request.arguments, "crowded": crowded}
         later = loop.call_later(_PATIENCE, self._let_pass, job)
-        asked = loop.run_in_executor(self._threads, process.ask, request.task, arguments, progress)
+        asked = loop.run_in_executor(self._threads, process.ask, request.place, arguments, progress)
         try:
             return await asyncio.wait_for(asyncio.shield(asked), seconds)
         except TimeoutError:

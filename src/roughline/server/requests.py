@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from roughline.lab.tasks import Outcome
+from roughline.server.tasks import Outcome, Place
 
 
 @dataclass(frozen=True)
@@ -18,8 +18,8 @@ class Request:
     address, session, slot : str
         From where, who asks, and for which part of the page: a newer request for it takes the place
         of an older one.
-    task : str
-        One of :data:`roughline.lab.tasks.TASKS`.
+    place : Place
+        Where the task is.
     arguments : mapping
         Of the task; with "refines" it makes an answer finer that is there, and lets others pass.
     answer : callable
@@ -31,7 +31,7 @@ class Request:
     address: str
     session: str
     slot: str
-    task: str
+    place: Place
     arguments: Mapping[str, Any]
     answer: Callable[[Outcome], None]
     progress: Callable[[int, int], None]

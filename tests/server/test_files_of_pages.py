@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from lab.serving import (
+from server.serving import (
     becomes,
     raw,
     run,

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import mimetypes
 from contextlib import suppress
-from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError, RequestHandler, StaticFileHandler, stream_request_body
 
-from roughline.lab.access import (
+from roughline.server.access import (
     HEADERS,
     RESULTS_POLICY,
     host_is_ours,
@@ -19,11 +18,10 @@ from roughline.lab.access import (
     origin_is_ours,
     passwords_match,
 )
-from roughline.lab.page import login_page, page
-from roughline.lab.session import Session, Upload
+from roughline.server.session import Session, Upload
 
 if TYPE_CHECKING:
-    from roughline.lab.server import Lab
+    from roughline.server.serve import Server
 
 _COOKIE = "roughline_lab"
 _DAYS = 7  # that a page stays logged in
@@ -37,10 +35,10 @@ class Guarded(RequestHandler):
     open_to_all = False
 
     @property
-    def lab(self) -> Lab:
-        """The lab that is asked."""
-        lab: Lab = self.application.settings["lab"]
-        return lab
+    def server(self) -> Server:
+        """The server that is asked."""
+        server: Server = self.application.settings["server"]
+        return server
 
     @property
     def address(self) -> str:
@@ -55,7 +53,7 @@ class Guarded(RequestHandler):
 
     def prepare(self) -> None:
         """Refuse names that are not ours, pages of other servers, and who has no password."""
-        settings = self.lab.settings
+        settings = self.server.settings
         if not host_is_ours(self.request.host, settings):
             raise HTTPError(403, reason="This is not a name of this server")
         origin = self.request.headers.get("Origin")
@@ -75,7 +73,7 @@ class Guarded(RequestHandler):
 
     def session_of(self, token: str) -> Session:
         """Return the session with a token."""
-        session = self.lab.sessions.get(token)
+        session = self.server.sessions.get(token)
         if session is None:
             raise HTTPError(404, reason="This page is no longer connected: reload it")
         return session
@@ -102,7 +100,7 @@ class Page(Guarded):
     def get(self) -> None:
         """Send it."""
         self.set_header("Cache-Control", "no-store")
-        self.finish(page())
+        self.finish(self.server.site.page())
 
 
 class Login(Guarded):
@@ -118,19 +116,19 @@ class Login(Guarded):
 
     def get(self) -> None:
         """Ask."""
-        if self.lab.settings.password is None:
+        if self.server.settings.password is None:
             self.redirect("/")
         else:
-            self.finish(login_page(""))
+            self.finish(self.server.site.login_page(""))
 
     def post(self) -> None:
         """Check what was given."""
-        password = self.lab.settings.password
+        password = self.server.settings.password
         if password is None:
             self.redirect("/")
-        elif not self.lab.visitors.may_try(self.address):
+        elif not self.server.visitors.may_try(self.address):
             self.set_status(429)
-            self.finish(login_page("Too many tries: wait a minute."))
+            self.finish(self.server.site.login_page("Too many tries: wait a minute."))
         elif passwords_match(self.get_body_argument("password", "", strip=False), password):
             self.set_signed_cookie(
                 _COOKIE,
@@ -143,7 +141,7 @@ class Login(Guarded):
             self.redirect("/", status=303)
         else:
             self.set_status(403)
-            self.finish(login_page("This is not the password."))
+            self.finish(self.server.site.login_page("This is not the password."))
 
 
 class Parts(Guarded, StaticFileHandler):
@@ -169,7 +167,7 @@ class Figures(Guarded):
     async def get(self, view: str) -> None:
         """Send them."""
         self.set_header("Content-Type", "application/octet-stream")
-        figures = await self.lab.figures.of_view(view)
+        figures = await self.server.figures.of_view(view)
         if figures is None:
             raise HTTPError(500, reason="The figures of this view could not be made")
         self.finish(figures)
@@ -189,7 +187,7 @@ class Uploads(Guarded):
         """Refuse a file that is too large before it comes."""
         super().prepare()
         session = self.session_of(self.get_query_argument("session", ""))
-        most = self.lab.settings.max_upload
+        most = self.server.settings.max_upload
         self.request.connection.set_max_body_size(int(most))  # type: ignore[union-attr]
         if not session.allowance.take():
             raise HTTPError(429, reason="Too many files at once: wait a moment")
@@ -270,11 +268,6 @@ class Results(Guarded):
                 await self.flush()
             except StreamClosedError:  # the page wants it no more
                 return
-
-
-def static_folder() -> Path:
-    """Where our scripts and styles are."""
-    return Path(str(files("roughline.lab").joinpath("static")))
 
 
 def bokeh_folder() -> Path:

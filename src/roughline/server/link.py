@@ -11,10 +11,9 @@ from tornado.web import HTTPError
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from roughline._version import __version__
-from roughline.lab.access import Allowance, origin_is_ours
-from roughline.lab.handlers import Guarded
-from roughline.lab.session import Session
-from roughline.lab.tasks import TASKS
+from roughline.server.access import Allowance, origin_is_ours
+from roughline.server.handlers import Guarded
+from roughline.server.session import Session
 
 MOST_BYTES = 2**16
 """Longest message of a page; files come another way."""
@@ -44,10 +43,10 @@ class Link(Guarded, WebSocketHandler):
         self._unsent, self._refusals = 0, Allowance(rate=1, most=300)
         self._held: dict[str, dict[str, Any]] = {}
         self._sending: set[asyncio.Task[None]] = set()
-        if not self.lab.has_place(self.address):
+        if not self.server.has_place(self.address):
             self.close(1013, "as many pages are open as may be: close one, or come back later")
             return
-        self.session = self.lab.open_session(self.address, self._send, self._send_answer)
+        self.session = self.server.open_session(self.address, self._send, self._send_answer)
         self._send({"session": self.session.token, "version": __version__})
 
     def on_message(self, message: str | bytes) -> None:
@@ -56,7 +55,7 @@ class Link(Guarded, WebSocketHandler):
             return
         said = _plain_message(message)
         number, slot, task = _number(said.get("id")), said.get("slot"), said.get("task")
-        if not (self.session.allowance.take() and self.lab.visitors.may_ask(self.address)):
+        if not (self.session.allowance.take() and self.server.visitors.may_ask(self.address)):
             if self._refusals.take():
                 self._refuse(number, "too many questions at once: wait a moment, then go on")
             else:
@@ -66,7 +65,7 @@ class Link(Guarded, WebSocketHandler):
         elif said.get("stop") is True:
             self._held.pop(slot, None)
             self.session.withdraw(slot)
-        elif not isinstance(task, str) or task not in TASKS:
+        elif not isinstance(task, str) or task not in self.server.site.tasks:
             self._refuse(number, "the lab has no such task: reload the page")
         elif not isinstance(said.get("arguments"), dict) or not _is_plain(said["arguments"]):
             self._refuse(number, "what is set here is too long, or in no form the lab knows")
@@ -76,7 +75,7 @@ class Link(Guarded, WebSocketHandler):
     def on_close(self) -> None:
         """End the session with its page."""
         if self.session is not None:
-            self.lab.close_session(self.session)
+            self.server.close_session(self.session)
             self.session = None
 
     def _ask(self, slot: str, said: dict[str, Any]) -> None:

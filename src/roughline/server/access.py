@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from ipaddress import IPv6Address, ip_address
 from urllib.parse import SplitResult, urlsplit
 
-from roughline.lab.settings import LabSettings
+from roughline.server.settings import ServerSettings
 
 CONTENT_POLICY = "; ".join(
     (
@@ -40,7 +40,7 @@ RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; 
 _OWN_NAMES = ("localhost", "127.0.0.1", "::1")
 
 
-def host_is_ours(host: str, settings: LabSettings) -> bool:
+def host_is_ours(host: str, settings: ServerSettings) -> bool:
     """Whether a request names this server; a name that others point here is refused.
 
     Any port will do, since a tunnel may lead here from another one. Where other machines are let

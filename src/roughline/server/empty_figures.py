@@ -1,9 +1,9 @@
 """The empty figures of all views, drawn by a process of its own: Bokeh is slow, and takes memory.
 
-    python -m roughline.lab.empty_figures explore measured
+    python -m roughline.server.empty_figures MODULE MODULE ...
 
-writes, for each view in turn, the length of its figures (8 bytes, least first; 0 if they failed)
-and the figures.
+calls the function ``figures`` of each module in turn, and writes the length of what it gives (8
+bytes, least first; 0 if it failed) and that itself.
 """
 
 from __future__ import annotations
@@ -13,32 +13,31 @@ import os
 import subprocess
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from importlib import import_module
 from typing import IO
 
-from roughline.lab.process import without_interrupts
-
-VIEWS = {
-    "explore": "explore.figures",
-    "measured": "measured.figures",
-    "published": "published.figures",
-    "bodies": "published.body_figures",
-}
-"""Sets of figures that a page embeds at once, and the module of each; the first is wanted first."""
+from roughline.server.process import without_interrupts
 
 _LENGTH = 8  # bytes
 
 
 class EmptyFigures:
-    """The figures, as they come from the process that draws them."""
+    """The figures, as they come from the process that draws them.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    modules : mapping of str to str
+        Names of the sets of figures, and the module of each; the first is drawn first.
+    """
+
+    def __init__(self, modules: Mapping[str, str]) -> None:
+        self._names = list(modules)
         self._drawn: dict[str, asyncio.Task[bytes | None]] = {}
         with without_interrupts():
             self._process = subprocess.Popen(
-                [sys.executable, "-m", __name__, *VIEWS],
+                [sys.executable, "-m", __name__, *modules.values()],
                 stdout=subprocess.PIPE,
                 stdin=subprocess.DEVNULL,
             )
@@ -57,7 +56,7 @@ class EmptyFigures:
     def _read(self) -> None:
         """Have a thread wait for one view after the other."""
         before: asyncio.Task[bytes | None] | None = None
-        for view in VIEWS:
+        for view in self._names:
             before = self._drawn[view] = asyncio.create_task(self._next(before))
 
     async def _next(self, before: asyncio.Task[bytes | None] | None) -> bytes | None:
@@ -74,12 +73,12 @@ def _received(stream: IO[bytes]) -> bytes | None:
     return drawn if len(drawn) == length > 0 else None
 
 
-def _write(views: Sequence[str], stream: IO[bytes]) -> None:
+def _write(modules: Sequence[str], stream: IO[bytes]) -> None:
     """Draw the figures of views, and write them."""
-    for view in views:
+    for module in modules:
         drawn = b""
         try:
-            drawn = import_module(f"roughline.lab.{VIEWS[view]}").figures()
+            drawn = import_module(module).figures()
         except Exception:
             traceback.print_exc(file=sys.stderr)
         stream.write(len(drawn).to_bytes(_LENGTH, "little") + drawn)

@@ -12,15 +12,15 @@ import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
+from importlib import import_module
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
-from roughline.lab.tasks import Outcome
+from roughline.server.tasks import Outcome, Place, outcome_of
 
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
-if _FORKS:
-    _CONTEXT.set_forkserver_preload(["__main__", "roughline.lab.warm"])
+_loaded_first: str | None = None
 _LARGEST_FILE = 2_000_000_000  # that a task may write [bytes]
 _LOW, LOWEST = 3, 15
 """Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
@@ -54,7 +54,10 @@ class Process:
         self._connection, theirs = _CONTEXT.Pipe()
         with without_interrupts():
             self._process = _CONTEXT.Process(
-                target=_serve, args=(theirs, memory), daemon=True, name="roughline lab"
+                target=_serve,
+                args=(theirs, memory, _loaded_first),
+                daemon=True,
+                name="roughline lab",
             )
             self._process.start()
         theirs.close()
@@ -71,12 +74,12 @@ class Process:
             return False
 
     def ask(
-        self, task: str, arguments: Mapping[str, Any], progress: Callable[[int, int], None]
+        self, place: Place, arguments: Mapping[str, Any], progress: Callable[[int, int], None]
     ) -> Outcome:
         """Have a task done; waits for it, so it is called from a thread."""
         self.tasks += 1
         try:
-            self._connection.send((task, arguments))
+            self._connection.send((place, arguments))
             while True:
                 said = self._connection.recv()
                 if isinstance(said, Outcome):
@@ -104,11 +107,20 @@ class Process:
             self._connection.close()
 
 
-def start_forking() -> None:
-    """Start the process that the others are forked from, so that the first task need not wait."""
+def start_forking(warm: str) -> None:
+    """Start the process that the others are forked from, so that the first task need not wait.
+
+    Parameters
+    ----------
+    warm : str
+        Module that it loads; its function ``up`` is called in every process before the first task.
+    """
+    global _loaded_first
+    _loaded_first = warm
     if _FORKS:
         from multiprocessing import forkserver
 
+        _CONTEXT.set_forkserver_preload(["__main__", warm])
         with without_interrupts():
             forkserver.ensure_running()
 
@@ -129,19 +141,17 @@ def without_interrupts() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _serve(connection: Connection, memory: float) -> None:
+def _serve(connection: Connection, memory: float, warm: str | None) -> None:
     """Do tasks until the other end is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it could not be kept away from the start
     threading.Thread(target=_end_with_server, daemon=True).start()
-    from roughline.lab import warm
-    from roughline.lab.tasks import outcome_of
-
-    warm.up()
+    if warm is not None:
+        import_module(warm).up()
     _limit(memory)
     with suppress(EOFError, OSError):  # the server is gone
         while True:
-            task, arguments = connection.recv()
-            outcome = outcome_of(task, arguments, lambda *steps: connection.send(steps))
+            place, arguments = connection.recv()
+            outcome = outcome_of(place, arguments, lambda *steps: connection.send(steps))
             connection.send(outcome)
 
 

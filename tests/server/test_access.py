@@ -3,7 +3,7 @@
 import pytest
 
 from roughline.errors import InputError
-from roughline.lab.access import (
+from roughline.server.access import (
     Allowance,
     Visitors,
     host_is_ours,
@@ -11,23 +11,23 @@ from roughline.lab.access import (
     origin_is_ours,
     passwords_match,
 )
-from roughline.lab.settings import LabSettings, password_in
+from roughline.server.settings import ServerSettings, password_in
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1:5107", "localhost", "LOCALHOST:1", "[::1]:5107"])
 def test_names_of_this_machine_are_ours(host):
-    assert host_is_ours(host, LabSettings())
+    assert host_is_ours(host, ServerSettings())
 
 
 @pytest.mark.parametrize(
     "host", ["rebound.example:5107", "127.0.0.1.example", "", "[::1", "localhost:x", "a@evil", "0"]
 )
 def test_names_that_others_point_here_are_not_ours(host):
-    assert not host_is_ours(host, LabSettings())
+    assert not host_is_ours(host, ServerSettings())
 
 
 def test_other_names_lead_to_a_lab_with_a_password():
-    settings = LabSettings(host="0.0.0.0", password="long enough")
+    settings = ServerSettings(host="0.0.0.0", password="long enough")
     assert host_is_ours("laboratory.example:5107", settings)
     assert not host_is_ours("", settings)
 
@@ -49,7 +49,7 @@ def test_only_pages_of_the_same_name_and_port_may_ask():
 
 def test_an_allowance_fills_up_with_time(monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("roughline.lab.access.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("roughline.server.access.time.monotonic", lambda: now[0])
     allowance = Allowance(rate=2.0, most=3.0)
     assert [allowance.take() for _ in range(4)] == [True, True, True, False]
     now[0] = 0.5
@@ -102,12 +102,12 @@ def test_passwords_of_any_letters_are_compared():
 )
 def test_a_lab_that_makes_no_sense_is_refused(options, said):
     with pytest.raises(InputError, match=said):
-        LabSettings(**options)
+        ServerSettings(**options)
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.8.8.8", "::1", "localhost"])
 def test_this_machine_alone_needs_no_password(host):
-    assert LabSettings(host=host).is_local
+    assert ServerSettings(host=host).is_local
 
 
 def test_a_password_is_the_first_line_of_its_file(tmp_path):

@@ -7,18 +7,22 @@ import time
 from pathlib import Path
 
 from roughline.errors import InputError
-from roughline.lab import process, tasks
 from roughline.lab.controls import ControlError
+from roughline.server import process
+from roughline.server.tasks import Place
 
 _serve = process._serve
 
 
-def serve(connection, memory):
+def place_of(name):
+    """Where a task of this file is."""
+    return Place(__name__, name)
+
+
+def serve(connection, memory, warm):
     """Do the tasks of this file, in a process."""
-    sys.modules["roughline.lab.doings"] = sys.modules[__name__]
-    names = ("echo", "sleep", "compute", "die", "fail", "refuse", "refuse_at", "take_memory")
-    tasks.TASKS = {name: tasks.Place("doings", name) for name in (*names, "write_file")}
-    _serve(connection, memory)
+    sys.modules.setdefault("server.doings", sys.modules[__name__])
+    _serve(connection, memory, None)
 
 
 def echo(arguments, progress):

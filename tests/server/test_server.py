@@ -10,7 +10,7 @@ import psutil
 import pytest
 from tornado.httpclient import HTTPClientError
 
-from lab.serving import (
+from server.serving import (
     alive,
     becomes,
     busy,

@@ -9,11 +9,11 @@ import time
 import psutil
 import pytest
 
-from lab import doings
-from roughline.lab import process as processes
-from roughline.lab.lanes import Lane
-from roughline.lab.requests import Limits, Request
-from roughline.lab.tasks import without_paths
+from roughline.server import process as processes
+from roughline.server.lanes import Lane
+from roughline.server.requests import Limits, Request
+from roughline.server.tasks import without_paths
+from server import doings
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 LIMITS = Limits(count=2, most=4, per_session=2, seconds=20.0, memory=1e9)
@@ -34,7 +34,7 @@ class Asker:
                 arguments.pop("address", "here"),
                 session,
                 slot,
-                task,
+                doings.place_of(task),
                 {"session": SESSION, **arguments},
                 lambda outcome: self.outcomes.setdefault(name, outcome),
                 lambda *steps: self.steps.setdefault(name, []).append(steps),
@@ -56,7 +56,8 @@ async def becomes(is_so, seconds=20):
 
 @pytest.fixture(scope="module", autouse=True)
 def _doings():
-    """Let processes do the tasks of :mod:`doings`."""
+    """Let processes do the tasks of :mod:`doings`, forked from one that has loaded the lab."""
+    processes.start_forking("roughline.lab.warm")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(processes, "_serve", doings.serve)
         yield
@@ -207,7 +208,7 @@ def test_a_stopped_task_frees_its_core_within_200_ms(tmp_path):
 
 
 def test_long_tasks_let_others_start_beside_them(tmp_path, monkeypatch):
-    monkeypatch.setattr("roughline.lab.lanes._PATIENCE", 0.1)
+    monkeypatch.setattr("roughline.server.lanes._PATIENCE", 0.1)
 
     async def scenario(lane, asker):
         marks = [tmp_path / f"{number}" for number in range(2)]
@@ -311,7 +312,7 @@ def test_no_process_to_be_had_is_one_sentence(monkeypatch, caplog):
         raise BlockingIOError(11, "no more processes")
 
     async def scenario(lane, asker):
-        monkeypatch.setattr("roughline.lab.lanes.Process", refuse)
+        monkeypatch.setattr("roughline.server.lanes.Process", refuse)
         asker.ask("echo", say="alive")
         assert "ended unexpectedly" in (await asker.of("slot")).error
         monkeypatch.undo()
@@ -342,7 +343,7 @@ def test_replaced_questions_leave_nothing_behind():
 
 
 def test_lasting_processes_are_renewed(monkeypatch):
-    monkeypatch.setattr("roughline.lab.lanes._MOST_TASKS", 3)
+    monkeypatch.setattr("roughline.server.lanes._MOST_TASKS", 3)
 
     async def scenario(lane, asker):
         for number in range(12):

@@ -16,7 +16,10 @@ from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 from tornado.websocket import websocket_connect
 
-from lab.serving import (
+from roughline.lab.site import site
+from roughline.server.serve import Server
+from roughline.server.settings import ServerSettings
+from server.serving import (
     alive_still,
     becomes,
     run,
@@ -24,8 +27,6 @@ from lab.serving import (
     upload,
     wait_until,
 )
-from roughline.lab.server import Lab
-from roughline.lab.settings import LabSettings
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 PASSWORD = "correct horse"
@@ -145,10 +146,10 @@ def test_ctrl_c_before_it_is_up_ends_it_quietly(moment, tmp_path):
 
 
 def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
-    monkeypatch.setattr("roughline.lab.server._PING", 0.3)
+    monkeypatch.setattr("roughline.server.serve._PING", 0.3)
 
     async def scenario():
-        lab = Lab(LabSettings(), tmp_path)
+        lab = Server(site(), ServerSettings(), tmp_path)
         (listening,) = bind_sockets(0, "127.0.0.1")
         server = HTTPServer(lab.application())
         server.add_sockets([listening])

@@ -1,4 +1,4 @@
-"""The server of the lab: it hands questions to processes, and answers to pages."""
+"""The server itself: what it answers at which address, from its start to its end."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from tornado.web import Application
 
 from roughline.computing.cores import available_cores
 from roughline.errors import InputError
-from roughline.lab.access import Visitors
-from roughline.lab.empty_figures import VIEWS, EmptyFigures
-from roughline.lab.handlers import (
+from roughline.server.access import Visitors
+from roughline.server.empty_figures import EmptyFigures
+from roughline.server.handlers import (
     Figures,
     Login,
     Nothing,
@@ -31,15 +31,14 @@ from roughline.lab.handlers import (
     Results,
     Uploads,
     bokeh_folder,
-    static_folder,
 )
-from roughline.lab.lanes import Lane
-from roughline.lab.leftovers import folder_of_files
-from roughline.lab.link import MOST_BYTES, Link
-from roughline.lab.page import page
-from roughline.lab.requests import Limits
-from roughline.lab.session import Session
-from roughline.lab.settings import LabSettings
+from roughline.server.lanes import Lane
+from roughline.server.leftovers import folder_of_files
+from roughline.server.link import MOST_BYTES, Link
+from roughline.server.requests import Limits
+from roughline.server.session import Session
+from roughline.server.settings import ServerSettings
+from roughline.server.site import Site
 
 _QUICK_SECONDS, _QUICK_MEMORY = 20.0, 1_000_000_000
 _MOST_SLOW = 20  # processes for tasks that take long
@@ -49,22 +48,24 @@ _MOST_BODY = 2**16  # of a request that brings no file [bytes]
 _MOST_HEADERS = 2**14  # [bytes]
 
 
-class Lab:
+class Server:
     """What all requests share.
 
     Parameters
     ----------
-    settings : LabSettings
+    site : Site
+        What is served.
+    settings : ServerSettings
         Of the server.
     root : Path
         Folder for the files of all sessions, which is deleted at the end.
     """
 
-    def __init__(self, settings: LabSettings, root: Path) -> None:
-        self.settings, self.root = settings, root
+    def __init__(self, site: Site, settings: ServerSettings, root: Path) -> None:
+        self.site, self.settings, self.root = site, settings, root
         self.sessions: dict[str, Session] = {}
         self.visitors = Visitors()
-        self.figures = EmptyFigures()
+        self.figures = EmptyFigures(site.figures)
         self.quick, self.slow = _lanes(settings)
 
     def application(self) -> Application:
@@ -75,13 +76,13 @@ class Lab:
                 (r"/login", Login),
                 (r"/link", Link),
                 (r"/upload", Uploads),
-                (rf"/figures/({'|'.join(VIEWS)})", Figures),
+                (rf"/figures/({'|'.join(self.site.figures)})", Figures),
                 (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]+)", Results),
-                (r"/lab/(.*)", Parts, {"path": str(static_folder())}),
+                (r"/lab/(.*)", Parts, {"path": str(self.site.parts)}),
                 (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", Parts, {"path": str(bokeh_folder())}),
             ],
             default_handler_class=Nothing,
-            lab=self,
+            server=self,
             cookie_secret=secrets.token_hex(32),
             websocket_max_message_size=MOST_BYTES,
             websocket_ping_interval=_PING,
@@ -103,7 +104,14 @@ class Lab:
     ) -> Session:
         """Begin a session."""
         session = Session(
-            address, self.root, self.settings, self.quick, self.slow, send, send_answer
+            address,
+            self.root,
+            self.site,
+            self.settings,
+            self.quick,
+            self.slow,
+            send,
+            send_answer,
         )
         self.sessions[session.token] = session
         return session
@@ -117,7 +125,7 @@ class Lab:
         """Start processes ahead of the first page."""
         await self.quick.prepare()
         await self.slow.prepare()
-        await self.figures.of_view(next(iter(VIEWS)))
+        await self.figures.of_view(next(iter(self.site.figures)))
 
     async def close(self) -> None:
         """End everything."""
@@ -127,7 +135,7 @@ class Lab:
         await asyncio.gather(self.quick.close(), self.slow.close())
 
 
-def _lanes(settings: LabSettings) -> tuple[Lane, Lane]:
+def _lanes(settings: ServerSettings) -> tuple[Lane, Lane]:
     """Processes for quick tasks, and for the others: as many as have memory, at least two."""
     import psutil  # here because it is wanted once
 
@@ -138,12 +146,14 @@ def _lanes(settings: LabSettings) -> tuple[Lane, Lane]:
     return Lane(quick, lasting=True), Lane(slow, lasting=False)
 
 
-def serve(settings: LabSettings, ready: Callable[[str], None]) -> None:
+def serve(site: Site, settings: ServerSettings, ready: Callable[[str], None]) -> None:
     """Serve until Ctrl-C.
 
     Parameters
     ----------
-    settings : LabSettings
+    site : Site
+        What is served.
+    settings : ServerSettings
         What to listen to, and the limits of a session.
     ready : callable
         Told the address of the page as soon as it can be opened.
@@ -156,34 +166,36 @@ def serve(settings: LabSettings, ready: Callable[[str], None]) -> None:
     logging.getLogger("tornado.general").setLevel(logging.ERROR)  # refusals are told to the page
     with suppress(KeyboardInterrupt), ExitStack() as opened:
         sockets = [opened.enter_context(each) for each in _listening(settings)]
-        asyncio.run(_serve(settings, sockets, opened.enter_context(folder_of_files()), ready))
+        server = Server(site, settings, opened.enter_context(folder_of_files()))
+        asyncio.run(_serve(server, sockets, ready))
 
 
 async def _serve(
-    settings: LabSettings, sockets: list[socket.socket], root: Path, ready: Callable[[str], None]
+    server: Server, sockets: list[socket.socket], ready: Callable[[str], None]
 ) -> None:
     stopped = asyncio.Event()
     for name in ("SIGINT", "SIGTERM"):
         with suppress(NotImplementedError, AttributeError):  # Windows raises KeyboardInterrupt
             asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
-    lab = Lab(settings, root)
-    server = HTTPServer(lab.application(), max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS)
-    preparing = asyncio.create_task(lab.prepare())
+    listening = HTTPServer(
+        server.application(), max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS
+    )
+    preparing = asyncio.create_task(server.prepare())
     try:
-        server.add_sockets(sockets)
-        page()
+        listening.add_sockets(sockets)
+        server.site.page()
         with suppress(TimeoutError):
             await asyncio.wait_for(asyncio.shield(preparing), _READY)
         if not stopped.is_set():
-            ready(_address(settings, sockets[0]))
+            ready(_address(server.settings, sockets[0]))
         await stopped.wait()
     finally:
-        server.stop()
-        await lab.close()
+        listening.stop()
+        await server.close()
         await preparing
 
 
-def _listening(settings: LabSettings) -> list[socket.socket]:
+def _listening(settings: ServerSettings) -> list[socket.socket]:
     """Sockets on the address of the settings."""
     try:
         sockets = bind_sockets(settings.port, settings.host)
@@ -206,7 +218,7 @@ def _listening(settings: LabSettings) -> list[socket.socket]:
     return sockets
 
 
-def _address(settings: LabSettings, listening: socket.socket) -> str:
+def _address(settings: ServerSettings, listening: socket.socket) -> str:
     """The address of the page."""
     port = listening.getsockname()[1]
     host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(settings.host, settings.host)

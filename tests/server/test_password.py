@@ -5,7 +5,7 @@ import sys
 import pytest
 from tornado.httpclient import HTTPClientError
 
-from lab.serving import log_in, run, running_lab, upload
+from server.serving import log_in, run, running_lab, upload
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 PASSWORD = "correct horse"

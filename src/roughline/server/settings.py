@@ -1,4 +1,4 @@
-"""How the lab's server is set up, checked before it starts."""
+"""How the server is set up, checked before it starts."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LEAST_MEMORY = 500_000_000  # of a task [bytes]
 
 
 @dataclass(frozen=True)
-class LabSettings:
+class ServerSettings:
     """What the server listens to, and what a session may take.
 
     Parameters
