@@ -197,7 +197,7 @@ def test_a_link_shows_the_same(fresh, pages):
     )].map((each) => each.matches("[type=radio], [type=checkbox]") ? each.checked : each.value)"""
     assert other.evaluate(state) == fresh.evaluate(state)
     assert image(other, "contact") == image(fresh, "contact")
-    assert "persson" in other.inner_text('[data-caption="theories"]')
+    assert "Persson" in other.inner_text('[data-caption="theories"]')
     other.context.close()
 
 

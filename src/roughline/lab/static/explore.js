@@ -166,7 +166,7 @@ class Explore {
 
   #fillTables(strip) {
     const rows = (kept) => strip.filter(kept).map(({symbol, value, below, meaning}) => [symbol, value, below, meaning]);
-    const columns = ["quantity", "value", "", "meaning"];
+    const columns = ["quantity", "value", "with unit, interval", "meaning"];
     fillTable("explore-topography", columns, rows(({key}) => key === "roughness"));
     fillTable("explore-contact", columns, rows(({key}) => key !== "roughness"));
   }
@@ -205,9 +205,9 @@ class Explore {
     for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
     for (const [name, values] of [["stiffness", curve.stiffness_bar], ["area", curve.area]]) {
       this.#plots.set(`${name} curve`, rows(true, values));
-      const unsure = rows(false, values);
-      this.#plots.set(`${name} unsure`, unsure);
-      this.#plots.model(`${name} unsure label`).visible = unsure.x.length > 0;
+      const few = rows(false, values);
+      this.#plots.set(`${name} unsure`, few);
+      this.#plots.model(`${name} unsure label`).visible = few.x.length > 0;
     }
     for (let i = 0; i < MOST_THEORIES; i++) {
       const {force_bar = [], stiffness_bar = null, area = []} = theories[i] ?? {};
@@ -217,8 +217,10 @@ class Explore {
     this.#plots.span("explore-stiffness", "y", curve.stiffness_bar, [1e-3, 1.3]);
     this.#plots.span("explore-area", "y", curve.area, [1e-4, 1]);
     const failed = curve.converged.filter((each) => !each).length;
-    const note = failed ? `; ${failed} loads were not solved` : "";
-    const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${name}: ${validity}`);
+    const unsure = curve.resolved.some((each) => !each) ? "; hollow, and * in the table: fewer than ten cells touch" : "";
+    const note = unsure + (failed ? `; ${failed} loads were not solved` : "");
+    const called = (name) => this.#root.querySelector(`[data-theory="${name}"]`).parentElement.textContent.trim();
+    const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${called(name)}: ${validity}`);
     this.#caption("stiffness", `marks of the curve on ${grid} points${note}`);
     this.#caption("area", `marks of the curve on ${grid} points${note}`);
     this.#caption("theories", drawn.map((each) => `${each}.`).join(" "));

@@ -151,7 +151,7 @@ function recolour(made) {
   const labels = {axis_label_text_color: text, major_label_text_color: text, axis_line_color: line,
     major_tick_line_color: line, minor_tick_line_color: line, axis_label_text_font_style: "normal"};
   const looks = {
-    Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: null, outline_line_color: line},
+    Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: paper, outline_line_color: line},
     LinearAxis: labels,
     LogAxis: labels,
     Grid: {grid_line_color: grid},
