@@ -58,7 +58,8 @@
   // Settings that nothing describes.
   undescribed(view) {
     return [...document.querySelectorAll(`#${view} .control :is(input, select)`)].filter((each) => {
-      const ids = (each.getAttribute("aria-describedby") ?? "").split(" ").filter(Boolean);
+      const told = each.closest("[aria-describedby]")?.getAttribute("aria-describedby") ?? "";
+      const ids = told.split(" ").filter(Boolean);
       const found = ids.map((id) => document.getElementById(id)?.textContent ?? "").join("");
       return !(found || each.closest("[title]")?.title);
     }).map((each) => each.outerHTML);
@@ -77,7 +78,8 @@
     const {outlineStyle, outlineWidth} = getComputedStyle(document.activeElement);
     const {left, top, right, bottom} = document.activeElement.getBoundingClientRect();
     const inside = left >= 0 && top < innerHeight && right <= innerWidth && bottom > 0;
-    return [document.activeElement.dataset.stop, inside && outlineStyle !== "none" && parseFloat(outlineWidth) >= 2];
+    const passing = document.activeElement.matches(".scroll, .table > div, .status button") ? "passing" : null;
+    return [document.activeElement.dataset.stop ?? passing, inside && outlineStyle !== "none" && parseFloat(outlineWidth) >= 2];
   },
 
   // Texts and plots that are wider than their place or the window.

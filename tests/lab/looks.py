@@ -23,9 +23,13 @@ def tabbed(page, view):
     wanted = asked(page, "stops", view)
     page.keyboard.press("Tab")  # leads past the header
     reached, unseen = [], []
-    for _ in wanted:
+    for _ in range(2 * len(wanted)):
+        if len(reached) == len(wanted):
+            break
         page.keyboard.press("Tab")
         stop, is_seen = asked(page, "stop")
+        if stop == "passing":  # a long table, which browsers let scroll by keys, or a cancel
+            continue
         reached.append(stop)
         if not is_seen:
             unseen.append(stop)
