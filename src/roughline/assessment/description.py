@@ -74,7 +74,32 @@ def describe(
         If the file cannot be read, or what is asked for does not suit it.
     """
     reading = reading or Reading()
-    content = measurement(file, reading.channel)
+    content = measurement(file, reading.channel, name=reading.name)
+    return describe_measurement(file, content, reading, preparation)
+
+
+def describe_measurement(
+    file: Path,
+    content: Measurement,
+    reading: Reading,
+    preparation: Preparation | None = None,
+) -> Description:
+    """Prepare what a file holds, once it is read, and describe it.
+
+    Parameters
+    ----------
+    file : Path
+        The topography.
+    content : Measurement
+        What it holds; it stays as it is.
+    reading, preparation
+        As for :func:`describe`.
+
+    Raises
+    ------
+    InputError
+        If what is asked for does not suit it.
+    """
     missing = missing_pattern(content.unknown, content.sizes)
     filling = Missing(reading.missing, reading.most_missing)
     obstacles = [str(each) for each in content.obstacles(reading.unit, reading.sizes, filling)]
