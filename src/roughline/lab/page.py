@@ -8,14 +8,20 @@ from importlib.resources import files
 import jinja2
 
 from roughline._version import __version__
+from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
+from roughline.lab.measured import controls as measured
 
 
 @cache
 def page() -> str:
     """Return the page; it is the same for everyone."""
     return (
-        _environment().get_template("index.html.jinja").render(version=__version__, explore=explore)
+        _environment()
+        .get_template("index.html.jinja")
+        .render(
+            version=__version__, explore=explore, measured=measured, materials=list(materials())
+        )
     )
 
 

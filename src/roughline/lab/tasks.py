@@ -43,6 +43,13 @@ TASKS: Mapping[str, Place] = {
     "explore.curve": Place("explore.pictures", "curve"),
     "explore.code": Place("explore.code", "code", is_quick=True),
     "explore.download": Place("explore.downloads", "download"),
+    "measured.look": Place("measured.file", "look"),
+    "measured.prepare": Place("measured.file", "prepare"),
+    "measured.bodies": Place("measured.bodies", "bodies", is_quick=True),
+    "measured.answer": Place("measured.answers", "answer"),
+    "measured.compare": Place("measured.comparing", "compare"),
+    "measured.report": Place("measured.documents", "report"),
+    "measured.code": Place("measured.documents", "code"),
 }
 """All tasks by name."""
 

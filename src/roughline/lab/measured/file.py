@@ -1,0 +1,125 @@
+"""What a file of a page holds: read once, kept, and described as it stands and as prepared."""
+
+from __future__ import annotations
+
+import os
+import pickle
+from collections.abc import Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughline.assessment.description import Description, describe_measurement
+from roughline.files.measurement import Measurement
+from roughline.files.read import measurement
+from roughline.lab.frames import frame
+from roughline.lab.measured.pictures import (
+    drawing_of_body,
+    drawing_of_file,
+    spectrum_of,
+)
+from roughline.lab.measured.state import (
+    Arguments,
+    Said,
+    Source,
+    at,
+    preparation_of,
+    reading_of,
+    said_of,
+    source_of,
+)
+from roughline.lab.measured.words import in_controls
+from roughline.lab.tasks import Progress
+from roughline.report.description_table import description_table
+from roughline.topography.body import Body, Surface
+
+
+def look(arguments: Arguments, progress: Progress) -> bytes:
+    """What the file holds, what it leaves open, and its roughness as it is read."""
+    said = said_of(arguments)
+    source = source_of(said, arguments["session"])
+    with at("file"):
+        found = described(said, source, arguments["session"])
+    content = found.measurement
+    drawing = drawing_of_file(content, found.body)
+    header = {
+        "name": source.name,
+        "asks": {
+            "unit": content.unit is None,
+            "size": content.sizes is None,
+            "channels": list(content.channels) if len(content.channels) > 1 else [],
+        },
+        "channel": content.channel,
+        "obstacles": [in_controls(each) for each in found.obstacles],
+        "file": drawing.header,
+        **_of_description(found),
+    }
+    return frame(header, drawing.arrays | _body_arrays(found.body))
+
+
+def prepare(arguments: Arguments, progress: Progress) -> bytes:
+    """The file, prepared."""
+    said = said_of(arguments)
+    source = source_of(said, arguments["session"])
+    with at("preparation"):
+        found = described(said, source, arguments["session"], is_prepared=True)
+    header = {"obstacles": [in_controls(each) for each in found.obstacles]}
+    return frame({**header, **_of_description(found)}, _body_arrays(found.body))
+
+
+def described(
+    said: Said, source: Source, session: Mapping[str, Any], *, is_prepared: bool = False
+) -> Description:
+    """Describe a file, prepared or as it is read."""
+    reading = reading_of(said, source.name)
+    preparation = preparation_of(said) if is_prepared else None
+    content = _content(source, reading.channel, Path(session["folder"]))
+    return describe_measurement(source.path, content, reading, preparation)
+
+
+def _content(source: Source, channel: int | str | None, folder: Path) -> Measurement:
+    """What the file holds; it is kept, as the readers of instruments' files load slowly."""
+    asked = sha256(repr((source.key, channel)).encode()).hexdigest()[:16]
+    kept = folder / f"measurement-{asked}.pickle"
+    if kept.exists():
+        found: Measurement = pickle.loads(kept.read_bytes())
+        return found
+    content = measurement(source.path, channel, name=source.name)
+    begun = kept.with_suffix(f".{os.getpid()}")
+    begun.write_bytes(pickle.dumps(content, protocol=5))
+    begun.replace(kept)
+    return content
+
+
+def _of_description(found: Description) -> dict[str, Any]:
+    """Table, remarks and spectrum of a body, and what the page draws of it."""
+    body, parameters = found.body, found.roughness
+    remarks = [*found.notes, *(parameters.remarks if parameters else [])]
+    return {
+        "table": description_table(found),
+        "remarks": [in_controls(each) for each in remarks],
+        "missing": found.missing.count,
+        "body": None if body is None else _of_body(body),
+        "spectrum": None if parameters is None else spectrum_of(parameters),
+    }
+
+
+def _of_body(body: Body) -> dict[str, Any]:
+    sides, kind, is_cut_out = (
+        (body.sizes, "surface", body.is_cut_out)
+        if isinstance(body, Surface)
+        else ((body.length,), body.kind, False)
+    )
+    return {
+        **drawing_of_body(body).header,
+        "kind": kind,
+        "sides": sides,
+        "points": body.heights.shape,
+        "is_cut_out": is_cut_out,
+    }
+
+
+def _body_arrays(body: Body | None) -> dict[str, np.ndarray[Any, Any]]:
+    return {} if body is None else drawing_of_body(body).arrays
