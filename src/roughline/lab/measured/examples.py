@@ -43,8 +43,8 @@ def _ground_steel(path: Path) -> None:
         cx, cy, radius = rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0.003, 0.014)
         unknown |= (x - cx) ** 2 + ((y - cy) / 1.6) ** 2 < radius**2
     unknown[rng.integers(0, n, 40), rng.integers(0, n, 40)] = True
-    for i, j in rng.integers(4, n - 4, (9, 2)):
-        heights[i, j] += rng.uniform(2.5e-6, 4e-6)
+    for i, j in rng.integers(4, n - 4, (7, 2)):
+        heights[i, j] += rng.uniform(1.0e-6, 1.5e-6)
     _write_x3p(path, np.ma.MaskedArray(heights, unknown), (length, length))
 
 

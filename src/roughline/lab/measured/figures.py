@@ -21,6 +21,8 @@ from roughline.lab.plots import embedded, log_figure
 
 _TOOLS = "pan,wheel_zoom,reset,save"
 _FORCE = "force F [N]"
+_BORDERS = {"min_border_left": 72, "min_border_right": 96, "min_border_bottom": 54}
+"""Of maps, so wide that axes and colour bars fit: maps beside each other have frames alike. [px]"""
 
 
 def figures() -> bytes:
@@ -61,6 +63,7 @@ def _map(name: str, x_range: DataRange1d, y_range: DataRange1d, *, marks: bool =
         tools=_TOOLS,
         active_scroll="wheel_zoom",
         sizing_mode="stretch_both",
+        **_BORDERS,
     )
     plot.add_tools(BoxZoomTool(match_aspect=True))
     source = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []}, name=name)
@@ -84,7 +87,6 @@ def _map(name: str, x_range: DataRange1d, y_range: DataRange1d, *, marks: bool =
 
 def _take_boxes(plot: figure) -> None:
     """Let a piece be drawn on a map."""
-    plot.name = "before figure"
     tool = BoxSelectTool(description="draw the piece to keep")
     plot.add_tools(tool)
     plot.toolbar.active_drag = tool

@@ -20,7 +20,7 @@ export function fillList(view, name, sentences) {
 }
 
 export class Pictures {
-  #view; #plots; #before = null;
+  #view; #plots; #before = null; #unsettled = new Set();
 
   constructor(view, plots) {
     this.#view = view;
@@ -126,6 +126,7 @@ export class Pictures {
   }
 
   drawCurve(plot, table) {
+    this.#settle("measured-stiffness");
     this.#quantity("stiffness", plot, plot.stiffness, plot.stiffness_interval, `stiffness k [${plot.stiffness_unit}]`);
     this.#toggle("measured-area", plot.area !== null);
     if (plot.area) this.#quantity("area", plot, plot.area, plot.area_interval, "real contact area A / A_0");
@@ -150,9 +151,19 @@ export class Pictures {
   }
 
   drawModels({force_bar: x, full, reduced, table}) {
+    this.#settle("measured-models");
     this.#plots.set("models full", {x, y: full, low: full, high: full});
     this.#plots.set("models reduced", {x, y: reduced.mean, low: reduced.low, high: reduced.high});
     fillTable("measured-models", ...table);
+  }
+
+  // Lay a plot out anew: its labels may have come, or it may have been hidden before.
+  #settle(id) {
+    if (this.#unsettled.size === 0) requestAnimationFrame(() => {
+      for (const name of this.#unsettled) Bokeh.index.find_one(this.#root(name))?.invalidate_layout();
+      this.#unsettled.clear();
+    });
+    this.#unsettled.add(id);
   }
 
   #map(name, {values, shape, dtype}, {sizes, along, x = 0, y = 0}, [low, high], unit) {
@@ -161,6 +172,7 @@ export class Pictures {
     this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]});
     this.#label(name, `x [${along}]`, `y [${along}]`);
     this.#plots.model(`${name} bar`).title = unit ? `[${unit}]` : "";
+    this.#settle(`measured-${name}`);
   }
 
   #showBox(crop, {x, y}, [width, height]) {
@@ -173,7 +185,10 @@ export class Pictures {
   }
 
   #root(name) { return this.#plots.made.roots().find((root) => root.name === name); }
-  #toggle(id, isShown) { this.#view.find(`#${id}`).hidden = !isShown; }
+  #toggle(id, isShown) {
+    this.#view.find(`#${id}`).hidden = !isShown;
+    if (isShown) this.#settle(id);
+  }
   #caption(name, text) { this.#view.find(`[data-caption="${name}"]`).textContent = text; }
 }
 

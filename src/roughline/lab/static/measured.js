@@ -193,6 +193,7 @@ class Measured {
     if (prepared.body) {
       this.#pictures.drawPrepared(this.#read, prepared, this.#controls.said.crop ?? "");
       if (isNew) this.#pictures.showAll();
+      this.find("[data-prepared-numbers]").open = prepared !== this.#read;
       fillList(this, "prepared-remarks", prepared === this.#read ? [] : prepared.remarks);
       const after = new Map(prepared.table), before = new Map(this.#read.table);
       const names = [...new Set([...before.keys(), ...after.keys()])].filter((name) => name !== "file");
