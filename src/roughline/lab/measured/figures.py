@@ -125,7 +125,7 @@ def _lines(name: str, shown: dict[str, str], *, marks: bool = False) -> figure:
 
 
 def _spectrum() -> figure:
-    plot = log_figure("wavenumber q = 2π/λ [1/m]", "C_2d [m⁴]", None, None)
+    plot = _log_figure("wavenumber q = 2π/λ [1/m]", "C_2d [m⁴]")
     points = ColumnDataSource({"x": [], "y": []}, name="spectrum")
     law = ColumnDataSource({"x": [], "y": []}, name="spectrum law")
     _colour(
@@ -144,7 +144,7 @@ def _spectrum() -> figure:
 
 def _curve(name: str, label: str) -> figure:
     """A quantity over force with its interval; open marks where the grid decides."""
-    plot = log_figure(_FORCE, label, None, None)
+    plot = _log_figure(_FORCE, label)
     ends = ColumnDataSource({"x": [], "low": [], "high": []}, name=f"{name} interval")
     _colour(
         plot.varea("x", "low", "high", source=ends, fill_alpha=0.25, legend_label="interval"),
@@ -178,7 +178,7 @@ def _curve(name: str, label: str) -> figure:
 
 
 def _models() -> figure:
-    plot = log_figure("force F / (E* h L)", "raw stiffness k / (E* L)", None, None)
+    plot = _log_figure("force F / (E* h L)", "raw stiffness k / (E* L)")
     for name, label, colour in (
         ("full", "full model, this surface", "dark-line"),
         ("reduced", "reduced model, mean of lines", "light-line"),
@@ -193,6 +193,13 @@ def _models() -> figure:
         _colour(drawn, fill_color=colour, line_color=colour)
     plot.legend.location = "bottom_right"
     _finish(plot, "models", None, None)
+    return plot
+
+
+def _log_figure(x_label: str, y_label: str) -> figure:
+    """A plot with two logarithmic axes that follow what is drawn."""
+    plot = log_figure(x_label, y_label, (0.1, 10), (0.1, 10))
+    plot.x_range, plot.y_range = DataRange1d(), DataRange1d()
     return plot
 
 
