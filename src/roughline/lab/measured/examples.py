@@ -34,7 +34,7 @@ def _ground_steel(path: Path) -> None:
     rng = np.random.default_rng(7)
     spectrum = SelfAffine(hurst=0.75, length=length, rms_height=0.16e-6, q_roll=2 * math.pi / 60e-6)
     heights = spectrum.surface(n, 7).heights
-    grooves = SelfAffine(hurst=0.6, length=length, rms_height=0.1e-6, q_roll=2 * math.pi / 25e-6)
+    grooves = SelfAffine(hurst=0.6, length=length, rms_height=0.07e-6, q_roll=2 * math.pi / 25e-6)
     heights = heights + grooves.surface(n, 8).heights[:, :1]  # the lay runs along y
     x, y = np.meshgrid(*2 * [np.arange(n) / n], indexing="ij")
     heights += 2.4e-6 * x - 1.1e-6 * y  # the stage

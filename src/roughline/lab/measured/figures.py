@@ -97,7 +97,7 @@ def _take_boxes(plot: figure) -> None:
         top=0,
         bottom=0,
         fill_alpha=0.0,
-        line_width=2,
+        line_width=3,
         visible=False,
         tags=[{"colours": {"line_color": "here"}}],
     )

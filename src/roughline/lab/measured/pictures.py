@@ -21,6 +21,7 @@ from roughline.units import decimal, engineering, metres_per, prefix
 
 _MOST_SPIKES = 2000  # that are marked
 _MOST_LINE_POINTS = 8000  # that are drawn
+_MOST = (0.1, 99.9)  # of heights, without spikes [%]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +31,7 @@ class Drawing:
     Attributes
     ----------
     header : dict
-        Sides, units, range of colours, and where spikes are.
+        Sides, units, ranges of all and of most heights, and where spikes are.
     arrays : dict of ndarray
         Heights, rows along x; NaN where they are missing.
     """
@@ -109,6 +110,7 @@ def _drawn(
         "up": up[1],
         "metres": 1 / along[0],
         "range": [float(known.min()), float(known.max())] if known.size else [0.0, 1.0],
+        "most": np.percentile(known, _MOST) if known.size else [0.0, 1.0],
         "spikes": _spikes(spikes, sides, along[0], heights * up[0]),
         "rows": _height_rows(known, up[1]),
     }

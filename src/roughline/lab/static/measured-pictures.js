@@ -94,10 +94,13 @@ export class Pictures {
       fillTable("measured-prepared-line", ["heights", "before", "after"], before.rows.map(([name, value], i) => [name, value, after.rows[i]?.[1] ?? "-"]));
       return;
     }
-    this.#map("before", source.arrays["body heights"], before, before.range, before.up);
-    this.#map("after", prepared.arrays["body heights"], {
-      ...after, sizes: after.sizes.map((size) => size * scale), along: before.along, ...corner,
-    }, after.range, after.up);
+    const factor = heightFactor(after.up, before.up);
+    const most = after.most.map((height) => height * factor);
+    const range = [Math.min(before.most[0], most[0]), Math.max(before.most[1], most[1])];
+    this.#map("before", source.arrays["body heights"], before, range, before.up);
+    this.#map("after", scaled(prepared.arrays["body heights"], factor), {
+      sizes: after.sizes.map((size) => size * scale), along: before.along, ...corner,
+    }, range, before.up);
     this.#showBox(crop, corner, after.sizes.map((size) => size * scale));
     this.#caption("before", read.body ? "about the mean, as read; draw a box to keep a piece" : "the file as it stands cannot be pressed");
     this.#caption("after", `${after.points.join(" x ")} points`);
@@ -202,6 +205,10 @@ function corners(crop, {metres}) {
     return (Number(number) * metresIn(unit ?? "m")) / metres || 0;
   });
   return {x: ends[0] ?? 0, y: ends[2] ?? 0};
+}
+
+function scaled(array, factor) {
+  return factor === 1 ? array : {...array, values: array.values.map((value) => value * factor)};
 }
 
 function metresIn(unit) { return unit.length > 1 ? 10 ** (POWERS[unit[0]] ?? 0) : 1; }
