@@ -29,8 +29,8 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         pair = MaterialPair(*given["materials"])
         modulus = pair.E_star
         rows = [
-            ["first", material_in_words(pair.first)],
-            ["second", material_in_words(pair.second)],
+            ["rough body", material_in_words(pair.first)],
+            ["smooth body", material_in_words(pair.second)],
         ]
         with at("frequency"):
             frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None

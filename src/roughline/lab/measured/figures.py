@@ -41,7 +41,7 @@ def figures() -> bytes:
                 "prepared line", {"before": "theory", "after": "dark-line"}
             ),
             "measured-topography": _map("topography", *contact),
-            "measured-contact": _map("contact", *contact),
+            "measured-contact": _map("contact", *contact, marks=True),
             "measured-stiffness": _curve("stiffness", "stiffness k"),
             "measured-area": _curve("area", "real contact area A / A_0"),
             "measured-models": _models(),

@@ -20,6 +20,7 @@ from roughline.topography.preparation import outliers
 from roughline.units import decimal, engineering, metres_per, prefix
 
 _MOST_SPIKES = 2000  # that are marked
+_MOST_SPOTS = 100  # points in contact that are marked
 _MOST_LINE_POINTS = 8000  # that are drawn
 _MOST = (0.1, 99.9)  # of heights, without spikes [%]
 
@@ -50,8 +51,10 @@ def drawing_of_file(content: Measurement, body: Body | None) -> Drawing:
     if body is not None and body.heights.shape == heights.shape:
         spikes = outliers(body)
     sides = content.sizes or tuple(map(float, heights.shape))
-    along = _unit(max(sides), metres if content.sizes else None, "points")
-    return _drawn("file", heights, sides, along, _unit(_span(heights), metres, ""), spikes)
+    otherwise = "unit not stated" if content.sizes else "points"
+    along = _unit(max(sides), metres if content.sizes else None, otherwise)
+    up = _unit(_span(heights), metres, "unit not stated")
+    return _drawn("file", heights, sides, along, up, spikes)
 
 
 def drawing_of_body(body: Body) -> Drawing:
@@ -143,6 +146,7 @@ def _height_rows(known: Real, unit: str) -> list[list[str]]:
     """Heights in numbers, for those who do not see the map."""
     if not known.size:
         return []
+    unit = "" if unit == "unit not stated" else unit
     shares = {"lowest": 0, "lowest tenth below": 10, "median": 50, "highest tenth above": 90}
     rows = [
         [name, f"{decimal(float(np.percentile(known, share)), 4)} {unit}"]
@@ -156,7 +160,7 @@ def _span(heights: Real) -> float:
     return float(np.abs(known).max()) if known.size else 0.0
 
 
-def _unit(largest: float, metres: float | None, otherwise: str = "") -> tuple[float, str]:
+def _unit(largest: float, metres: float | None, otherwise: str = "m") -> tuple[float, str]:
     """The factor to a handy unit, and its sign; without metres the file's own numbers stay."""
     if metres is None:
         return 1.0, otherwise
@@ -192,9 +196,18 @@ def contact_drawing(result: Assessment) -> Drawing:
         **body.header,
         "load": f"corrected area {share}% at {force}",
         "fields": units,
-        "pixels": arrays["area"].shape != arrays["pressure"].shape,
+        "spots": _spots(fields.contact, surface, body.header["metres"]),
     }
     return Drawing(header, body.arrays | arrays)
+
+
+def _spots(contact: Mask, surface: Surface, metres: float) -> dict[str, Any]:
+    """Where points touch, if they are so few that a map does not show them."""
+    places = np.argwhere(contact)
+    if len(places) > _MOST_SPOTS:
+        places = places[:0]
+    x, y = ((places[:, i] + 0.5) * spacing / metres for i, spacing in enumerate(surface.spacing))
+    return {"x": x, "y": y}
 
 
 def curve_drawing(result: Assessment) -> dict[str, Any]:

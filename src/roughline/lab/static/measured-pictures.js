@@ -44,20 +44,19 @@ export class Pictures {
     for (const root of this.#plots.made.roots()) Bokeh.index.find_one(root)?.reset();
   }
 
-  drawFile({file, spectrum, asks, arrays}) {
+  drawFile({file, spectrum, arrays}) {
     const share = file.is_map ? "orange: missing points; rings: spikes" : "crosses: missing points; rings: spikes";
     const spikes = file.spikes ? `${file.spikes.count} spikes` : "spikes are looked for once unit and size are known";
     this.#toggle("measured-file", file.is_map);
     this.#toggle("measured-file-line", !file.is_map);
-    const up = asks.unit ? "unit not stated" : file.up;
     if (file.is_map) {
-      this.#map("file", arrays["file heights"], file, file.range, up);
+      this.#map("file", arrays["file heights"], file, file.range, file.up);
       this.#plots.set("file spikes", {x: file.spikes?.x ?? [], y: file.spikes?.y ?? []});
     } else {
       this.#plots.set("file line heights", {x: [...arrays["file x"].values], y: [...arrays["file heights"].values]});
       this.#plots.set("file line spikes", {x: file.spikes?.x ?? [], y: file.spikes?.y ?? []});
       this.#plots.set("file line missing", {x: file.missing, y: file.missing.map(() => file.range[0])});
-      this.#label("file line", `x [${file.along}]`, `height [${up}]`);
+      this.#label("file line", `x [${file.along}]`, `height [${file.up}]`);
     }
     this.#caption(file.is_map ? "file" : "file-line", `${share}; ${spikes}`);
     fillTable(file.is_map ? "measured-file" : "measured-file-line", ["heights", ""], file.rows);
@@ -120,9 +119,10 @@ export class Pictures {
   drawField(contact, arrays, shown) {
     const field = contact.fields[shown], [palette, meaning] = FIELDS[shown];
     if (!field) { this.#caption("contact", "the load was not solved"); return; }
+    this.#plots.set("contact spikes", contact.spots);
     this.#plots.colours("contact", palette);
     this.#map("contact", arrays[shown], contact, field.range, field.unit);
-    this.#caption("contact", `${meaning}; ${contact.load}`);
+    this.#caption("contact", `${meaning}; ${contact.load}${contact.spots.x.length ? "; rings: the few points that touch" : ""}`);
     const rows = Object.entries(contact.fields).filter(([name]) => name !== "area")
       .map(([name, {unit, range}]) => [`largest ${name}`, `${range[1].toPrecision(4)} ${unit}`]);
     fillTable("measured-contact", ["quantity", "value"], [["contact", contact.load], ...rows]);

@@ -50,7 +50,6 @@ class Measured {
     this.#pictures = new Pictures(this, await embedded("measured"));
     this.#answers.pictures = this.#pictures;
     this.#pictures.onBox((crop) => this.set("crop", crop));
-    this.hasPlots = true;
     if (said.example) this.#look(true);
   }
 
@@ -121,7 +120,7 @@ class Measured {
 
   #forgetFile() {
     this.#read = this.#prepared = null;
-    for (const name of ["file", "preparation", "answers", "compare"]) this.find(`[data-result="${name}"]`).hidden = true;
+    for (const name of ["file", "preparation", "answers", "compare"]) this.#showResult(name, false);
     for (const place of this.findAll("[data-asked]")) place.hidden = true;
     this.#answers.forget();
   }
@@ -138,7 +137,7 @@ class Measured {
         this.#write();
         this.refuse("", "file");
         this.#showAsked(read);
-        this.find('[data-result="file"]').hidden = false;
+        this.#showResult("file", true);
         this.find("[data-name]").textContent = read.name;
         fillList(this, "obstacles", read.obstacles);
         fillList(this, "remarks", read.remarks);
@@ -189,7 +188,7 @@ class Measured {
   #showPrepared(prepared, isNew) {
     this.#prepared = prepared;
     for (const key of ["preparation", ...OF_PREPARATION]) this.refuse("", key);
-    this.find('[data-result="preparation"]').hidden = !prepared.body;
+    this.#showResult("preparation", prepared.body !== null);
     if (prepared.body) {
       this.#pictures.drawPrepared(this.#read, prepared, this.#controls.said.crop ?? "");
       if (isNew) this.#pictures.showAll();
@@ -201,6 +200,12 @@ class Measured {
     }
     this.#askBodies();
     this.#answers.ready();
+  }
+
+  #showResult(name, isShown) {
+    this.find(`[data-result="${name}"]`).hidden = !isShown;
+    const empty = this.find(`[data-empty="${name}"]`);
+    if (empty) empty.hidden = isShown;
   }
 
   #askBodies() {
