@@ -185,7 +185,7 @@ def contact_drawing(result: Assessment) -> Drawing:
     units = {"area": {"unit": "", "range": [0, 1]}}
     for name, values, unit in (
         ("pressure", fields.pressure, "Pa"),
-        ("gap", fields.gap, "m"),
+        ("gap", np.maximum(fields.gap, 0), "m"),  # rounding leaves it just below in contact
         ("displacement", fields.displacement, "m"),
     ):
         factor, prefixed = prefix(float(np.nanmax(np.abs(values), initial=0.0)), unit)

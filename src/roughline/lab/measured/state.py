@@ -211,10 +211,8 @@ def at(key: str) -> Iterator[None]:
     """Say of a refusal at which control it arose, in the words of the page."""
     try:
         yield
-    except ControlError:
-        raise
     except RoughlineError as error:
-        raise ControlError(in_controls(str(error)), key) from None
+        raise ControlError(in_controls(str(error)), getattr(error, "at", "") or key) from None
 
 
 def _share(text: str | None) -> float:
