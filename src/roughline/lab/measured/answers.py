@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-import copyreg
-import os
-import pickle
 from collections.abc import Mapping
-from hashlib import sha256
-from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -17,8 +11,9 @@ from numpy.typing import NDArray
 from roughline.assessment.assess import assess
 from roughline.assessment.assessment import Assessment
 from roughline.lab.frames import frame
+from roughline.lab.measured.kept import kept
 from roughline.lab.measured.pictures import contact_drawing, curve_drawing
-from roughline.lab.measured.state import Arguments, Said, at, question_of, said_of, source_of
+from roughline.lab.measured.state import Arguments, at, question_of, said_of, source_of
 from roughline.lab.measured.words import in_controls
 from roughline.lab.tasks import Progress
 from roughline.report.contact_tables import (
@@ -30,13 +25,6 @@ from roughline.report.contact_tables import (
 )
 from roughline.topography.body import Surface
 from roughline.units import engineering
-
-
-def _read_only(settings: dict[str, Any]) -> MappingProxyType[str, Any]:
-    return MappingProxyType(settings)
-
-
-copyreg.pickle(MappingProxyType, lambda settings: (_read_only, (dict(settings),)))
 
 
 def answer(arguments: Arguments, progress: Progress) -> bytes:
@@ -69,19 +57,12 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment:
     said = said_of(arguments)
     source = source_of(said, arguments["session"])
     question = question_of(said, source)
-    kept = Path(arguments["session"]["folder"]) / f"assessment-{digest(said)}.pickle"
-    if kept.exists():
-        found: Assessment = pickle.loads(kept.read_bytes())
-        return found
-    with at("answers"):
-        result = assess(question, progress=Steps(arguments, progress))
-    _keep(result, kept)
-    return result
 
+    def solve() -> Assessment:
+        with at("answers"):
+            return assess(question, progress=Steps(arguments, progress))
 
-def digest(said: Said) -> str:
-    """A short name for what is asked."""
-    return sha256(repr(sorted(said.items())).encode()).hexdigest()[:12]
+    return kept(arguments["session"], "assessment", sorted(said.items()), solve)
 
 
 class Steps:
@@ -107,15 +88,6 @@ class Steps:
         self._last = done
         presses = max(self._presses, self._before + 1)
         self._progress(self._before * total + done, presses * total)
-
-
-def _keep(result: Assessment, place: Path) -> None:
-    """Keep the newest assessment of a page, and no other."""
-    begun = place.with_suffix(f".{os.getpid()}")
-    begun.write_bytes(pickle.dumps(result, protocol=5))
-    for older in place.parent.glob("assessment-*.pickle"):
-        older.unlink(missing_ok=True)
-    begun.replace(place)
 
 
 def _modulus(result: Assessment) -> str:

@@ -11,7 +11,8 @@ from tempfile import TemporaryDirectory
 
 from roughline.assessment.question import Reading
 from roughline.lab.frames import frame
-from roughline.lab.measured.answers import assessed, digest
+from roughline.lab.measured.answers import assessed
+from roughline.lab.measured.kept import digest
 from roughline.lab.measured.state import (
     Arguments,
     Said,
@@ -57,7 +58,7 @@ def report(arguments: Arguments, progress: Progress) -> bytes:
             write_contact(result, Path(begun))
         for name in _WRITTEN:
             if (Path(begun) / name).exists():
-                place = f"{stem}-{digest(said)[:6]}-{name}"
+                place = f"{stem}-{digest(sorted(said.items()))[:6]}-{name}"
                 shutil.move(Path(begun) / name, folder / place)
                 files[name] = place
     return frame({"files": files})

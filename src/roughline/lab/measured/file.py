@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import os
-import pickle
 from collections.abc import Mapping
-from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from roughline.assessment.description import Description, describe_measurement
-from roughline.files.measurement import Measurement
+from roughline.assessment.source import measured_body
 from roughline.files.read import measurement
 from roughline.lab.frames import frame
+from roughline.lab.measured.kept import kept
 from roughline.lab.measured.pictures import (
     drawing_of_body,
     drawing_of_file,
@@ -75,22 +72,23 @@ def described(
     """Describe a file, prepared or as it is read."""
     reading = reading_of(said, source.name)
     preparation = preparation_of(said) if is_prepared else None
-    content = _content(source, reading.channel, Path(session["folder"]))
-    return describe_measurement(source.path, content, reading, preparation)
+    content = kept(
+        session,
+        "measurement",
+        (source.key, reading.channel),
+        lambda: measurement(source.path, reading.channel, name=source.name),
+    )
+    keeps_trend = preparation is not None and preparation.trend is not None
 
+    def body_of() -> Body:  # filling missing points loads slowly
+        return kept(
+            session,
+            "body",
+            (source.key, reading, keeps_trend),
+            lambda: measured_body(content, reading, preparation, in_place=False),
+        )
 
-def _content(source: Source, channel: int | str | None, folder: Path) -> Measurement:
-    """What the file holds; it is kept, as the readers of instruments' files load slowly."""
-    asked = sha256(repr((source.key, channel)).encode()).hexdigest()[:16]
-    kept = folder / f"measurement-{asked}.pickle"
-    if kept.exists():
-        found: Measurement = pickle.loads(kept.read_bytes())
-        return found
-    content = measurement(source.path, channel, name=source.name)
-    begun = kept.with_suffix(f".{os.getpid()}")
-    begun.write_bytes(pickle.dumps(content, protocol=5))
-    begun.replace(kept)
-    return content
+    return describe_measurement(source.path, content, reading, preparation, body_of=body_of)
 
 
 def _of_description(found: Description) -> dict[str, Any]:

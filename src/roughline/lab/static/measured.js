@@ -123,6 +123,7 @@ class Measured {
     for (const name of ["file", "preparation", "answers", "compare"]) this.#showResult(name, false);
     for (const place of this.findAll("[data-asked]")) place.hidden = true;
     this.#answers.forget();
+    this.#askBodies();
   }
 
   // Read the file; a new one shows all of itself.
