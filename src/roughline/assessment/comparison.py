@@ -100,7 +100,7 @@ def compare_models(
 
 def _surface(file: Path, reading: Reading) -> Surface:
     """The surface in a file."""
-    content = measurement(file, reading.channel, name=reading.name)
+    content = measurement(file, reading.channel, reading.name)
     body = prepared(measured_body(content, reading, None, in_place=True))
     if isinstance(body, Line):
         raise InputError(

@@ -74,7 +74,7 @@ def describe(
         If the file cannot be read, or what is asked for does not suit it.
     """
     reading = reading or Reading()
-    content = measurement(file, reading.channel, name=reading.name)
+    content = measurement(file, reading.channel, reading.name)
     return describe_measurement(file, content, reading, preparation)
 
 

@@ -57,7 +57,7 @@ class Topography:
         """
         if isinstance(given, Surface | Line):
             return cls(prepared(given, preparation), None, None, reading, preparation)
-        content = measurement(given, reading.channel, name=reading.name)
+        content = measurement(given, reading.channel, reading.name)
         kept = content if not content.by_roughline and content.unknown.any() else None
         body = measured_body(content, reading, preparation, in_place=kept is None)
         return cls(prepared(body, preparation), given, kept, reading, preparation)

@@ -77,7 +77,7 @@ def read(
 
 
 def measurement(
-    path: str | Path, channel: int | str | None = None, *, name: str | None = None
+    path: str | Path, channel: int | str | None = None, name: str | None = None
 ) -> Measurement:
     """Read the heights of a file, whether or not they suffice for a body.
 

@@ -76,7 +76,7 @@ def described(
         session,
         "measurement",
         (source.key, reading.channel),
-        lambda: measurement(source.path, reading.channel, name=source.name),
+        lambda: measurement(source.path, reading.channel, source.name),
     )
     keeps_trend = preparation is not None and preparation.trend is not None
 
