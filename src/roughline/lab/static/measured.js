@@ -151,7 +151,7 @@ class Measured {
       },
       error: (sentence, at) => {
         this.#end("file");
-        if (isNew) this.#forgetFile();
+        if (!this.#read) this.#forgetFile();
         this.refuse(sentence, at || "file");
       },
     });
