@@ -20,7 +20,7 @@ export function fillList(view, name, sentences) {
 }
 
 export class Pictures {
-  #view; #plots; #before = null; #unsettled = new Set();
+  #view; #plots; #before = null; #unsettled = new Map(); #extents = new Map();
 
   constructor(view, plots) {
     this.#view = view;
@@ -39,11 +39,6 @@ export class Pictures {
     });
   }
 
-  // Show all of each map again.
-  showAll() {
-    for (const root of this.#plots.made.roots()) Bokeh.index.find_one(root)?.reset();
-  }
-
   drawFile({file, spectrum, arrays}) {
     const share = file.is_map ? "orange: missing points; rings: spikes" : "crosses: missing points; rings: spikes";
     const spikes = file.spikes ? `${file.spikes.count} spikes` : "spikes are looked for once unit and size are known";
@@ -56,6 +51,7 @@ export class Pictures {
       this.#plots.set("file line heights", {x: [...arrays["file x"].values], y: [...arrays["file heights"].values]});
       this.#plots.set("file line spikes", {x: file.spikes?.x ?? [], y: file.spikes?.y ?? []});
       this.#plots.set("file line missing", {x: file.missing, y: file.missing.map(() => file.range[0])});
+      this.#settle("measured-file-line", `${file.sizes} ${file.along}`);
       this.#label("file line", `x [${file.along}]`, `height [${file.up}]`);
     }
     this.#caption(file.is_map ? "file" : "file-line", `${share}; ${spikes}`);
@@ -89,6 +85,7 @@ export class Pictures {
         x: [...prepared.arrays["body x"].values].map((x) => x * scale + corner.x),
         y: [...prepared.arrays["body heights"].values].map((y) => y * factor),
       });
+      this.#settle("measured-prepared-line", `${before.sizes} ${before.along}`);
       this.#label("prepared line", `x [${before.along}]`, `height [${before.up}]`);
       fillTable("measured-prepared-line", ["heights", "before", "after"], before.rows.map(([name, value], i) => [name, value, after.rows[i]?.[1] ?? "-"]));
       return;
@@ -129,7 +126,7 @@ export class Pictures {
   }
 
   drawCurve(plot, table) {
-    this.#settle("measured-stiffness");
+    for (const id of ["measured-stiffness", "measured-area"]) this.#settle(id, `${plot.force} ${plot.stiffness}`);
     this.#quantity("stiffness", plot, plot.stiffness, plot.stiffness_interval, `stiffness k [${plot.stiffness_unit}]`);
     this.#toggle("measured-area", plot.area !== null);
     if (plot.area) this.#quantity("area", plot, plot.area, plot.area_interval, "real contact area A / A_0");
@@ -154,19 +151,26 @@ export class Pictures {
   }
 
   drawModels({force_bar: x, full, reduced, table}) {
-    this.#settle("measured-models");
+    this.#settle("measured-models", `${x} ${full}`);
     this.#plots.set("models full", {x, y: full, low: full, high: full});
     this.#plots.set("models reduced", {x, y: reduced.mean, low: reduced.low, high: reduced.high});
     fillTable("measured-models", ...table);
   }
 
-  // Lay a plot out anew: its labels may have come, or it may have been hidden before.
-  #settle(id) {
+  // Lay a plot out anew: its labels may have come, or it may have been hidden before. All of it is
+  // shown where its extent, as text, is another one.
+  #settle(id, extent) {
     if (this.#unsettled.size === 0) requestAnimationFrame(() => {
-      for (const name of this.#unsettled) Bokeh.index.find_one(this.#root(name))?.invalidate_layout();
+      for (const [name, isOther] of this.#unsettled) {
+        const view = Bokeh.index.find_one(this.#root(name));
+        view?.invalidate_layout();
+        if (isOther) view?.reset();
+      }
       this.#unsettled.clear();
     });
-    this.#unsettled.add(id);
+    const isOther = extent !== undefined && this.#extents.get(id) !== extent;
+    if (isOther) this.#extents.set(id, extent);
+    this.#unsettled.set(id, isOther || (this.#unsettled.get(id) ?? false));
   }
 
   #map(name, {values, shape, dtype}, {sizes, along, x = 0, y = 0}, [low, high], unit) {
@@ -175,7 +179,7 @@ export class Pictures {
     this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]});
     this.#label(name, `x [${along}]`, `y [${along}]`);
     this.#plots.model(`${name} bar`).title = unit ? `[${unit}]` : "";
-    this.#settle(`measured-${name}`);
+    this.#settle(`measured-${name}`, name === "after" ? undefined : `${sizes} ${along}`);
   }
 
   #showBox(crop, {x, y}, [width, height]) {

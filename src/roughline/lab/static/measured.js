@@ -50,7 +50,7 @@ class Measured {
     this.#pictures = new Pictures(this, await embedded("measured"));
     this.#answers.pictures = this.#pictures;
     this.#pictures.onBox((crop) => this.set("crop", crop));
-    if (said.example) this.#look(true);
+    if (said.example) this.#look();
   }
 
   shown() { this.#write(); }
@@ -58,7 +58,7 @@ class Measured {
   // A new session has none of the files of the old one.
   reconnected() {
     this.#answers.forget();
-    if (this.#controls.said.example) { this.#look(true); return; }
+    if (this.#controls.said.example) { this.#look(); return; }
     if (!this.#controls.said.file) return;
     this.#forgetFile();
     this.refuse("The connection was lost, and the file went with it: choose it again.", "file");
@@ -76,7 +76,7 @@ class Measured {
     for (const key of OF_FILE) delete kept[key];
     this.#take({...kept, ...source});
     this.#forgetFile();
-    this.#look(true);
+    this.#look();
   }
 
   set(key, text) {
@@ -108,7 +108,7 @@ class Measured {
     this.refuse("", "");
     this.#write();
     if (key === "bodies") this.#take(this.#controls.said);
-    if (OF_READING.includes(key)) this.#look(key === "channel");
+    if (OF_READING.includes(key)) this.#look();
     else if (OF_PREPARATION.includes(key)) this.#prepare();
     if (OF_BODIES.includes(key)) this.#askBodies();
     this.#answers.changed();
@@ -128,8 +128,8 @@ class Measured {
     this.#askBodies();
   }
 
-  // Read the file; a new one shows all of itself.
-  #look(isNew) {
+  // Read the file.
+  #look() {
     const {file, example} = this.#controls.said;
     if (!file && !example) return;
     this.#wait("file");
@@ -146,8 +146,7 @@ class Measured {
         fillList(this, "remarks", read.remarks);
         fillTable("measured-roughness", ["", ""], read.table);
         this.#pictures.drawFile(read);
-        if (isNew) this.#pictures.showAll();
-        this.#prepare(isNew);
+        this.#prepare();
       },
       error: (sentence, at) => {
         this.#end("file");
@@ -177,24 +176,23 @@ class Measured {
     this.find('[data-asked="size"]').hidden = !asks.size;
   }
 
-  #prepare(isNew = false) {
+  #prepare() {
     if (!this.#read) return;
     const isAsked = OF_PREPARATION.some((key) => this.#controls.said[key]);
-    if (!isAsked) { this.#link.stop("measured preparation"); this.#end("preparation"); this.#showPrepared(this.#read, isNew); return; }
+    if (!isAsked) { this.#link.stop("measured preparation"); this.#end("preparation"); this.#showPrepared(this.#read); return; }
     this.#wait("preparation");
     this.#link.ask("measured.prepare", "measured preparation", {state: this.state}, {
-      answer: (prepared) => { this.#end("preparation"); this.#showPrepared(prepared, isNew); },
+      answer: (prepared) => { this.#end("preparation"); this.#showPrepared(prepared); },
       error: (sentence, at) => { this.#end("preparation"); this.refuse(sentence, at || "preparation"); },
     });
   }
 
-  #showPrepared(prepared, isNew) {
+  #showPrepared(prepared) {
     this.#prepared = prepared;
     for (const key of ["preparation", ...OF_PREPARATION]) this.refuse("", key);
     this.#showResult("preparation", prepared.body !== null);
     if (prepared.body) {
       this.#pictures.drawPrepared(this.#read, prepared, this.#controls.said.crop ?? "");
-      if (isNew) this.#pictures.showAll();
       this.find("[data-prepared-numbers]").open = prepared !== this.#read;
       fillList(this, "prepared-remarks", prepared === this.#read ? [] : prepared.remarks);
       const after = new Map(prepared.table), before = new Map(this.#read.table);
