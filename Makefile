@@ -6,7 +6,10 @@ OUT ?= out/paper
 TEST_PROCESSES ?= 2
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak start-up fuzz study published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak start-up lab-benchmark fuzz study published architecture clean
+
+lab: $(VENV)/installed
+	$(BIN)/roughline lab
 
 paper: $(VENV)/installed
 	$(BIN)/roughline paper --scale quick --out $(OUT)
@@ -60,6 +63,12 @@ soak: $(VENV)/installed
 
 start-up: $(VENV)/installed
 	$(BIN)/python benchmarks/start_up.py
+
+lab-benchmark: $(VENV)/installed
+	$(BIN)/python benchmarks/lab.py
+
+lab-sessions: $(VENV)/installed
+	$(BIN)/python benchmarks/lab_sessions.py
 
 fuzz: $(VENV)/installed
 	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py

@@ -19,12 +19,12 @@ import ducc0.fft
 import numpy as np
 
 import roughline as rl
-from roughline.computing import fft
+from roughline.computing.cores import available_cores
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import GridNodes
 
 TABLE = Path(__file__).parents[1] / "docs" / "speed-table.md"
-CORES = fft.available_cores()
+CORES = available_cores()
 
 
 def seconds(function, repeats=5):

@@ -22,8 +22,10 @@ from matplotlib.path import Path as Curve
 # Where a room stands in its row.
 PLACES = {
     "cli": 4.0,
+    "lab": 6.0,
     "paper": 7.6,
     "report": 4.0,
+    "server": 7.6,
     "assessment": 4.0,
     "campaign": 7.2,
     "engineering": 1.1,

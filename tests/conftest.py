@@ -10,7 +10,6 @@ import roughline as rl
 from dask_processes import start_scheduler, start_worker
 from roughline import cli
 
-_STUDY = Path(__file__).parents[1] / "studies" / "paper" / "data"
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
 
@@ -74,7 +73,7 @@ def invoke(monkeypatch, capsys):
 
 @pytest.fixture(scope="session")
 def published_results():
-    """Return the results of the paper's study that come with the sources."""
-    from roughline.paper.results import results_of_folder
+    """Return the results of the paper's study that come with the package."""
+    from roughline.paper import results
 
-    return results_of_folder(_STUDY, name="", command="")
+    return results.published_results()

@@ -2,7 +2,7 @@
 
     python studies/paper/publish.py
 
-reads ``studies/paper/data`` and the map of the package, and writes ``docs/paper.md``,
+reads the data and the map of the package, and writes ``docs/paper.md``,
 ``docs/trust.md`` and ``docs/figures/paper``.
 """
 
@@ -16,13 +16,12 @@ import roughline as rl
 from roughline.comparison.trust import TrustMap
 from roughline.paper.added_figures import trust_map_figure
 from roughline.paper.page import compose
-from roughline.paper.results import results_of_folder
+from roughline.paper.results import published_folder, published_results
 from roughline.paper.trust_page import trust_page
 from roughline.report.page import render_markdown
 from roughline.report.style import save, styled
 
 HERE = Path(__file__).parent
-DATA = HERE / "data"
 DOCS = HERE.parents[1] / "docs"
 FIGURES = DOCS / "figures" / "paper"
 FOLDER_IN_PAGES = "figures/paper"
@@ -38,11 +37,7 @@ def main() -> None:
 
 def publish_paper() -> None:
     """Draw the page "The paper, recomputed"."""
-    results = results_of_folder(
-        DATA,
-        name="from the study in studies/paper",
-        command="roughline campaign run studies/paper/plan.toml",
-    )
+    results = published_results()
     with TemporaryDirectory() as folder:
         text = render_markdown(*compose(results, Path(folder)), FOLDER_IN_PAGES)
         for picture in (Path(folder) / "figures").glob("*.png"):
@@ -56,7 +51,8 @@ def publish_map() -> None:
     with styled():
         save(trust_map_figure(trust), FIGURES, "trust_map")
     (FIGURES / "trust_map.pdf").unlink()
-    fine = TrustMap.from_rows(np.loadtxt(DATA / "map_fine.csv", delimiter=",", skiprows=1))
+    rows = np.loadtxt(published_folder() / "map_fine.csv", delimiter=",", skiprows=1)
+    fine = TrustMap.from_rows(rows)
     (DOCS / "trust.md").write_text(trust_page(trust, fine, FOLDER_IN_PAGES), encoding="utf-8")
 
 

@@ -2,7 +2,7 @@
 
     python studies/paper/reduce.py out/study.zarr
 
-writes ``studies/paper/data`` and the map of the package.
+writes the data and the map of the package.
 """
 
 import sys
@@ -22,8 +22,9 @@ from roughline.paper.windows import WINDOWS_REDUCED
 from roughline.statistics.averages import relative_difference
 
 HERE = Path(__file__).parent
-DATA = HERE / "data"
-MAP = HERE.parents[1] / "src" / "roughline" / "comparison" / "trust_map.csv"
+PACKAGE = HERE.parents[1] / "src" / "roughline"
+DATA = PACKAGE / "paper" / "data"
+MAP = PACKAGE / "comparison" / "trust_map.csv"
 
 
 def main(path: Path) -> None:

@@ -2,8 +2,8 @@
 
     python studies/paper/times.py
 
-writes ``studies/paper/data/times.json``: seconds on one core for a body with all its loads, by
-ensemble.
+writes ``times.json`` into the data of the package: seconds on one core for a body with all its
+loads, by ensemble.
 """
 
 import json
@@ -15,6 +15,7 @@ from roughline import campaign
 from roughline.campaign.run import log_of
 
 HERE = Path(__file__).parent
+DATA = HERE.parents[1] / "src" / "roughline" / "paper" / "data"
 SIX = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 
 
@@ -36,7 +37,7 @@ def main() -> None:
         entry = json.loads(log_of(store).read_text())
     each = {name: entry["core_seconds"][name] / count for name, count in entry["done"].items()}
     text = json.dumps({"cores": 1, "core_seconds": each}, indent=1)
-    (HERE / "data" / "times.json").write_text(text + "\n")
+    (DATA / "times.json").write_text(text + "\n")
 
 
 if __name__ == "__main__":

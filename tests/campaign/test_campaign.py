@@ -16,7 +16,7 @@ from roughline.campaign.cost import chunk_shape, cost_of, workers_that_fit
 from roughline.campaign.export import export
 from roughline.campaign.run import log_of
 from roughline.campaign.writer import writing
-from roughline.computing import fft
+from roughline.computing.cores import available_cores
 from small_campaign import tree
 
 
@@ -301,6 +301,6 @@ def test_the_cost_is_told_before_the_work(plan, finished, tmp_path):
 )
 def test_workers_and_threads_fit_the_machine(plan, tmp_path, options, message):
     if options.get("workers") == 10**3:
-        options = options | {"workers": fft.available_cores()}
+        options = options | {"workers": available_cores()}
     with pytest.raises(rl.InputError, match=message):
         campaign.run(smaller(plan, realisations=1), tmp_path / "store", **options)

@@ -8,6 +8,7 @@ import pytest
 
 import roughline as rl
 from roughline.computing import fft, memory
+from roughline.computing.cores import available_cores
 from roughline.contact.curve import Curve
 
 FRACTAL = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, 1)
@@ -51,7 +52,7 @@ def test_the_number_of_threads_does_not_change_a_bit():
     before = fft.threads()
     curves = []
     try:
-        for count in sorted({1, fft.available_cores()}):
+        for count in sorted({1, available_cores()}):
             rl.set_threads(count)
             curves.append(rl.press(FRACTAL, E_star=1.0, n_loads=5))
     finally:

@@ -17,10 +17,11 @@ from roughline.lab.measured import documents
 from roughline.lab.measured.controls import EXAMPLES
 from roughline.lab.measured.examples import path_of
 from roughline.lab.measured.state import question_of, said_of, source_of
-from roughline.lab.tasks import outcome_of
+from roughline.lab.tasks import TASKS
 from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import answer_table, curve_table, formula_table
 from roughline.report.description_table import description_table
+from roughline.server.tasks import outcome_of
 
 PAIR = {"first": "steel", "second": "copper", "loads": "2 MPa"}
 SMALL = {"resample": "64"}
@@ -56,7 +57,9 @@ class Page:
     def outcome(self, task, state, **others):
         arguments = {"state": state, "session": self.session, "crowded": False, **others}
         return outcome_of(
-            f"measured.{task}", arguments, lambda done, total: self.steps.append((done, total))
+            TASKS[f"measured.{task}"],
+            arguments,
+            lambda done, total: self.steps.append((done, total)),
         )
 
     def ask(self, task, state, **others):

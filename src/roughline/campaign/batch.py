@@ -13,6 +13,7 @@ from roughline._version import __version__
 from roughline.campaign.layout import variables_of
 from roughline.campaign.plan import Ensemble
 from roughline.computing import fft
+from roughline.computing.cores import available_cores
 from roughline.contact.press import press
 from roughline.errors import RoughlineError
 
@@ -95,7 +96,7 @@ def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
         If this process has another version.
     """
     check_version(version)
-    fft.set_threads(min(threads, fft.available_cores()))
+    fft.set_threads(min(threads, available_cores()))
     clock = time.thread_time if threads == 1 else time.process_time
     start = clock()
     ensemble = batch.ensemble

@@ -14,6 +14,7 @@ from roughline.campaign.batch import evaluate_case
 from roughline.campaign.layout import variables_of
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.computing import fft
+from roughline.computing.cores import available_cores
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact import estimates
 from roughline.errors import InputError, StoreError
@@ -210,4 +211,4 @@ def workers_that_fit(memory: int, wanted: int | None) -> int:
             f"the largest case, and {free / 1e9:.3g} GB is free: take "
             + ("fewer workers" if fitting else "fewer points")
         )
-    return wanted or min(fitting, fft.available_cores())
+    return wanted or min(fitting, available_cores())

@@ -16,6 +16,7 @@ from roughline.campaign.layout import GALLERY, GALLERY_DONE
 from roughline.campaign.mending import read_or_none
 from roughline.campaign.plan import Gallery
 from roughline.computing import fft
+from roughline.computing.cores import available_cores
 from roughline.contact.press import press
 from roughline.errors import StoreError
 from roughline.spectra.self_affine import SelfAffine
@@ -32,21 +33,39 @@ _DIMENSIONS = {
 def evaluate_gallery(gallery: Gallery, threads: int, version: str) -> Results:
     """Press one surface and one line for each fractal dimension; keep what the figures show."""
     check_version(version)
-    fft.set_threads(min(threads, fft.available_cores()))
-    kept: dict[str, list[NDArray[Any] | float]] = {name: [] for name in _DIMENSIONS}
-    for fractal_dimension in gallery.fractal_dimensions:
-        spectrum = SelfAffine(fractal_dimension=fractal_dimension, rms_height=1.0)
-        surface = spectrum.surface(gallery.n, gallery.seed)
-        line = spectrum.line(gallery.n_line, gallery.seed)
-        fields = press(surface, E_star=1.0, forces=[gallery.force_bar], fields=True).fields[0]
-        assert fields is not None
-        kept["heights"].append(surface.heights)
-        kept["contact"].append(fields.contact)
-        kept["displacement"].append(fields.displacement)
-        kept["line_heights"].append(line.heights)
-        depth = press(line, E_star=1.0, forces=[gallery.force_bar]).depth[0]
-        kept["line_depth"].append(float(depth))
-    return {name: np.array(values) for name, values in kept.items()}
+    fft.set_threads(min(threads, available_cores()))
+    bodies = [bodies_of(gallery, dimension) for dimension in gallery.fractal_dimensions]
+    return {name: np.array([body[name] for body in bodies]) for name in _DIMENSIONS}
+
+
+def bodies_of(gallery: Gallery, fractal_dimension: float) -> dict[str, NDArray[Any]]:
+    """Press the surface and the line of one fractal dimension.
+
+    Parameters
+    ----------
+    gallery : Gallery
+        Points, force and seed.
+    fractal_dimension : float
+        D_f.
+
+    Returns
+    -------
+    dict of ndarray
+        heights, contact and displacement, shape (n, n), over h; line_heights, shape (n_line,), and
+        line_depth, over h.
+    """
+    spectrum = SelfAffine(fractal_dimension=fractal_dimension, rms_height=1.0)
+    surface = spectrum.surface(gallery.n, gallery.seed)
+    line = spectrum.line(gallery.n_line, gallery.seed)
+    fields = press(surface, E_star=1.0, forces=[gallery.force_bar], fields=True).fields[0]
+    assert fields is not None
+    return {
+        "heights": surface.heights,
+        "contact": fields.contact,
+        "displacement": fields.displacement,
+        "line_heights": line.heights,
+        "line_depth": press(line, E_star=1.0, forces=[gallery.force_bar]).depth[0],
+    }
 
 
 def write_gallery(root: Any, gallery: Gallery, results: Results) -> None:

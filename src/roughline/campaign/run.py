@@ -16,7 +16,7 @@ from roughline.campaign.dispatch import Dispatch
 from roughline.campaign.plan import Plan
 from roughline.campaign.progress import EnsembleProgress, Summary
 from roughline.campaign.writer import writing
-from roughline.computing import fft
+from roughline.computing.cores import available_cores
 from roughline.errors import InputError
 
 
@@ -130,7 +130,7 @@ def _computed(
 
 def _threads_that_fit(workers: int, wanted: int | None) -> int:
     """Return how many threads each worker on this machine may have."""
-    cores = fft.available_cores()
+    cores = available_cores()
     threads = wanted or max(1, cores // workers)
     if threads * workers > cores:
         raise InputError(

@@ -20,6 +20,13 @@ _FLAGS = {
     "most_missing": "--max-missing",
     "trend": "--trend",
     "crop": "--crop",
+    "host": "--host",
+    "port": "--port",
+    "password_file": "--password-file",
+    "max_upload": "--max-upload",
+    "max_points": "--max-points",
+    "max_seconds": "--max-seconds",
+    "max_memory": "--max-memory",
 }
 
 

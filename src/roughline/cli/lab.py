@@ -34,30 +34,35 @@ def lab(
     The server runs on this machine until Ctrl-C, needs no network, and is open to this machine
     alone. With --host others can reach it; then it asks for a password.
     """
-    import webbrowser
+    from roughline.server.process import start_forking
+    from roughline.server.settings import ServerSettings, password_in
 
-    from roughline.lab.server import serve
-    from roughline.lab.settings import LabSettings, password_in
-
-    settings = LabSettings(
+    settings = ServerSettings(
         host=host,
         port=port,
         password=password_in(password_file) if password_file else None,
-        max_upload=int(max_upload * _MB),
+        max_upload=max_upload * _MB,
         max_points=max_points,
         max_seconds=max_seconds,
-        max_memory=int(max_memory * _MB),
+        max_memory=max_memory * _MB,
     )
+    start_forking("roughline.lab.warm")  # which loads numerics while this process loads the server
+    from roughline.lab.site import site
+    from roughline.server.serve import serve
 
     def ready(address: str) -> None:
         typer.echo(f"The lab is open at {address} - Ctrl-C closes it.")
         if not settings.is_local:
             typer.echo(
-                f"Whoever reaches {settings.host} and has the password can upload files up to "
-                f"{max_upload:g} MB and compute on this machine. The connection is not encrypted."
+                f"It listens on {settings.host}: whoever reaches that port of this machine and has "
+                f"the password can upload files up to {max_upload:g} MB and compute here. The "
+                "connection is not encrypted: use it in a network that you trust, or behind a "
+                "proxy or tunnel that encrypts."
             )
         if browser:
+            import webbrowser
+
             webbrowser.open(address)
 
-    serve(settings, ready)
+    serve(site(), settings, ready)
     typer.echo("The lab is closed.")

@@ -15,15 +15,8 @@ import ducc0.fft
 import numpy as np
 
 from roughline.computing.arrays import Complex, ComplexFloats, Real
+from roughline.computing.cores import available_cores
 from roughline.errors import InputError
-
-
-def available_cores() -> int:
-    """Return the number of cores this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
 
 _threads = available_cores()
 

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from roughline.errors import InputError
+import roughline as rl
 from roughline.units import refuse_decimal_comma
 
+VERSION = "1"
+"""Of the addresses; one of another version is refused."""
 
-class ControlError(InputError):
+_OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of a view's state
+
+
+class ControlError(rl.InputError):
     """What a control of the page is set to cannot be used.
 
     Attributes
@@ -127,3 +133,31 @@ class Choice:
                 f'{self.name} is "{str(text)[:40]}"; allowed are {allowed}', self.key
             )
         return str(text)
+
+
+def refuse_strange(said: Mapping[str, str], known: Collection[str]) -> None:
+    """Refuse an address of another version, and parameters that a view does not know.
+
+    Parameters
+    ----------
+    said : mapping of str to str
+        Parameters of the address.
+    known : collection of str
+        Keys of the view.
+
+    Raises
+    ------
+    ControlError
+        In one sentence.
+    """
+    if said.get("v", VERSION) != VERSION:
+        raise ControlError(
+            f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '
+            f"reads version {VERSION}: set the controls by hand"
+        )
+    strange = [name[:40] for name in said if name not in (*known, "v", *_OF_THE_PAGE)]
+    if strange:
+        raise ControlError(
+            f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
+            "version; set the controls by hand"
+        )

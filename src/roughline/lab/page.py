@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from importlib.resources import files
 
 import jinja2
+from markupsafe import Markup, escape
 
-from roughline._version import __version__
+import roughline as rl
 from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
 from roughline.lab.measured import controls as measured
+from roughline.lab.published import controls as published
+
+_SUBSCRIPT = re.compile(r"_(\w)")
 
 
 @cache
 def page() -> str:
     """Return the page; it is the same for everyone."""
-    return (
-        _environment()
-        .get_template("index.html.jinja")
-        .render(
-            version=__version__, explore=explore, measured=measured, materials=list(materials())
-        )
+    template = _environment().get_template("index.html.jinja")
+    return template.render(
+        version=rl.__version__,
+        explore=explore,
+        measured=measured,
+        published=published,
+        materials=list(materials()),
     )
 
 
@@ -33,6 +39,13 @@ def login_page(complaint: str) -> str:
 @cache
 def _environment() -> jinja2.Environment:
     folder = str(files("roughline.lab").joinpath("templates"))
-    return jinja2.Environment(
+    environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder), autoescape=True, undefined=jinja2.StrictUndefined
     )
+    environment.filters["subscripts"] = _subscripts
+    return environment
+
+
+def _subscripts(symbol: str) -> Markup:
+    """A symbol such as D_f or λ_r/L, with its letters after an underscore set low."""
+    return Markup(_SUBSCRIPT.sub(r"<sub>\1</sub>", str(escape(symbol))))

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from bokeh.document import Document
 from bokeh.embed.util import standalone_docs_json_and_render_items
-from bokeh.models import ColorBar, ColumnDataSource, LinearColorMapper, Range1d
+from bokeh.models import BoxAnnotation, ColorBar, ColumnDataSource, LinearColorMapper, Range1d
 from bokeh.palettes import Cividis256, Viridis256
 from bokeh.plotting import figure
 
 from roughline.lab.frames import frame
 
+_BORDERS = (62, 84)  # for numbers and a colour bar, of maps [pixel]
 _TOOLS = "pan,wheel_zoom,box_zoom,reset,save"
-_PALETTES = {"cividis": Cividis256, "viridis": Viridis256}
 
 
 def embedded(plots: Mapping[str, figure]) -> bytes:
@@ -25,70 +26,108 @@ def embedded(plots: Mapping[str, figure]) -> bytes:
         By the element of the page that each belongs to, without its prefix "plot-".
     """
     document = Document()
-    for element, plot in plots.items():
-        plot.name = element
-        document.add_root(plot)
+    with document.models.freeze():  # otherwise each root would have all the others searched again
+        for element, plot in plots.items():
+            plot.name = element
+            document.add_root(plot)
     documents, (item, *_) = standalone_docs_json_and_render_items(document)
     places = {plot.id: f"plot-{element}" for element, plot in plots.items()}
-    return frame({"documents": documents, "items": [{**item.to_json(), "roots": places}]})
+    return frame(
+        {
+            "documents": documents,
+            "items": [{**item.to_json(), "roots": places}],
+            "palettes": {"cividis": Cividis256, "viridis": Viridis256},
+        }
+    )
 
 
 def log_figure(
-    x_label: str,
-    y_label: str,
-    x_range: tuple[float, float] | None,
-    y_range: tuple[float, float] | None,
+    x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float]
 ) -> figure:
     """Return an empty plot with two logarithmic axes."""
-    ranges = {"x_range": x_range, "y_range": y_range}
     plot = figure(
         x_axis_type="log",
         y_axis_type="log",
+        x_range=x_range,
+        y_range=y_range,
         tools=_TOOLS,
+        active_scroll="wheel_zoom",
         sizing_mode="stretch_both",
-        output_backend="canvas",
-        **{name: value for name, value in ranges.items() if value is not None},
     )
     plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
-    plot.toolbar.logo = None
-    plot.toolbar.autohide = True
+    _plain(plot)
     return plot
 
 
-def empty_map(name: str, x_range: Range1d, y_range: Range1d, *, colours: str, label: str) -> figure:
+def linear_figure(
+    x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float] | None
+) -> figure:
+    """Return an empty plot with two linear axes; without y_range it follows the data."""
+    ranges = {} if y_range is None else {"y_range": y_range}
+    plot = figure(
+        tools=_TOOLS,
+        active_scroll="wheel_zoom",
+        x_range=x_range,
+        sizing_mode="stretch_both",
+        **ranges,
+    )
+    plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
+    _plain(plot)
+    return plot
+
+
+def empty_map(name: str, x_range: Range1d, y_range: Range1d, *, rgba: bool, label: str) -> figure:
     """Return an empty map over both sides; its source has the name `name`.
 
     Parameters
     ----------
     name : str
-        Name of the source, of its colours and of its colour bar.
+        Name of the source; of its colours and of its colour bar with what they are behind it.
     x_range, y_range : Range1d
         Shared by maps that move together.
-    colours : {"cividis", "viridis", "rgba"}
-        Palette; "rgba" takes colours instead of numbers, and its bar is that of cividis.
+    rgba : bool
+        Whether the image is of colours instead of numbers; its bar is then that of cividis.
     label : str
         Of the colour bar.
     """
     plot = figure(
         x_range=x_range,
         y_range=y_range,
-        match_aspect=True,
         tools=_TOOLS,
         active_scroll="wheel_zoom",
         sizing_mode="stretch_both",
     )
     source = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []}, name=name)
-    mapper = LinearColorMapper(
-        palette=_PALETTES.get(colours, Cividis256), low=-1, high=1, name=f"{name} colours"
-    )
-    glyph = {"image": "image", "x": "x", "y": "y", "dw": "dw", "dh": "dh", "source": source}
-    if colours == "rgba":
-        plot.image_rgba(**glyph)
+    mapper = LinearColorMapper(palette=Cividis256, low=-1, high=1, name=f"{name} colours")
+    if rgba:
+        plot.image_rgba("image", "x", "y", "dw", "dh", source=source)
     else:
-        plot.image(**glyph, color_mapper=mapper)
-    plot.add_layout(ColorBar(color_mapper=mapper, title=label, name=f"{name} bar"), "right")
+        plot.image("image", "x", "y", "dw", "dh", source=source, color_mapper=mapper)
+    bar = ColorBar(color_mapper=mapper, title=label, name=f"{name} bar", width=14, padding=4)
+    plot.add_layout(bar, "right")
+    border = BoxAnnotation(left=0, right=1, bottom=0, top=1, fill_alpha=0, line_width=1)
+    border.name, border.tags = f"{name} border", themed(line_color="line")
+    plot.add_layout(border)
+    plot.min_border_left, plot.min_border_right = _BORDERS  # so that maps side by side are alike
     plot.grid.visible = False
     plot.xaxis.axis_label, plot.yaxis.axis_label = "x / L", "y / L"
+    _plain(plot)
+    return plot
+
+
+def themed(**colours: str) -> list[Any]:
+    """Return the tag of a model whose colours follow the theme of the page.
+
+    Parameters
+    ----------
+    colours : str
+        Names of the colours in the style of the page, such as "dark-line", by the attributes of
+        the model, such as ``line_color``.
+    """
+    return [{"colours": colours}]
+
+
+def _plain(plot: figure) -> None:
+    """Leave out what is no data, until it is asked for."""
     plot.toolbar.logo = None
     plot.toolbar.autohide = True
-    return plot

@@ -1,101 +1,38 @@
-"""What a process of the lab computes: tasks by name, and how their failures are told."""
+"""The tasks of the lab, by the names that its page knows them by."""
 
 from __future__ import annotations
 
-import sys
-import traceback
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from importlib import import_module
-from typing import Any
+from collections.abc import Mapping
 
-from roughline.errors import RoughlineError
-
-Progress = Callable[[int, int], None]
-"""Called with (steps done, steps in all)."""
-
-Task = Callable[[Mapping[str, Any], Progress], bytes]
-"""Arguments and progress in, a message of :mod:`roughline.lab.frames` out."""
+from roughline.server.tasks import Place
 
 
-@dataclass(frozen=True)
-class Place:
-    """Where a task is, and how it is done.
-
-    Attributes
-    ----------
-    module, function : str
-        Of the package :mod:`roughline.lab`.
-    is_quick : bool
-        Whether it takes so little that it waits for nothing but other quick ones. The others have a
-        process each, with limits of time and memory, and are stopped when they are no more wanted.
-    """
-
-    module: str
-    function: str
-    is_quick: bool = False
+def _place(module: str, function: str, *, is_quick: bool = False) -> Place:
+    """The place of a task in this package."""
+    return Place(f"roughline.lab.{module}", function, is_quick)
 
 
 TASKS: Mapping[str, Place] = {
-    "explore.reduced": Place("explore.pictures", "reduced", is_quick=True),
-    "explore.coarse": Place("explore.pictures", "coarse", is_quick=True),
-    "explore.full": Place("explore.pictures", "full"),
-    "explore.curve": Place("explore.pictures", "curve"),
-    "explore.code": Place("explore.code", "code", is_quick=True),
-    "explore.download": Place("explore.downloads", "download"),
-    "measured.look": Place("measured.file", "look"),
-    "measured.prepare": Place("measured.file", "prepare"),
-    "measured.bodies": Place("measured.bodies", "bodies", is_quick=True),
-    "measured.answer": Place("measured.answers", "answer"),
-    "measured.compare": Place("measured.comparing", "compare"),
-    "measured.report": Place("measured.documents", "report"),
-    "measured.code": Place("measured.documents", "code"),
+    "explore.reduced": _place("explore.pictures", "reduced", is_quick=True),
+    "explore.coarse": _place("explore.pictures", "coarse", is_quick=True),
+    "explore.full": _place("explore.pictures", "full"),
+    "explore.curve": _place("explore.pictures", "curve"),
+    "explore.code": _place("explore.code", "code", is_quick=True),
+    "explore.download": _place("explore.downloads", "download"),
+    "measured.look": _place("measured.file", "look"),
+    "measured.prepare": _place("measured.file", "prepare"),
+    "measured.bodies": _place("measured.bodies", "bodies", is_quick=True),
+    "measured.answer": _place("measured.answers", "answer"),
+    "measured.compare": _place("measured.comparing", "compare"),
+    "measured.report": _place("measured.documents", "report"),
+    "measured.code": _place("measured.documents", "code"),
+    "published.curves": _place("published.stiffness", "curves", is_quick=True),
+    "published.fits": _place("published.stiffness", "fits", is_quick=True),
+    "published.exponents": _place("published.laws", "exponents", is_quick=True),
+    "published.area": _place("published.laws", "area", is_quick=True),
+    "published.trust": _place("published.trust", "trust", is_quick=True),
+    "published.point": _place("published.trust", "point", is_quick=True),
+    "published.claims": _place("published.laws", "claims"),
+    "published.body": _place("published.bodies", "body"),
 }
 """All tasks by name."""
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How a task ended.
-
-    Attributes
-    ----------
-    answer : bytes or None
-        The message for the page; None if there is none.
-    error : str
-        Why there is none, in one sentence; empty if there is one.
-    at : str
-        Key of the control that the sentence belongs to; empty if it belongs to none.
-    """
-
-    answer: bytes | None = None
-    error: str = ""
-    at: str = ""
-
-
-def outcome_of(name: str, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
-    """Do a task; a refusal and a failure become sentences, without names of files and folders."""
-    try:
-        place = TASKS[name]
-        task: Task = getattr(import_module(f"roughline.lab.{place.module}"), place.function)
-        return Outcome(task(arguments, progress))
-    except RoughlineError as error:
-        return Outcome(error=without_paths(str(error), arguments), at=getattr(error, "at", ""))
-    except MemoryError:
-        return Outcome(
-            error="this needs more memory than one session may have: take fewer points or a "
-            "smaller piece"
-        )
-    except Exception:
-        traceback.print_exc(file=sys.stderr)
-        return Outcome(
-            error="the computation failed for a reason that the lab does not know; the terminal "
-            "that it was started from shows more. Change something and ask again"
-        )
-
-
-def without_paths(text: str, arguments: Mapping[str, Any]) -> str:
-    """Put the names that a user knows in the place of the lab's own names of files."""
-    for path, name in arguments["session"]["names"].items():
-        text = text.replace(path, name).replace(path.rpartition("/")[2], name)
-    return text

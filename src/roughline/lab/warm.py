@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
+import gc
 from functools import cache
 
 
 @cache
 def up() -> None:
-    """Press a small surface and a line with one thread, and load what pictures need."""
-    from roughline.computing.fft import set_threads
-    from roughline.contact.press import press
-    from roughline.spectra.self_affine import SelfAffine
+    """Do small tasks of the view "Explore" with one thread: they load and compile everything."""
+    import roughline as rl
+    from roughline.lab.explore import pictures
 
-    set_threads(1)  # many sessions share the cores
-    spectrum = SelfAffine(hurst=0.8, rms_height=1.0)
-    for periodic in (False, True):
-        press(
-            spectrum.surface(32, 0), E_star=1.0, forces=[0.1, 0.2], periodic=periodic, fields=True
-        )
-    press(spectrum.line(64, 0), E_star=1.0, forces=[0.1])
+    rl.set_threads(1)  # many sessions share the cores
+    session = {"max_points": 64}
+    for boundary in ("free", "periodic"):
+        state = {"n": "64", "boundary": boundary}
+        arguments = {"state": state, "session": session, "crowded": True}
+        for task in (pictures.reduced, pictures.full):
+            task(arguments, lambda done, total: None)
+    gc.freeze()  # what is loaded stays shared with the processes that are forked
 
 
 up()

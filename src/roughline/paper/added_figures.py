@@ -12,7 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 from roughline.comparison.trust import TrustMap
+from roughline.computing.arrays import Real
 from roughline.contact import scaling
+from roughline.paper.contact_area import mean_area
 from roughline.paper.laws import DimensionLaws
 from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
 from roughline.report.style import (
@@ -31,6 +33,8 @@ if TYPE_CHECKING:
     import xarray
 
 CONVERGENCE_DIMENSIONS = (2.0, 2.4, 2.8)
+TRUST_LEVELS = (-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4)
+"""Differences at which the colour of the trust map changes."""
 LINE_STYLES = (":", "-.", "--", "-")
 
 Colour = tuple[float, float, float, float]
@@ -50,8 +54,7 @@ def _draw_area(axes: Axes, full: xarray.Dataset) -> None:
     dimensions = full.fractal_dimension.values
     for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
         one = full.sel(fractal_dimension=dimension)
-        area = np.nanmean(one.area_fraction_corrected.values, axis=0)
-        resolved = (one.resolved.values == 1).all(axis=0)
+        area, resolved = mean_area(one)
         force = one.force_bar.values
         axes.loglog(
             force[resolved], area[resolved], color=colour, marker=marker, label=f"{dimension:.1f}"
@@ -168,15 +171,20 @@ def _draw_ratios_to_finest(
         )
 
 
+def trust_colours() -> Real:
+    """Return the colours below, between and above the levels of the trust map, shape (10, 4)."""
+    # colours change in equal steps on both sides of white, where the models agree
+    steps = np.concatenate([np.linspace(0.1, 0.4, 4), [0.5], np.linspace(0.6, 0.95, 5)])
+    return mpl.colormaps["RdBu_r"](steps)
+
+
 def trust_map_figure(trust: TrustMap) -> Figure:
     """Draw the relative difference of the two models, a panel for each roll-off ratio."""
     count = trust.roll_off_ratios.size
     figure = new_figure(PAGE, 2.7)
     panels = figure.subplots(1, count, sharey=True)
-    levels = np.array([-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4])
-    # colours change in equal steps on both sides of white, where the models agree
-    steps = np.concatenate([np.linspace(0.1, 0.4, 4), [0.5], np.linspace(0.6, 0.95, 5)])
-    scale = ListedColormap(mpl.colormaps["RdBu_r"](steps))
+    levels = np.array(TRUST_LEVELS)
+    scale = ListedColormap(trust_colours())
     norm = BoundaryNorm(levels, levels.size + 1, extend="both")
     for i, (panel, roll_off) in enumerate(zip(panels, trust.roll_off_ratios, strict=True)):
         shown = panel.pcolormesh(

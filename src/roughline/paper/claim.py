@@ -14,8 +14,6 @@ from roughline.statistics.verdict import Verdict, joint_verdict, verdict
 if TYPE_CHECKING:
     import xarray
 
-EXPONENT_TOLERANCE = 0.05
-"""How near exponents must come; the paper's own plots show no more."""
 STIFFNESS_TOLERANCE = 0.10
 """How near stiffnesses must come, as a share."""
 EXACT = "exact"

@@ -5,8 +5,9 @@ from __future__ import annotations
 from roughline.paper import claims_on_computing as on_computing
 from roughline.paper import claims_on_contact as on_contact
 from roughline.paper import claims_on_exponents as on_exponents
-from roughline.paper.claim import EXPONENT_TOLERANCE, STIFFNESS_TOLERANCE, Claim
+from roughline.paper.claim import STIFFNESS_TOLERANCE, Claim
 from roughline.paper.results import PaperResults
+from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.report.page import Section, Table
 
 

@@ -7,7 +7,6 @@ import numpy as np
 from roughline.contact import scaling
 from roughline.paper.claim import (
     EXACT,
-    EXPONENT_TOLERANCE,
     STIFFNESS_TOLERANCE,
     Claim,
     around,
@@ -23,6 +22,7 @@ from roughline.paper.claim import (
 from roughline.paper.contact_area import SATURATED, saturation
 from roughline.paper.laws import DimensionLaws
 from roughline.paper.results import PaperResults
+from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.bootstrap import IntervalEstimate

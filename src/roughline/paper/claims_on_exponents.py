@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughline.paper.claim import (
     EXACT,
-    EXPONENT_TOLERANCE,
     Claim,
     around,
     basis_in,
@@ -22,6 +21,13 @@ from roughline.paper.claim import (
 from roughline.paper.exponents import LocalExponents, exponent_estimate
 from roughline.paper.laws import DimensionLaws
 from roughline.paper.results import PaperResults
+from roughline.paper.stated import (
+    ENDS_OF_REDUCED,
+    EXPONENT_TOLERANCE,
+    SMALL_DISCREPANCY,
+    ModelLabel,
+    is_smooth,
+)
 from roughline.paper.windows import (
     MEDIUM_FORCE,
     OTHER_WINDOWS_REDUCED,
@@ -37,13 +43,8 @@ from roughline.statistics.verdict import Verdict
 if TYPE_CHECKING:
     import xarray
 
-ModelLabel = Literal["1D", "3D"]
-
 _NO_CHANGE = around(0, EXPONENT_TOLERANCE)
 _BOTH_MODELS = (0.5 - EXPONENT_TOLERANCE, 0.8 + EXPONENT_TOLERANCE)  # of §7, for both
-_ENDS_OF_REDUCED = (0.5, 0.75)  # of §6, at D_f = 2 and 3
-_EXTREMELY_WELL_UP_TO = 2.6  # D_f
-_SMALL = 2 * EXPONENT_TOLERANCE  # a "small discrepancy" of exponents
 
 
 def constant_exponent(results: PaperResults, model: ModelLabel, said: str) -> Claim:
@@ -82,7 +83,7 @@ def ends_of_reduced(results: PaperResults) -> Claim:
     ends = cases_of(
         [results.laws[0], results.laws[-1]], lambda laws: exponent_estimate(laws.reduced)
     )
-    off = [(d, end - said) for (d, end), said in zip(ends, _ENDS_OF_REDUCED, strict=True)]
+    off = [(d, end - said) for (d, end), said in zip(ends, ENDS_OF_REDUCED.values(), strict=True)]
     elsewhere = [law.exponent for law in results.laws[-1].reduced_elsewhere]
     whole, in_words = by_dimension(off, _NO_CHANGE)
     return Claim(
@@ -142,7 +143,7 @@ def linear_in_dimension(results: PaperResults) -> Claim:
 
 def scaling_argument(results: PaperResults, model: ModelLabel) -> Claim:
     """Judge whether eq. 14 gives the exponent of smooth surfaces."""
-    smooth = [laws for laws in results.laws if _is_smooth(laws)]
+    smooth = [laws for laws in results.laws if is_smooth(laws.fractal_dimension)]
     off = cases_of(smooth, lambda laws: _off_scaling(laws, model))
     return claim_about_every_dimension(
         f"{model}: α = 1 / (4 - D_f) extremely well for D_f ≤ 2.6 (eq. 14, §7)",
@@ -156,14 +157,15 @@ def scaling_argument(results: PaperResults, model: ModelLabel) -> Claim:
 
 def small_discrepancy(results: PaperResults, model: ModelLabel) -> Claim:
     """Judge whether eq. 14 differs little from the exponent of rough surfaces."""
-    rough = [laws for laws in results.laws if not _is_smooth(laws)]
+    rough = [laws for laws in results.laws if not is_smooth(laws.fractal_dimension)]
     off = cases_of(rough, lambda laws: _off_scaling(laws, model))
     return claim_about_every_dimension(
-        f"{model}: a small discrepancy from 1 / (4 - D_f) for D_f > 2.6 (§7; small: {_SMALL:g})",
+        f"{model}: a small discrepancy from 1 / (4 - D_f) for D_f > 2.6 (§7; small: "
+        f"{SMALL_DISCREPANCY:g})",
         found=f"off by {numbers_by_dimension(off, '+.3f')}",
         basis=basis_in(_window(model), _data(results, model)),
         cases=off,
-        allowed=around(0, _SMALL),
+        allowed=around(0, SMALL_DISCREPANCY),
         form="+.3f",
     )
 
@@ -192,10 +194,6 @@ def same_behaviour(results: PaperResults) -> Claim:
         allowed=_NO_CHANGE,
         form="+.3f",
     )
-
-
-def _is_smooth(laws: DimensionLaws) -> bool:
-    return laws.fractal_dimension <= _EXTREMELY_WELL_UP_TO + 1e-9
 
 
 def _off_scaling(laws: DimensionLaws, model: ModelLabel) -> IntervalEstimate:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
 from roughline.paper.windows import WINDOW_AREA
 from roughline.statistics import bootstrap
@@ -39,6 +39,20 @@ class AreaLaw:
     kappa: IntervalEstimate
     kappa_ends: tuple[float, float]
     exponent: IntervalEstimate
+
+
+def mean_area(one: xarray.Dataset) -> tuple[Real, Mask]:
+    """Return the mean real area fraction at each load, corrected for its outline.
+
+    Returns
+    -------
+    area : ndarray, shape (loads,)
+        Over the nominal area. [1]
+    resolved : ndarray of bool, shape (loads,)
+        Whether ten cells or more touch in every realisation.
+    """
+    area = np.nanmean(one.area_fraction_corrected.values, axis=0)
+    return area, (one.resolved.values == 1).all(axis=0)
 
 
 def area_law(full: xarray.Dataset, name: str) -> AreaLaw:

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
 from roughline.paper.laws import DimensionLaws
+from roughline.paper.mean_curve import mean_curve
 from roughline.paper.windows import WINDOW_FULL, WINDOW_REDUCED, Window
 from roughline.report.style import (
     COLUMN,
@@ -173,13 +174,10 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
     dimensions = data.fractal_dimension.values
     for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
         one = data.sel(fractal_dimension=dimension)
-        stiffness = one.stiffness.values / punch
-        mean = np.nanmean(stiffness, axis=0)
-        error = np.nanstd(stiffness, axis=0, ddof=1) / np.sqrt(stiffness.shape[0])
-        force = one.force_bar.values
-        resolved = (one.resolved.values == 1).all(axis=0)
+        curve = mean_curve(one, punch)
+        force, mean, resolved = curve.force_bar, curve.mean, curve.resolved
         mark_spacing = max(1, force.size // 24)
-        axes.fill_between(force, mean - error, mean + error, color=colour, alpha=0.25, linewidth=0)
+        axes.fill_between(force, curve.low, curve.high, color=colour, alpha=0.25, linewidth=0)
         axes.loglog(
             force[resolved],
             mean[resolved],

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
+from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -102,7 +103,7 @@ def results_of_store(store: Store, name: str, command: str) -> PaperResults:
 
 
 def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:
-    """Read the results that ``studies/paper`` keeps as files.
+    """Read the results that a reduced study keeps as files.
 
     Parameters
     ----------
@@ -131,6 +132,41 @@ def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:
             **{row_of_grid(n): times[f"grids-n{n}"] for n in _OTHER_GRIDS},
         },
     )
+
+
+@cache
+def published_results() -> PaperResults:
+    """Return the study that comes with the package; it is read once.
+
+    Returns
+    -------
+    PaperResults
+        What the page "The paper, recomputed" is made of: 500 lines of 2^20 points and 60 surfaces
+        of 512² for each of six fractal dimensions. It has no gallery.
+    """
+    return results_of_folder(
+        published_folder(),
+        name="from the study in studies/paper",
+        command="roughline campaign run studies/paper/plan.toml",
+    )
+
+
+@cache
+def published_dataset(name: str) -> xarray.Dataset:
+    """Return one part of that study alone, which is sooner read than all; it is read once.
+
+    Parameters
+    ----------
+    name : {"lines", "surfaces", "exponents"}
+        The reduced ensemble, the full one, or the exponents of the reduced model over all
+        fractal dimensions, as in :class:`PaperResults`.
+    """
+    return _read_netcdf(published_folder() / f"{name}.nc")
+
+
+def published_folder() -> Path:
+    """Where the files of the study are that comes with the package."""
+    return Path(str(files("roughline.paper").joinpath("data")))
 
 
 def _read_netcdf(path: Path) -> xarray.Dataset:

@@ -51,9 +51,9 @@ def exponent_table(laws: list[DimensionLaws]) -> Table:
             f"{each.fractal_dimension:.1f}",
             f"{scaling_exponent(each.fractal_dimension):.3f}",
             f"{linear_exponent(each.fractal_dimension):.3f}",
-            _estimate_cell(exponent_estimate(each.reduced)),
+            estimate_cell(exponent_estimate(each.reduced)),
             *(f"{law.exponent:.3f}" for law in each.reduced_elsewhere),
-            _estimate_cell(exponent_estimate(each.full)),
+            estimate_cell(exponent_estimate(each.full)),
             f"{each.unresolved:.0%}",
         )
         for each in laws
@@ -80,7 +80,7 @@ def constant_table(laws: list[DimensionLaws]) -> Table:
         rows.append(
             (
                 f"{each.fractal_dimension:.1f}",
-                *(_estimate_cell(estimate) for estimate in estimates),
+                *(estimate_cell(estimate) for estimate in estimates),
                 f"{first:.2f} to {last:.2f}",
             )
         )
@@ -109,9 +109,9 @@ def sensitivity_table(model: str, rows: list[Sensitivity]) -> Table:
 
 def _fit_cells(arithmetic: PowerLaw, geometric: PowerLaw, level: IntervalEstimate) -> list[str]:
     return [
-        _estimate_cell(exponent_estimate(arithmetic)),
+        estimate_cell(exponent_estimate(arithmetic)),
         f"{geometric.exponent:.3f}",
-        "-" if np.isnan(level.value) else _estimate_cell(level),
+        "-" if np.isnan(level.value) else estimate_cell(level),
     ]
 
 
@@ -120,7 +120,7 @@ def _automatic_cells(law: PowerLaw | None) -> list[str]:
         return ["none", "-"]
     return [
         f"{law.window[0]:.2g} to {law.window[1]:.2g}",
-        _estimate_cell(exponent_estimate(law)),
+        estimate_cell(exponent_estimate(law)),
     ]
 
 
@@ -159,7 +159,8 @@ def _spread_cell(ratio: xarray.DataArray, force_bar: float) -> str:
     return f"{values.mean():.3f} ({values.min():.3f}-{values.max():.3f})"
 
 
-def _estimate_cell(number: IntervalEstimate) -> str:
+def estimate_cell(number: IntervalEstimate) -> str:
+    """Write a number with its interval, as all tables of the study do."""
     return f"{number.value:.3f} ({number.low:.3f}-{number.high:.3f})"
 
 

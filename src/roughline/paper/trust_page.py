@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.comparison.trust import TrustMap
+from roughline.comparison.trust import Difference, TrustMap
 from roughline.report.page import Section, Table, render_markdown
 from roughline.statistics.verdict import Verdict, verdict
 
@@ -131,7 +131,11 @@ def _counts_of_verdicts(trust: TrustMap) -> str:
 
 
 def _cell(trust: TrustMap, roll_off: float, dimension: float, force_bar: float) -> str:
-    difference = trust.at(dimension, force_bar, roll_off)
+    return trust_cell(trust.at(dimension, force_bar, roll_off))
+
+
+def trust_cell(difference: Difference) -> str:
+    """Write a difference with its interval; a star stands where the grid decides."""
     if np.isnan(difference.value):
         return "-"
     star = "" if difference.resolved else " *"

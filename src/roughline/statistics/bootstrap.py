@@ -177,9 +177,11 @@ def function_of_means(values: Real, statistic: Statistic, rng: int = 0) -> Resam
     shift = weights @ deviations / count
     results, gradient = statistic(centre + shift)
     # how far each realisation moves the statistic of each resample
-    moves = gradient @ deviations.T - (gradient * shift).sum(axis=1)[:, np.newaxis]
+    moves = gradient @ deviations.T
+    moves -= (gradient * shift).sum(axis=1)[:, np.newaxis]
+    np.square(moves, out=moves)  # in place, as these arrays are large
     freedom = max(count - 1, 1)
-    errors = np.sqrt((weights * moves**2).sum(axis=1) / count / freedom)
+    errors = np.sqrt(np.einsum("ij,ij->i", weights, moves) / count / freedom)
     return Resampled(
         results[0], errors[0], results[1:], errors[1:], np.asarray(count - 1, dtype=np.float64)
     )

@@ -6,9 +6,8 @@ import math
 from dataclasses import replace
 from functools import lru_cache
 
+import roughline as rl
 from roughline.lab.explore.state import ExploreState
-from roughline.spectra.self_affine import SelfAffine
-from roughline.topography.body import Line, Surface
 
 LINES = 20
 """Lines whose mean stiffness stands for the reduced model."""
@@ -16,20 +15,20 @@ _SPRINGS_PER_POINT = 32
 _FEWEST_SPRINGS = 2**13
 
 
-def spectrum_of(state: ExploreState, n: int) -> SelfAffine:
+def spectrum_of(state: ExploreState, n: int) -> rl.SelfAffine:
     """The spectrum of a state, with the waves that n points carry. [m]"""
     return _spectrum(state, n, rms_height(state))
 
 
-def surface_of(state: ExploreState, n: int) -> Surface:
+def surface_of(state: ExploreState, n: int) -> rl.Surface:
     """The surface of a state on n points along a side. [m]"""
     return _surface(spectrum_of(state, n), n, state.seed)
 
 
-def lines_of(state: ExploreState) -> tuple[Line, ...]:
+def lines_of(state: ExploreState, count: int = LINES) -> tuple[rl.Line, ...]:
     """Lines of the spectrum of a state, with the waves of its surface. [m]"""
     springs = max(_FEWEST_SPRINGS, _SPRINGS_PER_POINT * state.n)
-    return _lines(spectrum_of(state, state.n), springs, state.seed)
+    return _lines(spectrum_of(state, state.n), springs, state.seed, count)
 
 
 def rms_height(state: ExploreState) -> float:
@@ -40,9 +39,9 @@ def rms_height(state: ExploreState) -> float:
     return state.slope / slope
 
 
-def _spectrum(state: ExploreState, n: int, height: float) -> SelfAffine:
+def _spectrum(state: ExploreState, n: int, height: float) -> rl.SelfAffine:
     q_low = 2 * math.pi / state.length
-    return SelfAffine(
+    return rl.SelfAffine(
         fractal_dimension=state.D_f,
         length=state.length,
         rms_height=height,
@@ -52,10 +51,10 @@ def _spectrum(state: ExploreState, n: int, height: float) -> SelfAffine:
 
 
 @lru_cache(maxsize=4)
-def _surface(spectrum: SelfAffine, n: int, seed: int) -> Surface:
+def _surface(spectrum: rl.SelfAffine, n: int, seed: int) -> rl.Surface:
     return replace(spectrum.surface(n, seed), unit="m")
 
 
 @lru_cache(maxsize=2)
-def _lines(spectrum: SelfAffine, springs: int, seed: int) -> tuple[Line, ...]:
-    return tuple(spectrum.line(springs, seed + i) for i in range(LINES))
+def _lines(spectrum: rl.SelfAffine, springs: int, seed: int, count: int) -> tuple[rl.Line, ...]:
+    return tuple(spectrum.line(springs, seed + i) for i in range(count))

@@ -6,10 +6,11 @@ import shlex
 from collections.abc import Mapping
 from typing import Any
 
+from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import rms_height
-from roughline.lab.explore.state import ExploreState, state_of
+from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
-from roughline.lab.tasks import Progress
+from roughline.server.tasks import Progress
 
 
 def code(arguments: Mapping[str, Any], progress: Progress) -> bytes:

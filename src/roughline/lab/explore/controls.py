@@ -89,8 +89,8 @@ FORCE = Control(
 )
 POINTS = Choice(
     "n",
-    "points",
-    {str(n): f"{n}²" for n in (64, 128, 256, 512, 1024)},
+    "points along a side",
+    {str(n): str(n) for n in (64, 128, 256, 512, 1024)},
     "512",
     "Points along a side of the grid: more points, finer waves and a longer wait.",
 )
@@ -103,7 +103,7 @@ ROUGHNESS = Choice(
 )
 BOUNDARY = Choice(
     "boundary",
-    "half-space",
+    "around the surface",
     {"free": "free", "periodic": "periodic"},
     "free",
     "Free: the half-space goes on, unloaded, around the surface. Periodic: the surface is repeated "
@@ -116,6 +116,13 @@ SHOWN = Choice(
     "area",
     "What the second map shows.",
 )
-
-NUMBERS = (D_F, ROLL_OFF, CUTOFF, HEIGHT, SLOPE, SEED, FORCE)
-CHOICES = (POINTS, ROUGHNESS, BOUNDARY, SHOWN)
+THEORIES = Choice(
+    "theories",
+    "theory",
+    {
+        "persson": "Persson",
+        "bush-gibson-thomas": "Bush, Gibson, Thomas",
+        "greenwood-williamson": "Greenwood, Williamson",
+    },
+    meaning="Theories of the same waves, drawn beside the curves; they hold for periodic surfaces.",
+)

@@ -8,15 +8,13 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from roughline.assessment.assess import assess
-from roughline.assessment.question import Question
-from roughline.files.netcdf import write
+import roughline as rl
 from roughline.lab.controls import ControlError
+from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import rms_height, surface_of
-from roughline.lab.explore.state import state_of
 from roughline.lab.frames import frame
-from roughline.lab.tasks import Progress
 from roughline.report.contact_figures import write_contact
+from roughline.server.tasks import Progress
 
 FILES = (
     *("contact.png", "contact.pdf", "curve.png", "curve.pdf", "curve.csv", "curve.nc"),
@@ -35,11 +33,11 @@ def download(arguments: Mapping[str, Any], progress: Progress) -> bytes:
     folder.mkdir(parents=True, exist_ok=True)
     surface = surface_of(state, state.n)
     if name == "surface.nc":
-        write(surface, folder / name)
+        rl.write(surface, folder / name)
         return frame({"file": name})
     force = state.F * state.E_star * rms_height(state) * state.length
-    result = assess(
-        Question(
+    result = rl.assess(
+        rl.Question(
             surface,
             E_star=state.E_star,
             loads=force,

@@ -5,20 +5,19 @@ from __future__ import annotations
 from bokeh.models import ColumnDataSource, Range1d, Span
 from bokeh.plotting import figure
 
-from roughline.lab.plots import embedded, empty_map, log_figure
+from roughline.lab.plots import embedded, empty_map, log_figure, themed
 
 _FORCE = "force F / (E* h L)"
+_FORCES = (1e-4, 10.0)
 
 
 def figures() -> bytes:
     """All of them; their data come later, into sources of these names."""
-    x, y = Range1d(0, 1, bounds="auto"), Range1d(0, 1, bounds="auto")
-    topography = empty_map("topography", x, y, colours="rgba", label="height / h")
-    contact = empty_map("contact", x, y, colours="cividis", label="")
+    x, y = Range1d(0, 1), Range1d(0, 1)
     return embedded(
         {
-            "explore-topography": topography,
-            "explore-contact": contact,
+            "explore-topography": empty_map("topography", x, y, rgba=True, label="height / h"),
+            "explore-contact": empty_map("contact", x, y, rgba=False, label=""),
             "explore-stiffness": _stiffness(),
             "explore-area": _area(),
             "explore-spectrum": _spectrum(),
@@ -27,40 +26,56 @@ def figures() -> bytes:
 
 
 def _stiffness() -> figure:
-    plot = log_figure(_FORCE, "stiffness k̄", (1e-4, 10), (1e-3, 1.6))
+    plot = log_figure(_FORCE, "stiffness k̄", _FORCES, (1e-3, 1.6))
     line = ColumnDataSource({"x": [], "y": [], "low": [], "high": []}, name="stiffness line")
-    plot.varea("x", "low", "high", source=line, fill_alpha=0.25, legend_label="1D, single lines")
-    plot.line("x", "y", source=line, line_width=2, legend_label="1D, mean of lines")
+    look = {"source": line, "legend_label": "1D, mean and range of single lines"}
+    band = plot.varea("x", "low", "high", fill_alpha=0.25, **look)
+    band.glyph.tags = themed(fill_color="light-line")
+    mean = plot.line("x", "y", line_width=2.5, **look)
+    mean.glyph.tags = themed(line_color="light-line")
     _draw_loads(plot, "stiffness")
     return plot
 
 
 def _area() -> figure:
-    plot = log_figure(_FORCE, "real contact area A / A_0", (1e-4, 10), (1e-4, 1.3))
+    plot = log_figure(_FORCE, "real contact area A / A_0", _FORCES, (1e-4, 1.3))
     _draw_loads(plot, "area")
     return plot
 
 
 def _spectrum() -> figure:
-    plot = log_figure("waves in the side, q L / 2π", "C_2d [m⁴]", None, None)
+    plot = log_figure("waves in the side, q L / 2π", "C_2d [m⁴]", (0.8, 300), (1e-20, 1e-10))
     source = ColumnDataSource({"x": [], "y": [], "law": []}, name="spectrum")
-    plot.scatter("x", "y", source=source, size=4)
-    plot.line("x", "law", source=source, line_width=2)
+    marks = plot.scatter("x", "y", source=source, size=4)
+    marks.glyph.tags = themed(fill_color="mark", line_color="mark")
+    law = plot.line("x", "law", source=source, line_width=2)
+    law.glyph.tags = themed(line_color="here")
     return plot
 
 
 def _draw_loads(plot: figure, name: str) -> None:
     """Add theories, the loads of the full model, the present one, and the cursor that sets it."""
-    theories = ColumnDataSource({"xs": [], "ys": [], "name": []}, name=f"{name} theories")
-    plot.multi_line("xs", "ys", source=theories, line_dash="dashed", line_width=1.5)
-    for what, label, size, fill in (
-        ("curve", "3D", 7, 1.0),
-        ("unsure", "3D, the grid decides", 7, 0.0),
-        ("here", "3D, this load", 12, 1.0),
+    for i, dashes in enumerate(("dashed", "dotted", "dashdot")):
+        source = ColumnDataSource({"x": [], "y": []}, name=f"{name} theory {i}")
+        curve = plot.line("x", "y", source=source, line_dash=dashes, line_width=2)
+        curve.glyph.tags = themed(line_color="theory")
+    for what, label, size, colour, filled in (
+        ("curve", "3D", 7, "dark-line", True),
+        ("unsure", "3D, fewer than ten cells touch", 7, "dark-line", False),
+        ("here", "3D, this load", 13, "here", True),
     ):
         source = ColumnDataSource({"x": [], "y": []}, name=f"{name} {what}")
-        plot.scatter("x", "y", source=source, size=size, fill_alpha=fill, legend_label=label)
-    plot.add_layout(
-        Span(dimension="height", location=0.1, line_width=3, editable=True, name=f"{name} cursor")
-    )
+        marks = plot.scatter(
+            "x",
+            "y",
+            source=source,
+            size=size,
+            line_width=1.5,
+            legend_label=label,
+            fill_alpha=float(filled),
+        )
+        marks.glyph.tags = themed(fill_color=colour, line_color=colour)
+    cursor = Span(dimension="height", location=0.1, line_width=3, editable=True)
+    cursor.name, cursor.tags = f"{name} cursor", themed(line_color="here", hover_line_color="mark")
+    plot.add_layout(cursor)
     plot.legend.location = "bottom_right"

@@ -9,25 +9,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
-from roughline.contact.press import press
+import roughline as rl
 from roughline.contact.scaling import stiffness_bar
-from roughline.errors import ContinuumWarning
-from roughline.lab.explore.bodies import lines_of, rms_height, spectrum_of, surface_of
-from roughline.lab.explore.state import ExploreState, state_of
-from roughline.lab.explore.words import area_rows, contact_words, line_words, status, stiffness_rows
+from roughline.lab.explore.address import state_of
+from roughline.lab.explore.bodies import LINES, lines_of, rms_height, spectrum_of, surface_of
+from roughline.lab.explore.state import ExploreState
+from roughline.lab.explore.words import (
+    area_rows,
+    contact_words,
+    line_words,
+    number_rows,
+    status,
+    stiffness_rows,
+)
 from roughline.lab.frames import frame
 from roughline.lab.shading import shaded
-from roughline.lab.tasks import Progress
-from roughline.spectra.isotropic import isotropic_spectrum
-from roughline.statistics.averages import average
-from roughline.theories.theory import theory
-from roughline.topography.body import Surface
+from roughline.server.tasks import Progress
 
 COARSE, COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""
+FEWER_LINES = 5
+"""Lines of the reduced model when many ask at once."""
+_FIRST_STEP = 256  # points along a side that come before the full grid when many ask at once
 _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
+_MOST_ROWS = 40  # of the spectrum's table
 _CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
 _CURVE_FORCES = np.geomspace(1e-3, 3, 13)
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
@@ -36,12 +41,15 @@ Arguments = Mapping[str, Any]
 
 
 def reduced(arguments: Arguments, progress: Progress) -> bytes:
-    """Mean stiffness of lines over force, and at the load of the state."""
+    """Mean stiffness of lines over force, and at the load of the state.
+
+    In a crowd it is that of fewer lines first; the page asks for the others by "refines".
+    """
     state = _state(arguments)
-    lines = lines_of(state)
+    lines = lines_of(state, FEWER_LINES if _is_first_step(arguments) else LINES)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
-    mean = average(stiffness)
+    mean = stiffness.mean(axis=0)  # without its interval, which would take as long as all lines
     here = int(np.searchsorted(forces, state.F))
     return frame(
         {
@@ -49,12 +57,14 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
             "numbers": _numbers(state),
             "line": {
                 "force_bar": forces,
-                "stiffness_bar": mean.mean,
+                "stiffness_bar": mean,
                 "low": stiffness.min(axis=0),
                 "high": stiffness.max(axis=0),
             },
-            "stiffness_bar_1d": float(mean.mean[here]),
-            "strip": line_words(state, float(mean.mean[here]), len(lines)),
+            "stiffness_bar_1d": float(mean[here]),
+            "table": [[*row, "1D"] for row in number_rows(forces, mean)],
+            "strip": line_words(state, float(mean[here]), len(lines)),
+            "is_coarse": len(lines) < LINES,
         }
     )
 
@@ -64,13 +74,17 @@ def coarse(arguments: Arguments, progress: Progress) -> bytes:
     state = _state(arguments)
     crowded = arguments["crowded"] and state.roll_off > _LONG_ROLL_OFF
     n = min(state.n, COARSER if crowded else COARSE)
-    return _contact(state, n)
+    return _contact(state, n, progress)
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
-    """The contact on the grid of the state."""
+    """The contact on the grid of the state.
+
+    In a crowd it is on fewer points first; the page asks for the full grid by "refines".
+    """
     state = _state(arguments)
-    return _contact(state, state.n)
+    n = min(state.n, _FIRST_STEP) if _is_first_step(arguments) else state.n
+    return _contact(state, n, progress)
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
@@ -78,7 +92,7 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     state = _state(arguments)
     n = min(state.n, _CURVE_POINTS)
     surface = surface_of(state, n)
-    pressed = press(
+    pressed = rl.press(
         surface,
         E_star=state.E_star,
         forces=_force(state, _CURVE_FORCES),
@@ -98,16 +112,20 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     )
 
 
-def _contact(state: ExploreState, n: int) -> bytes:
+def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
+    """The contact on a grid; on the grid of the state, with what finer ones may change."""
     started = time.perf_counter()
+    is_coarse = n < state.n
     surface = surface_of(state, n)
-    pressed = press(
+    pressed = rl.press(
         surface,
         E_star=state.E_star,
         forces=[_force(state, state.F)],
         periodic=state.periodic,
         fields=True,
+        grid_error=not is_coarse,
         throw=False,
+        progress=progress,
     )
     fields = pressed.fields[0]
     seconds = time.perf_counter() - started
@@ -125,12 +143,12 @@ def _contact(state: ExploreState, n: int) -> bytes:
             "state": state.address(),
             "numbers": _numbers(state),
             "points": n,
-            "is_coarse": n < state.n,
+            "is_coarse": is_coarse,
             "heights": [float(heights.min()), float(heights.max())],
             "curve": _of_curve(pressed),
-            "spectrum": _of_spectrum(surface, state, n),
+            **({} if is_coarse else _of_spectrum(surface, state)),
             "strip": contact_words(pressed, fields, surface),
-            "status": status(pressed, n, seconds, is_coarse=n < state.n),
+            "status": status(pressed, n, seconds, is_coarse=is_coarse),
         },
         {name: values.T for name, values in arrays.items()},  # rows of an image run along x
     )
@@ -138,6 +156,11 @@ def _contact(state: ExploreState, n: int) -> bytes:
 
 def _state(arguments: Arguments) -> ExploreState:
     return state_of(arguments["state"], arguments["session"]["max_points"])
+
+
+def _is_first_step(arguments: Arguments) -> bool:
+    """Whether many ask at once, and this page has no answer yet."""
+    return bool(arguments["crowded"]) and arguments.get("refines") is not True
 
 
 def _numbers(state: ExploreState) -> dict[str, float]:
@@ -151,13 +174,13 @@ def _force(state: ExploreState, force_bar: Any) -> Any:
     return force_bar * (state.E_star * rms_height(state) * state.length)
 
 
-def _press_bar(line: Any, state: ExploreState, force_bars: Real) -> Curve:
+def _press_bar(line: rl.Line, state: ExploreState, force_bars: NDArray[np.float64]) -> rl.Curve:
     """Press a line under dimensionless forces, scaled with its own rms height."""
     scale = state.E_star * line.rms_height * line.length
-    return press(line, E_star=state.E_star, forces=force_bars * scale)
+    return rl.press(line, E_star=state.E_star, forces=force_bars * scale)
 
 
-def _of_curve(pressed: Curve) -> dict[str, Any]:
+def _of_curve(pressed: rl.Curve) -> dict[str, Any]:
     """What the page draws of a curve; a load that was not solved is left out there."""
     return {
         "force_bar": pressed.force_bar,
@@ -169,27 +192,28 @@ def _of_curve(pressed: Curve) -> dict[str, Any]:
     }
 
 
-def _of_spectrum(surface: Surface, state: ExploreState, n: int) -> dict[str, Any]:
+def _of_spectrum(surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     """Spectrum of the surface, and the law that it is drawn from, over waves in the side."""
-    measured = isotropic_spectrum(surface)
+    measured = rl.isotropic_spectrum(surface)
     known = measured.C_2d > 0
-    q = measured.q[known]
-    law = spectrum_of(state, n).lattice(n).C_2d(q)
+    q, power = measured.q[known], measured.C_2d[known]
+    law = spectrum_of(state, state.n).lattice(state.n).C_2d(q)
+    waves = q * state.length / (2 * np.pi)
+    shown = slice(None, None, -(-waves.size // _MOST_ROWS))
     return {
-        "waves": q * state.length / (2 * np.pi),
-        "C_2d": measured.C_2d[known],
-        "law": np.where(law > 0, law, np.nan),
+        "spectrum": {"waves": waves, "C_2d": power, "law": np.where(law > 0, law, np.nan)},
+        "spectrum_table": number_rows(waves[shown], power[shown], law[shown]),
     }
 
 
-def _of_theory(name: str, surface: Surface, state: ExploreState) -> dict[str, Any]:
+def _of_theory(name: str, surface: rl.Surface, state: ExploreState) -> dict[str, Any]:
     """A theory for the waves of the surface, dimensionless like the curve."""
     import warnings
 
     forces = np.geomspace(1e-3, 3, 31)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ContinuumWarning)  # its sentence is in the validity
-        found = theory(name, surface, state.E_star, _force(state, forces) / surface.area)
+        warnings.simplefilter("ignore", rl.ContinuumWarning)  # its sentence is in the validity
+        found = rl.theory(name, surface, state.E_star, _force(state, forces) / surface.area)
     stiffness = None
     if found.stiffness is not None:
         stiffness = stiffness_bar(found.stiffness * surface.area, state.E_star, surface.length)

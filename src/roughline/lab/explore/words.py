@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve, Fields, Status
+import numpy as np
+from numpy.typing import NDArray
+
+import roughline as rl
+from roughline.assessment.uncertainty import Solution
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.lab.explore.state import ExploreState
-from roughline.topography.body import Surface
+from roughline.report.values import value_and_interval, with_interval
 from roughline.units import decimal, engineering
 
 _DIGITS = 3
@@ -30,30 +33,52 @@ def line_words(state: ExploreState, stiffness_bar: float, lines: int) -> list[It
     ]
 
 
-def contact_words(pressed: Curve, fields: Fields | None, surface: Surface) -> list[Item]:
+def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surface) -> list[Item]:
     """What the full model says at the load."""
     if not pressed.converged[0] or fields is None:
-        reason = Status(pressed.status[0]).reason
+        reason = rl.Status(pressed.status[0]).reason
         return [_item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
-    force, area = float(pressed.force[0]), float(pressed.area_fraction_corrected[0])  # type: ignore[index]
-    in_contact = force / (surface.area * float(pressed.area_fraction[0]))  # type: ignore[index]
-    star = "" if pressed.resolved[0] else " *"
+    intervals = Solution.of(pressed, interrupted=False)
     return [
-        _item(
-            "stiffness_3d",
-            "k̄ (3D)",
-            decimal(float(pressed.stiffness_bar[0]), _DIGITS) + star,
-            "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
-            "square punch."
-            + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if star else ""),
-            engineering(float(pressed.stiffness[0]), "N/m", _DIGITS),
-        ),
-        _item(
-            "area",
-            "contact",
-            f"{decimal(100 * area, _DIGITS)}%",
-            "Real contact area over the nominal one, corrected for the steps of its outline.",
-        ),
+        _stiffness(pressed, intervals),
+        _area(pressed, intervals),
+        *_pressure_and_depth(pressed, surface),
+        _roughness(surface),
+    ]
+
+
+def _stiffness(pressed: rl.Curve, intervals: Solution) -> Item:
+    unsure = not pressed.resolved[0]
+    return _item(
+        "stiffness_3d",
+        "k̄ (3D)",
+        decimal(float(pressed.stiffness_bar[0]), _DIGITS) + (" *" if unsure else ""),
+        "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
+        "square punch. The interval is what finer grids may change."
+        + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
+        with_interval(float(pressed.stiffness[0]), _first(intervals.stiffness_interval), "N/m"),
+    )
+
+
+def _area(pressed: rl.Curve, intervals: Solution) -> Item:
+    assert pressed.area_fraction_corrected is not None
+    area = float(pressed.area_fraction_corrected[0])
+    written = with_interval(area, _first(intervals.area_interval), "%")
+    return _item(
+        "area",
+        "contact",
+        f"{decimal(100 * area, _DIGITS)}%",
+        "Real contact area over the nominal one, corrected for the steps of its outline. The "
+        "interval is what finer grids, with finer roughness, may change.",
+        *value_and_interval(written)[1:],
+    )
+
+
+def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[Item]:
+    assert pressed.area_fraction is not None
+    force, depth = float(pressed.force[0]), float(pressed.depth[0])
+    in_contact = force / (surface.area * float(pressed.area_fraction[0]))
+    return [
         _item(
             "pressure",
             "p_c",
@@ -64,9 +89,9 @@ def contact_words(pressed: Curve, fields: Fields | None, surface: Surface) -> li
         _item(
             "depth",
             "d",
-            f"{decimal(float(pressed.depth[0]) / surface.rms_height, _DIGITS)} h",
+            f"{decimal(depth / surface.rms_height, _DIGITS)} h",
             "Depth since the first touch of the highest summit.",
-            engineering(float(pressed.depth[0]), "m", _DIGITS),
+            engineering(depth, "m", _DIGITS),
         ),
         _item(
             "force",
@@ -75,17 +100,20 @@ def contact_words(pressed: Curve, fields: Fields | None, surface: Surface) -> li
             "Total force on the surface, for the side and the contact modulus that are set.",
             f"{engineering(force / surface.area, 'Pa', _DIGITS)} over the nominal area",
         ),
-        _item(
-            "roughness",
-            "h",
-            engineering(surface.rms_height, "m", _DIGITS),
-            "Rms height; the rms slope on this grid stands below it.",
-            f"slope {decimal(surface.rms_slope, _DIGITS)}",
-        ),
     ]
 
 
-def status(pressed: Curve, n: int, seconds: float, *, is_coarse: bool) -> str:
+def _roughness(surface: rl.Surface) -> Item:
+    return _item(
+        "roughness",
+        "h",
+        engineering(surface.rms_height, "m", _DIGITS),
+        "Rms height; the rms slope on this grid stands below it.",
+        f"slope {decimal(surface.rms_slope, _DIGITS)}",
+    )
+
+
+def status(pressed: rl.Curve, n: int, seconds: float, *, is_coarse: bool) -> str:
     """What was solved, how well, and how long it took."""
     assert pressed.convolutions is not None
     certified = "certified" if pressed.converged[0] else "NOT CONVERGED"
@@ -95,28 +123,36 @@ def status(pressed: Curve, n: int, seconds: float, *, is_coarse: bool) -> str:
     )
 
 
-def stiffness_rows(pressed: Curve) -> list[list[str]]:
-    """Rows of the table below the curve of the stiffness."""
-    return _rows(pressed, pressed.stiffness_bar)
+def stiffness_rows(pressed: rl.Curve) -> list[list[str]]:
+    """Rows of the table below the curve of the stiffness: F̄, k̄ and the model."""
+    return [[*row, "3D"] for row in _rows(pressed, pressed.stiffness_bar)]
 
 
-def area_rows(pressed: Curve) -> list[list[str]]:
-    """Rows of the table below the curve of the area."""
+def area_rows(pressed: rl.Curve) -> list[list[str]]:
+    """Rows of the table below the curve of the area: F̄ and A / A_0."""
     assert pressed.area_fraction_corrected is not None
     return _rows(pressed, pressed.area_fraction_corrected)
 
 
-def _rows(pressed: Curve, values: Real) -> list[list[str]]:
-    rows: list[list[str]] = []
-    for i, force in enumerate(pressed.force_bar):
-        shown: Any = (
-            decimal(float(values[i]), _DIGITS)
-            if pressed.converged[i]
-            else Status(pressed.status[i]).reason
-        )
-        star = "" if pressed.resolved[i] or not pressed.converged[i] else " *"
-        rows.append([decimal(float(force), _DIGITS), f"{shown}{star}"])
+def number_rows(*columns: NDArray[np.float64]) -> list[list[str]]:
+    """Rows of a table of numbers."""
+    return [[decimal(float(value), _DIGITS) for value in row] for row in zip(*columns, strict=True)]
+
+
+def _rows(pressed: rl.Curve, values: NDArray[np.float64]) -> list[list[str]]:
+    """Rows of a quantity over force; a star marks loads with too few cells in contact."""
+    rows = number_rows(pressed.force_bar, values)
+    for i, row in enumerate(rows):
+        if not pressed.converged[i]:
+            row[1] = rl.Status(pressed.status[i]).reason
+        elif not pressed.resolved[i]:
+            row[1] += " *"
     return rows
+
+
+def _first(ends: Any) -> tuple[float, float] | None:
+    """Both ends of an interval at the first load; None where there is no interval."""
+    return None if ends is None else (float(ends[0][0]), float(ends[1][0]))
 
 
 def _item(key: str, symbol: str, value: str, meaning: str, below: str = "") -> Item:

@@ -15,7 +15,6 @@ from roughline.lab.measured.kept import kept
 from roughline.lab.measured.pictures import contact_drawing, curve_drawing
 from roughline.lab.measured.state import Arguments, at, question_of, said_of, source_of
 from roughline.lab.measured.words import in_controls
-from roughline.lab.tasks import Progress
 from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
@@ -23,6 +22,7 @@ from roughline.report.contact_tables import (
     formula_table,
     star_is_shown,
 )
+from roughline.server.tasks import Progress
 from roughline.topography.body import Surface
 from roughline.units import engineering
 

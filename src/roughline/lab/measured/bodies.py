@@ -14,8 +14,8 @@ from roughline.engineering.pair import MaterialPair
 from roughline.lab.controls import ControlError
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import Arguments, at, bodies_of, loads_of, said_of
-from roughline.lab.tasks import Progress
 from roughline.report.contact_tables import material_in_words
+from roughline.server.tasks import Progress
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering, in_si
 

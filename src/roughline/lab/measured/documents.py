@@ -24,9 +24,9 @@ from roughline.lab.measured.state import (
     source_of,
     theories_of,
 )
-from roughline.lab.tasks import Progress
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import write_contact_report
+from roughline.server.tasks import Progress
 from roughline.topography.preparation import Preparation
 
 _FLAGS = {

@@ -28,8 +28,8 @@ from roughline.lab.measured.state import (
     source_of,
 )
 from roughline.lab.measured.words import in_controls
-from roughline.lab.tasks import Progress
 from roughline.report.description_table import description_table
+from roughline.server.tasks import Progress
 from roughline.topography.body import Body, Surface
 
 

@@ -44,7 +44,8 @@ export class Controls {
       const slider = this.#slider(key);
       if (slider && document.activeElement !== slider) slider.value = position(slider, value);
       const text = this.#text(key);
-      if (text && document.activeElement !== text) text.value = said(value);
+      const hasUnit = Number.isNaN(Number(this.#said[key] ?? value)); // stays as it was typed
+      if (text && document.activeElement !== text && !hasUnit) text.value = said(value);
     }
   }
 
@@ -69,8 +70,11 @@ export class Controls {
       slider.setAttribute("aria-valuetext", text);
       this.set(key, text, isFinal);
     };
+    let byPointer = false; // a key that is pressed again and again rests between
+    slider.addEventListener("pointerdown", () => { byPointer = true; });
+    slider.addEventListener("keydown", () => { byPointer = false; });
     slider.addEventListener("input", () => moved(false));
-    slider.addEventListener("change", () => moved(true));
+    slider.addEventListener("change", () => { if (byPointer) moved(true); });
   }
 
   #typed(key, text) {
@@ -94,7 +98,10 @@ export class Controls {
 }
 
 // A number as it is typed: four digits, no exponent where it is short.
-export function said(value) { return String(Number(value.toPrecision(4))); }
+export function said(value) {
+  const rounded = Number(value.toPrecision(4));
+  return rounded !== 0 && Math.abs(rounded) < 1e-4 ? rounded.toExponential() : String(rounded);
+}
 
 function position(slider, value) {
   const {low, high, scale} = slider.dataset;

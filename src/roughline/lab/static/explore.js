@@ -1,15 +1,19 @@
 // Explore: a random surface under both models, as sliders move.
 import {Controls} from "./controls.js";
 import {embedded, fillTable} from "./plots.js";
+import {Strip} from "./strip.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
 const LABELS = {
   area: "black: in contact",
-  pressure: "pressure over E*",
-  gap: "gap in rms heights",
+  pressure: "pressure over E*; blank where nothing touches",
+  gap: "gap in rms heights; blank where they touch",
   displacement: "deflection of the half-space in rms heights",
 };
+const DASHES = ["– –", "· · ·", "– ·"]; // as theories are drawn
+const MOST_THEORIES = DASHES.length;
+const CONTACT = ["topography", "contact"], CURVES = ["stiffness", "area", "spectrum"]; // panels
 const STRIP = ["stiffness_3d", "stiffness_1d", "area", "pressure", "depth", "force", "roughness"];
 
 export async function open(link, address, said) {
@@ -20,7 +24,7 @@ export async function open(link, address, said) {
 
 class Explore {
   #link; #address; #root = document.querySelector("#explore");
-  #controls; #plots; #waiting; #rest = null; #strip = {}; #last = null; #fromCursor = false;
+  #controls; #plots; #waiting; #rest = null; #strip; #last = null; #fromCursor = false;
 
   constructor(link, address) {
     this.#link = link;
@@ -31,6 +35,7 @@ class Explore {
       link.stop("curve");
       this.#say("stopped; the coarse answer is shown");
     });
+    this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#bindButtons();
   }
 
@@ -38,18 +43,21 @@ class Explore {
     const {view, ...texts} = said;
     this.#controls.take(texts);
     this.#showHeightOrSlope();
-    this.#askNow(false);
+    const theories = (texts.theories ?? "").split(",");
+    for (const box of this.#root.querySelectorAll("[data-theory]")) box.checked = theories.includes(box.dataset.theory);
+    this.#askNow();
     this.#plots = await embedded("explore");
     for (const name of ["stiffness", "area"]) {
       this.#plots.onMove(`${name} cursor`, (force) => this.#cursorMoved(force));
     }
+    this.#plots.frame(["explore-topography", "explore-contact"], [1, 1]);
     for (const draw of this.#missed.splice(0)) draw();
     this.#sharpen();
   }
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
 
-  reconnected() { this.#askNow(true); }
+  reconnected() { this.#askNow(); this.#sharpen(); }
 
   #missed = []; // answers that came before the plots were there
   #draw(action) { if (this.#plots) action(); else this.#missed.push(action); }
@@ -61,7 +69,9 @@ class Explore {
       return;
     }
     if (key === "rms") this.#showHeightOrSlope();
-    this.#askNow(key === "n");
+    this.#stale = key !== "F" || this.#stale;
+    this.#dim(key === "F" ? CONTACT : [...CONTACT, ...CURVES]);
+    this.#askNow();
     clearTimeout(this.#rest);
     this.#link.stop("full");
     this.#link.stop("curve");
@@ -71,24 +81,34 @@ class Explore {
   #arguments() { return {state: this.#controls.said}; }
 
   #askNow() {
-    const error = (sentence, at) => this.#refuse(sentence, at);
-    this.#link.ask("explore.reduced", "reduced", this.#arguments(), {
-      answer: (header) => this.#draw(() => this.#drawLine(header)), error});
+    const error = (sentence, at) => this.#refuse(sentence, at), args = this.#arguments();
+    this.#link.stop("finer lines");
+    this.#link.ask("explore.reduced", "reduced", args, {
+      answer: (header) => {
+        this.#draw(() => this.#drawLine(header));
+        if (header.is_coarse) { // many ask at once
+          this.#link.ask("explore.reduced", "finer lines", {...args, refines: true}, {
+            answer: (finer) => this.#draw(() => this.#drawLine(finer))});
+        }
+      },
+      error,
+    });
     this.#link.ask("explore.coarse", "coarse", this.#arguments(), {
       answer: (header) => this.#draw(() => this.#drawContact(header)), error});
   }
 
-  #sharpen() {
+  #sharpen(refines = false) {
     if (!this.#plots) return;
     const error = (sentence, at) => { this.#waiting.end(); this.#refuse(sentence, at); };
     const progress = (message) => this.#waiting.progress(message);
-    const args = this.#arguments();
+    const args = {...this.#arguments(), refines};
     this.#waiting.begin();
-    this.#root.classList.add("dimmed");
     this.#link.ask("explore.full", "full", args, {
       answer: (header) => {
         this.#drawContact(header);
-        this.#link.ask("explore.curve", "curve", args, {
+        if (header.is_coarse && !args.refines) { this.#sharpen(true); return; } // many ask at once
+        if (!this.#stale) { this.#waiting.end(); return; }
+        this.#link.ask("explore.curve", "curve", {...args, refines: true}, {
           answer: (curve) => { this.#waiting.end(); this.#drawCurve(curve); }, error, progress});
       },
       error,
@@ -96,32 +116,41 @@ class Explore {
     });
   }
 
-  #drawLine({state, numbers, line, strip}) {
+  #drawLine({state, numbers, line, table, strip}) {
     this.#settled(state, numbers);
+    this.#plots.shows("explore-stiffness", {what: "line", numbers});
     this.#plots.set("stiffness line", {x: line.force_bar, y: line.stiffness_bar, low: line.low, high: line.high});
-    this.#strip_(strip);
+    this.#strip.add(strip);
     this.#cursorTo(numbers.F);
-    this.#line = line;
+    this.#lineTable = table;
   }
 
   #drawContact(header) {
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
     this.#last = header;
     this.#settled(header.state, header.numbers);
+    const what = {what: "contact", points: header.points, numbers: header.numbers};
+    for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
     this.#plots.setMap("topography", header.arrays.topography, [1, 1], header.heights);
     this.#drawField(header);
     const {force_bar: x, stiffness_bar, area} = header.curve;
     this.#plots.set("stiffness here", {x, y: stiffness_bar});
     this.#plots.set("area here", {x, y: area});
-    const {waves, C_2d, law} = header.spectrum;
-    this.#plots.set("spectrum", {x: waves, y: C_2d, law: law.map((value) => value ?? NaN)});
-    this.#strip_(header.strip);
+    this.#strip.add(header.strip);
     this.#say(header.status);
-    if (!header.is_coarse) this.#root.classList.remove("dimmed");
-    fillTable("explore-topography", ["quantity", "value"], header.strip.filter(({key}) => key === "roughness").map(({symbol, value, below}) => [`rms height ${symbol}`, `${value}, ${below}`]));
-    fillTable("explore-contact", ["quantity", "value"], header.strip.map(({symbol, value, below}) => [symbol, below ? `${value} (${below})` : value]));
-    const every = Math.ceil(waves.length / 40);
-    fillTable("explore-spectrum", ["waves in the side", "C_2d [m⁴]", "law [m⁴]"], waves.flatMap((wave, i) => i % every ? [] : [[wave.toPrecision(3), C_2d[i].toExponential(2), law[i]?.toExponential(2) ?? "-"]]));
+    this.#undim(CONTACT);
+    if (!header.is_coarse) this.#drawRest(header);
+  }
+
+  // What follows at rest: the spectrum and the tables.
+  #drawRest({spectrum: {waves, C_2d, law}, spectrum_table, strip}) {
+    this.#plots.span("explore-spectrum", "x", waves);
+    this.#plots.span("explore-spectrum", "y", C_2d);
+    this.#plots.set("spectrum", {x: waves, y: C_2d, law: law.map((value) => value ?? NaN)});
+    fillTable("explore-spectrum", ["waves in the side", "C_2d [m⁴]", "law [m⁴]"], spectrum_table);
+    const rows = (kept) => strip.filter(kept).map(({symbol, value, below}) => [symbol, value, below]);
+    fillTable("explore-topography", ["quantity", "value", ""], rows(({key}) => key === "roughness"));
+    fillTable("explore-contact", ["quantity", "value", ""], rows(({key}) => key !== "roughness"));
   }
 
   #drawField(header) {
@@ -132,31 +161,44 @@ class Explore {
     let high = 1;
     if (shown !== "area") { high = 0; for (const value of field.values) if (value > high) high = value; }
     this.#plots.colours("contact", shown === "area" ? "marks" : shown === "pressure" ? "viridis" : "cividis");
-    this.#plots.setMap("contact", field, [1, 1], [0, high || 1]);
+    const low = shown === "pressure" ? 1e-6 * high : 0; // where nothing presses, the paper shows
+    this.#plots.setMap("contact", field, [1, 1], [low, high || 1]);
   }
 
+  #stale = true; // whether the whole curve belongs to another surface
+
+  #dim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.add("dimmed"); }
+  #undim(panels) { for (const name of panels) this.#root.querySelector(`#explore-${name}`).classList.remove("dimmed"); }
+
   #drawCurve({curve, grid, theories, stiffness_table, area_table}) {
+    this.#stale = false;
+    this.#undim(CURVES);
     const rows = (wanted, values) => {
       const kept = curve.force_bar.flatMap((x, i) => curve.converged[i] && values[i] !== null && curve.resolved[i] === wanted ? [i] : []);
       return {x: kept.map((i) => curve.force_bar[i]), y: kept.map((i) => values[i])};
     };
+    for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
     for (const [name, values] of [["stiffness", curve.stiffness_bar], ["area", curve.area]]) {
       this.#plots.set(`${name} curve`, rows(true, values));
       this.#plots.set(`${name} unsure`, rows(false, values));
     }
-    const known = theories.filter((each) => each.stiffness_bar);
-    this.#plots.set("stiffness theories", {xs: known.map((each) => each.force_bar), ys: known.map((each) => each.stiffness_bar), name: known.map((each) => each.name)});
-    this.#plots.set("area theories", {xs: theories.map((each) => each.force_bar), ys: theories.map((each) => each.area), name: theories.map((each) => each.name)});
+    for (let i = 0; i < MOST_THEORIES; i++) {
+      const {force_bar = [], stiffness_bar = null, area = []} = theories[i] ?? {};
+      this.#plots.set(`stiffness theory ${i}`, {x: stiffness_bar ? force_bar : [], y: stiffness_bar ?? []});
+      this.#plots.set(`area theory ${i}`, {x: force_bar, y: area});
+    }
+    this.#plots.span("explore-stiffness", "y", curve.stiffness_bar, [1e-3, 1.3]);
+    this.#plots.span("explore-area", "y", curve.area, [1e-4, 1]);
     const failed = curve.converged.filter((each) => !each).length;
     const note = failed ? `; ${failed} loads were not solved` : "";
-    this.#caption("stiffness", `marks on ${grid} points${note}`);
-    this.#caption("area", [`marks on ${grid} points${note}`, ...theories.map(({name, validity}) => `${name}: ${validity}`)].join("; "));
-    const line = this.#line;
-    const lineRows = line ? line.force_bar.map((x, i) => [x.toPrecision(3), line.stiffness_bar[i].toPrecision(3), "1D"]) : [];
-    fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness_table.map((cells) => [...cells, "3D"]), ...lineRows]);
+    const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${name}: ${validity}`);
+    this.#caption("stiffness", `marks of the curve on ${grid} points${note}`);
+    this.#caption("area", `marks of the curve on ${grid} points${note}`);
+    this.#caption("theories", drawn.map((each) => `${each}.`).join(" "));
+    fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness_table, ...this.#lineTable]);
     fillTable("explore-area", ["F̄", "A/A_0"], area_table);
   }
-  #line = null;
+  #lineTable = [];
 
   #settled(state, numbers) {
     this.#controls.showNumbers(numbers);
@@ -181,27 +223,8 @@ class Explore {
     this.#changed("F", false);
   }
 
-  #strip_(items) {
-    for (const item of items) this.#strip[item.key] = item;
-    const shown = STRIP.filter((key) => key in this.#strip).map((key) => this.#strip[key]);
-    this.#root.querySelector(".strip").replaceChildren(...shown.map(({key, symbol, value, below, meaning}) => {
-      const item = document.createElement("div");
-      item.title = meaning;
-      item.dataset.answer = key;
-      item.tabIndex = 0;
-      item.setAttribute("aria-label", `${symbol} ${value} ${below}. ${meaning}`);
-      for (const [kind, text] of [["dt", symbol], ["dd", value], ["dd", below]]) {
-        const part = document.createElement(kind);
-        part.textContent = text;
-        item.append(part);
-      }
-      return item;
-    }));
-  }
-
   #refuse(sentence, at) {
     clearTimeout(this.#rest);
-    this.#root.classList.remove("dimmed");
     if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
   }
 

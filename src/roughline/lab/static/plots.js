@@ -2,27 +2,55 @@
 import {unpacked} from "./link.js";
 
 const documents = [];
-const PALETTES = {
-  get cividis() { return Bokeh.Palettes?.Cividis256 ?? Bokeh.require("api/palettes").Cividis256; },
-  get viridis() { return Bokeh.Palettes?.Viridis256 ?? Bokeh.require("api/palettes").Viridis256; },
-};
+
+// BokehJS is loaded beside the page, which asks its first questions meanwhile.
+const bokeh = new Promise((loaded) => {
+  if (window.Bokeh) loaded();
+  else document.querySelector("#bokeh").addEventListener("load", loaded);
+});
 
 // Embed the figures of a view; returns what changes them.
 export async function embedded(view) {
-  const response = await fetch(`/figures/${view}`);
+  const [response] = await Promise.all([fetch(`/figures/${view}`), bokeh]);
   if (!response.ok) throw new Error(await response.text());
-  const {documents: content, items} = unpacked(await response.arrayBuffer());
+  const {documents: content, items, palettes} = unpacked(await response.arrayBuffer());
   const before = new Set(Bokeh.documents);
   await Bokeh.embed.embed_items(content, items);
   const made = Bokeh.documents.find((each) => !before.has(each));
   documents.push(made);
   recolour(made);
   for (const root of made.roots()) takeKeys(root);
-  return new Plots(made);
+  return new Plots(made, palettes);
 }
 
 export class Plots {
-  constructor(made) { this.made = made; }
+  #shown = new Map();
+  #palette = {};
+
+  constructor(made, palettes) {
+    this.made = made;
+    this.palettes = palettes;
+    for (const root of made.roots()) {
+      Bokeh.index.find_one(root)?.repainted.connect(() => this.#tellDrawn(root.name));
+    }
+  }
+
+  // Say what the next picture of a plot shows; when it is on the screen, its element tells so by the
+  // event "drawn", and its data-shown says what was drawn last.
+  shows(plot, what) { this.#shown.set(plot, [...(this.#shown.get(plot) ?? []), what]); }
+
+  #tellDrawn(plot) {
+    const shown = this.#shown.get(plot);
+    if (!shown?.length) return;
+    this.#shown.delete(plot);
+    requestAnimationFrame(() => {
+      const element = document.querySelector(`#plot-${CSS.escape(plot)}`);
+      for (const detail of shown) {
+        element.dataset.shown = JSON.stringify(detail);
+        element.dispatchEvent(new CustomEvent("drawn", {detail, bubbles: true}));
+      }
+    });
+  }
 
   model(name) { return this.made.get_model_by_name(name); }
 
@@ -38,11 +66,39 @@ export class Plots {
 
   // Give a map a palette: one of Bokeh's, or "marks", paper and ink.
   colours(name, palette) {
-    const mapper = this.model(`${name} colours`), bar = this.model(`${name} bar`);
-    const style = getComputedStyle(document.documentElement);
-    const marks = ["--paper", "--ink"].map((colour) => style.getPropertyValue(colour).trim());
-    mapper.palette = palette === "marks" ? marks : PALETTES[palette];
-    bar.visible = palette !== "marks";
+    if (this.#palette[name] === `${palette} ${colour("paper")}`) return;
+    this.#palette[name] = `${palette} ${colour("paper")}`;
+    const wanted = palette === "marks" ? [colour("paper"), colour("ink")] : this.palettes[palette];
+    this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper")});
+    this.model(`${name} bar`).visible = palette !== "marks";
+  }
+
+  // Show a rectangle in maps that share their ranges, with equal scales, whatever their size.
+  frame(names, [width, height]) {
+    const plots = names.map((name) => this.made.roots().find((each) => each.name === name));
+    const fit = () => {
+      const {width: across, height: up} = Bokeh.index.find_one(plots[0])?.frame?.bbox ?? {};
+      if (!across || !up) return;
+      const scale = Math.max(width / across, height / up);
+      for (const [range, middle, length] of [["x_range", width / 2, across], ["y_range", height / 2, up]]) {
+        const [start, end] = [middle - (scale * length) / 2, middle + (scale * length) / 2];
+        plots[0][range].setv({start, end, reset_start: start, reset_end: end});
+      }
+    };
+    this.observer?.disconnect();
+    this.observer = new ResizeObserver(() => setTimeout(fit, 100));
+    this.observer.observe(document.querySelector(`#plot-${names[0]}`));
+    fit();
+  }
+
+  // Show a range of values on an axis, which is widened by a little.
+  span(name, axis, values, atLeast = [Infinity, -Infinity]) {
+    const known = [...values, ...atLeast].filter((value) => Number.isFinite(value) && value > 0);
+    if (!known.length) return;
+    const plot = this.made.roots().find((each) => each.name === name);
+    const [low, high] = [Math.min(...known), Math.max(...known)];
+    const [start, end] = [low / 1.2, high * 1.2];
+    plot[`${axis}_range`].setv({start, end, reset_start: start, reset_end: end});
   }
 
   // Call when a cursor was moved by hand.
@@ -73,35 +129,30 @@ export function fillTable(id, header, rows) {
 // Draw all plots in the colours of the theme.
 export function recolourAll() { documents.forEach(recolour); }
 
+// A colour of the theme by its name in the style of the page.
+function colour(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
 function recolour(made) {
-  const style = getComputedStyle(document.documentElement);
-  const colour = (name) => style.getPropertyValue(`--${name}`).trim();
   const text = colour("text"), line = colour("line"), paper = colour("paper"), grid = colour("grid");
-  for (const model of made._all_models?.values() ?? made.all_models ?? []) {
-    switch (model.type) {
-      case "Figure": case "Plot":
-        model.setv({background_fill_color: paper, border_fill_color: paper, outline_line_color: line});
-        break;
-      case "LinearAxis": case "LogAxis": case "CategoricalAxis":
-        model.setv({axis_label_text_color: text, major_label_text_color: text, axis_line_color: line,
-          major_tick_line_color: line, minor_tick_line_color: line, axis_label_text_font_style: "normal"});
-        break;
-      case "Grid": model.setv({grid_line_color: grid}); break;
-      case "Legend":
-        model.setv({label_text_color: text, background_fill_color: paper, background_fill_alpha: 0.8,
-          border_line_color: null, label_text_font_size: "11px", spacing: 0, padding: 4});
-        break;
-      case "ColorBar":
-        model.setv({major_label_text_color: text, title_text_color: text, background_fill_color: null,
-          title_text_font_style: "normal"});
-        break;
-      case "Title": model.setv({text_color: text}); break;
-      default:
-        for (const tag of model.tags ?? []) {
-          if (tag?.colours) {
-            model.setv(Object.fromEntries(Object.entries(tag.colours).map(([key, name]) => [key, colour(name)])));
-          }
-        }
+  const labels = {axis_label_text_color: text, major_label_text_color: text, axis_line_color: line,
+    major_tick_line_color: line, minor_tick_line_color: line, axis_label_text_font_style: "normal"};
+  const looks = {
+    Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: null, outline_line_color: line},
+    LinearAxis: labels,
+    LogAxis: labels,
+    Grid: {grid_line_color: grid},
+    Legend: {label_text_color: text, title_text_color: text, background_fill_color: paper, background_fill_alpha: 0.85,
+      border_line_color: null, label_text_font_size: "11px", spacing: 0, padding: 4},
+    ColorBar: {major_label_text_color: text, title_text_color: text, background_fill_color: null,
+      title_text_font_style: "normal"},
+    Title: {text_color: text},
+  };
+  for (const model of made.all_models) {
+    if (looks[model.type]) model.setv(looks[model.type]);
+    for (const {colours} of model.tags.filter((tag) => tag.colours)) {
+      model.setv(Object.fromEntries(Object.entries(colours).map(([key, name]) => [key, colour(name)])));
     }
   }
 }

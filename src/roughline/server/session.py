@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import re
 import secrets
 import shutil
@@ -11,12 +12,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from roughline.lab.access import Allowance
-from roughline.lab.lanes import Lane, Request
-from roughline.lab.settings import LabSettings
-from roughline.lab.tasks import TASKS, Outcome
+from roughline.server.access import Allowance
+from roughline.server.lanes import Lane
+from roughline.server.process import Process
+from roughline.server.requests import Request
+from roughline.server.settings import ServerSettings
+from roughline.server.site import Site
+from roughline.server.tasks import Outcome
 
 _MOST_FILES = 20  # of one session at once
+_MOST_UPLOADS = 3  # largest files that a session's files may make together
 _NAME = re.compile(r"[^\w.()+ -]")
 _SUFFIX = re.compile(r"\.[A-Za-z0-9]{1,8}")
 _MOST_PROGRESS = 10.0  # messages on progress [1 / s]
@@ -32,10 +37,13 @@ class Upload:
         Where it lies, under a random name.
     name : str
         What its owner calls it.
+    size : int
+        As it was told before it came. [bytes]
     """
 
     path: Path
     name: str
+    size: int
 
 
 @dataclass
@@ -44,11 +52,15 @@ class Session:
 
     Attributes
     ----------
+    address : str
+        Where the page is.
     token : str
         Known to the page alone; who has it may speak for the page.
     root : Path
         Folder of all sessions; this one's lies in it from the first file on.
-    settings : LabSettings
+    site : Site
+        What may be asked for.
+    settings : ServerSettings
         Limits.
     quick, slow : Lane
         Processes for what takes some milliseconds, and for the rest.
@@ -56,15 +68,18 @@ class Session:
         Sends a message to the page: plain content, or an answer with the number of its question.
     """
 
+    address: str
     root: Path
-    settings: LabSettings
+    site: Site
+    settings: ServerSettings
     quick: Lane
     slow: Lane
     send: Callable[[dict[str, Any]], None]
     send_answer: Callable[[int, bytes], None]
     token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
     uploads: dict[str, Upload] = field(default_factory=dict)
-    allowance: Allowance = field(default_factory=lambda: Allowance(rate=60, most=240))
+    allowance: Allowance = field(default_factory=lambda: Allowance(rate=200, most=800))
+    is_open: bool = True
 
     @property
     def folder(self) -> Path:
@@ -90,29 +105,32 @@ class Session:
             left = (now - started) * (total - done) / done if done else None
             self.send({"id": number, "done": done, "total": total, "left": left})
 
-        request = Request(
-            self.token, slot, task, {**arguments, "session": self._context()}, answer, progress
-        )
-        (self.quick if TASKS[task].is_quick else self.slow).submit(request)
+        told = {**arguments, "session": self._context()}
+        place = self.site.tasks[task]
+        request = Request(self.address, self.token, slot, place, told, answer, progress)
+        (self.quick if place.is_quick else self.slow).submit(request)
 
-    def withdraw(self, slot: str | None = None) -> None:
-        """Stop what was asked for a part of the page, or for all of it."""
-        self.quick.withdraw(self.token, slot)
-        self.slow.withdraw(self.token, slot)
+    def withdraw(self, slot: str | None = None) -> list[Process]:
+        """Stop what was asked for a part of the page, or for all of it; returns what is stopped."""
+        return self.quick.withdraw(self.token, slot) + self.slow.withdraw(self.token, slot)
 
-    def new_upload(self, name: str) -> tuple[str, Upload]:
+    def new_upload(self, name: str, size: int) -> tuple[str, Upload]:
         """Return the key and the place of a file that is about to come.
 
-        The oldest file goes if there are too many.
+        The oldest files go if there are too many, or too large ones.
         """
         shown = _NAME.sub("_", name)[-100:] or "file"
         suffix = _SUFFIX.fullmatch(Path(shown).suffix)
         key = secrets.token_urlsafe(12)
         self.folder.mkdir(mode=0o700, exist_ok=True)
-        while len(self.uploads) >= _MOST_FILES:
+        most = _MOST_UPLOADS * self.settings.max_upload - size
+        while self.uploads and (
+            len(self.uploads) >= _MOST_FILES
+            or sum(each.size for each in self.uploads.values()) > most
+        ):
             self.forget_upload(next(iter(self.uploads)))
         path = self.folder / (secrets.token_hex(8) + (suffix[0].lower() if suffix else ""))
-        upload = Upload(path, shown)
+        upload = Upload(path, shown, size)
         self.uploads[key] = upload
         return key, upload
 
@@ -123,10 +141,11 @@ class Session:
             upload.path.unlink(missing_ok=True)
 
     def close(self) -> None:
-        """Stop what runs, and delete all files."""
-        self.withdraw()
+        """Stop what runs, and delete all files when it has stopped."""
+        self.is_open = False
+        stopped = self.withdraw()
         self.uploads.clear()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        asyncio.get_running_loop().run_in_executor(None, _delete, self.folder, stopped)
 
     def _context(self) -> dict[str, Any]:
         """What tasks are told of the session: its files and limits."""
@@ -137,3 +156,10 @@ class Session:
             "max_points": self.settings.max_points,
             "max_memory": self.settings.max_memory,
         }
+
+
+def _delete(folder: Path, writers: list[Process]) -> None:
+    """Delete a folder as soon as nobody writes to it."""
+    for process in writers:
+        process.end()
+    shutil.rmtree(folder, ignore_errors=True)

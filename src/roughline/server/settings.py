@@ -1,7 +1,8 @@
-"""How the lab's server is set up, checked before it starts."""
+"""How the server is set up, checked before it starts."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
@@ -9,10 +10,11 @@ from pathlib import Path
 from roughline.errors import InputError
 
 LOOPBACK = "127.0.0.1"
+_LEAST_MEMORY = 500_000_000  # of a task [bytes]
 
 
 @dataclass(frozen=True)
-class LabSettings:
+class ServerSettings:
     """What the server listens to, and what a session may take.
 
     Parameters
@@ -23,13 +25,13 @@ class LabSettings:
         0 takes a free one.
     password : str or None
         Asked of every page; None asks for none.
-    max_upload : int
+    max_upload : float
         Largest file that is taken. [bytes]
     max_points : int
         Largest number of points along a side in the view "Explore".
     max_seconds : float
         Longest time of one task. [s]
-    max_memory : int
+    max_memory : float
         Most memory of one task, beside the program. [bytes]
     max_sessions : int
         Most pages that are open at once.
@@ -43,13 +45,15 @@ class LabSettings:
     host: str = LOOPBACK
     port: int = 5107
     password: str | None = None
-    max_upload: int = 200_000_000
+    max_upload: float = 200_000_000
     max_points: int = 1024
     max_seconds: float = 600.0
-    max_memory: int = 4_000_000_000
+    max_memory: float = 4_000_000_000
     max_sessions: int = 100
 
     def __post_init__(self) -> None:
+        if not self.host:
+            raise InputError("host is empty; give an address, such as 127.0.0.1")
         if not self.is_local and not self.password:
             raise InputError(
                 f'host="{self.host}" lets other machines in: put a password into a file and give '
@@ -60,8 +64,15 @@ class LabSettings:
         if not 0 <= self.port < 65536:
             raise InputError(f"port is {self.port}; 0 (any free one) to 65535 is allowed")
         for name in ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions"):
-            if not getattr(self, name) > 0:
-                raise InputError(f"{name} is {getattr(self, name)}; a positive number is needed")
+            if not 0 < getattr(self, name) < math.inf:
+                raise InputError(
+                    f"a limit of {getattr(self, name)} is none: give a positive {name}="
+                )
+        if self.max_memory < _LEAST_MEMORY:
+            raise InputError(
+                f"{self.max_memory / 1e6:g} MB of memory are too few: give a max_memory= of at "
+                f"least {_LEAST_MEMORY / 1e6:g} MB"
+            )
 
     @property
     def is_local(self) -> bool:

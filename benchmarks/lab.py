@@ -1,0 +1,200 @@
+"""How soon the lab answers in a browser: ``make lab-benchmark`` writes ``docs/lab-table.md``.
+
+A headless Chromium opens the page of a fresh server and drags sliders with the mouse. A move counts
+from the time stamp of the slider's event until the frame after Bokeh has painted the picture that
+belongs to this very value. The machine should have nothing else to do.
+"""
+
+import argparse
+import os
+import platform
+import statistics
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from playwright.sync_api import sync_playwright
+
+from roughline._version import __version__
+from roughline.computing.fft import available_cores
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+from lab_in_browser import Pages, RunningLab, launched
+
+TABLE = Path(__file__).parents[1] / "docs" / "lab-table.md"
+SERVERS = 5
+SURFACES = ((2.05, 1), (2.2, 7), (2.5, 3), (2.8, 4))  # fractal dimension and seed
+MOVES = 12  # of each slider for each surface
+TARGETS = {  # [ms]
+    "server started, page can be opened": 3000,
+    "page opened, first contact drawn": 2000,
+    "slider moved, reduced curve drawn": 100,
+    "slider moved, contact on 128² points drawn": 250,
+    "last move, contact on 512² points drawn": 2000,
+    "last move, contact on 1024² points drawn": None,
+}
+RECORDER = """
+window.recorder = {
+  move: null, drawn: [], told: [],
+  // Return how long after the last move its pictures were drawn [ms].
+  async after(wanted) {
+    for (const began = performance.now(); ; ) {
+      if (performance.now() - began > 3e4) throw new Error(`not drawn: ${JSON.stringify(this)}`);
+      const own = this.drawn.filter(({numbers}) => numbers[this.move.key] === this.move.value);
+      const found = wanted.map((name) => own.find((each) => each.name === name));
+      if (found.every((each) => each)) return found.map(({at}) => at - this.move.at);
+      await new Promise((drawn) => { this.told.push(drawn); setTimeout(drawn, 1e3); });
+    }
+  },
+};
+addEventListener("input", ({target, timeStamp}) => {
+  const {key} = target.dataset, value = Number(target.getAttribute("aria-valuetext"));
+  Object.assign(recorder, {move: {key, value, at: timeStamp}, drawn: []});
+});
+addEventListener("drawn", ({target, detail: {what, points, numbers}}) => {
+  if (what === "curve" || target.id === "plot-explore-topography") return;
+  recorder.drawn.push({name: points ? `${points}` : what, numbers, at: performance.now()});
+  recorder.told.splice(0).forEach((tell) => tell());
+});
+"""
+
+
+def main():
+    """Measure, print the table and write it."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--short", action="store_true", help="a few moves only; write nothing")
+    short = parser.parse_args().short
+    surfaces, moves = (SURFACES[:1], 4) if short else (SURFACES, MOVES)
+    times = {name: [] for name in TARGETS}
+    with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:
+        browser = launched(playwright)
+        for _ in range(1 if short else SERVERS):
+            measure_start(browser, Path(folder) / "log", times)
+        running = RunningLab(Path(folder) / "log")
+        try:
+            for points in (512, 1024):
+                for dimension, seed in surfaces:
+                    measure_moves(browser, running, times, moves, points, dimension, seed)
+        finally:
+            running.close()
+        text = table(times, browser.version)
+        browser.close()
+    print(text)
+    if not short:
+        TABLE.write_text(text, encoding="utf-8")
+
+
+def measure_start(browser, log, times):
+    """Time a fresh server and its first page."""
+    running = RunningLab(log)
+    pages = Pages(browser, running.address)
+    try:
+        times["server started, page can be opened"].append(1e3 * running.seconds_to_open)
+        page = opened(pages, "")
+        times["page opened, first contact drawn"].append(
+            page.evaluate("() => recorder.drawn.find(({name}) => name > 0).at")
+        )
+    finally:
+        pages.close()
+        running.close()
+
+
+def measure_moves(browser, running, times, moves, points, dimension, seed):
+    """Time the moves of three sliders over one surface, going on and at rest."""
+    pages = Pages(browser, running.address)
+    page = opened(pages, f"?view=explore&v=1&D_f={dimension}&seed={seed}&n={points}&F=0.1")
+    page.wait_for_selector("#plot-explore-area[data-shown]")
+    for key, at_rest in (("F", False), ("D_f", False), ("seed", False), ("F", True)):
+        if points > 512 and not at_rest:
+            continue
+        for _ in drag(page, key, moves):
+            line, coarse = page.evaluate("() => recorder.after(['line', '128'])")
+            if points == 512:
+                times["slider moved, reduced curve drawn"].append(line)
+                times["slider moved, contact on 128² points drawn"].append(coarse)
+            if at_rest:
+                times[f"last move, contact on {points}² points drawn"] += page.evaluate(
+                    f"() => recorder.after(['{points}'])"
+                )
+    assert not pages.complaints, pages.complaints
+    pages.close()
+
+
+def opened(pages, query):
+    """Open a page that records what it draws, and wait for its first contact."""
+    page = pages.blank()
+    page.add_init_script(RECORDER)
+    page.goto(pages.address + query)
+    page.wait_for_selector("#plot-explore-contact[data-shown]")
+    return page
+
+
+def drag(page, key, moves):
+    """Drag a slider along its whole length; yields after every move."""
+    slider = page.locator(f'#explore input[type="range"][data-key="{key}"]')
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    y = box["y"] + box["height"] / 2
+    inner = 10  # the middle of the knob does not reach the ends [pixels]
+    page.mouse.move(box["x"] + inner, y)
+    page.mouse.down()
+    page.evaluate("() => recorder.after(['line', '128'])")
+    for share in np.linspace(0, 1, moves + 1)[1:]:
+        page.mouse.move(box["x"] + inner + share * (box["width"] - 2 * inner), y)
+        yield
+    page.mouse.up()
+    time.sleep(0.5)
+
+
+def table(times, browser):
+    """Return the medians and percentiles as a page."""
+    rows = []
+    for name, target in TARGETS.items():
+        each = times[name]
+        rows.append(
+            f"| {name} | {shown(statistics.median(each))} | {shown(np.percentile(each, 95))} "
+            f"| {shown(max(each))} | {len(each)} | {shown(target)} |"
+        )
+    return f"""# How soon the lab answers, measured
+
+Written by `make lab-benchmark`: roughline {__version__}, {available_cores()} cores, \
+{platform.machine()}{model()}, {memory():.0f} GB of memory, Python {platform.python_version()}, \
+NumPy {np.__version__}, headless Chromium {browser} without a graphics card, on the same machine.
+
+| from, to | median | 95th percentile | longest | measured | wanted (median) |
+|---|---|---|---|---|---|
+{chr(10).join(rows)}
+
+A move counts from the event of the slider until the frame in which the picture of this value is on
+the screen. Sliders are dragged with the mouse over the loads, fractal dimensions and seeds of
+{len(SURFACES)} surfaces; the times of 512² and 1024² points hold the 250 ms without a move after
+which a slider counts as at rest.
+"""
+
+
+def shown(milliseconds):
+    """Return a time in words."""
+    if milliseconds is None:
+        return "-"
+    return f"{milliseconds:.0f} ms" if milliseconds < 1000 else f"{milliseconds / 1e3:.2f} s"
+
+
+def memory():
+    """Return the memory of this machine. [GB]"""
+    return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9
+
+
+def model():
+    """Return the name of the processor where the system tells it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return ""
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return f" ({names[0]})" if names else ""
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,161 @@
+"""How soon the lab answers one page and 20 at once, and the memory of it: ``make lab-sessions``.
+
+All pages are plain websockets in this process; each has a seed of its own. They ask all at the same
+instant (burst), or each moves a slider ten times a second for two seconds and rests then (people).
+The time of an answer ends when the page has it all; that of the browser comes on top.
+"""
+
+import asyncio
+import json
+import statistics
+import subprocess
+import sys
+import time
+from collections import defaultdict
+
+import psutil
+from tornado.httpclient import HTTPRequest
+from tornado.websocket import websocket_connect
+
+SESSIONS, LONELY_ROUNDS, MOVES, PAUSE = 20, 7, 20, 0.1
+TASKS = ("explore.reduced", "explore.coarse", "explore.full")
+
+
+class Page:
+    """One page: a websocket, and when its questions were asked and answered."""
+
+    def __init__(self, socket, seed):
+        self.socket, self.seed, self.number, self.asked = socket, seed, 0, {}
+        self.waiting: dict[int, asyncio.Future] = {}
+        self.reading = asyncio.create_task(self._read())
+
+    @classmethod
+    async def open(cls, address, seed):
+        url = f"ws{address.removeprefix('http')}link"
+        socket = await websocket_connect(
+            HTTPRequest(url, headers={"Origin": address.rstrip("/")}), max_message_size=2**28
+        )
+        await socket.read_message()
+        return cls(socket, seed)
+
+    async def _read(self):
+        while (message := await self.socket.read_message()) is not None:
+            if isinstance(message, str) and "error" not in json.loads(message):
+                continue  # progress
+            number = int.from_bytes(message[:8], "little") if isinstance(message, bytes) else None
+            if number is None:
+                number, error = json.loads(message)["id"], json.loads(message)["error"]
+                self.waiting[number].set_exception(RuntimeError(error))
+            elif not self.waiting[number].done():
+                self.waiting[number].set_result(message)
+
+    async def ask(self, task, force="0.1", refines=False):
+        """Ask; return the seconds until all of the answer is here, and whether it is coarse."""
+        self.number += 1
+        answer = self.waiting[self.number] = asyncio.get_running_loop().create_future()
+        started = time.perf_counter()
+        arguments = {"state": {"seed": str(self.seed), "F": force}, "refines": refines}
+        slot = f"{task} finer" if refines else task
+        said = {"id": self.number, "slot": slot, "task": task, "arguments": arguments}
+        self.socket.write_message(json.dumps(said))
+        message = await answer
+        taken = time.perf_counter() - started
+        length = int.from_bytes(message[8:12], "little")
+        return taken, bool(json.loads(message[12 : 12 + length]).get("is_coarse"))
+
+    async def ask_twice(self, task, times, force="0.1"):
+        """Ask, and again if the first answer was one for a crowd; keep both times."""
+        taken, is_coarse = await self.ask(task, force)
+        times[task].append(taken)
+        if is_coarse and task != "explore.coarse":
+            taken += (await self.ask(task, force, refines=True))[0]
+        times[f"{task}, all of it"].append(taken)
+
+    async def move(self, times):
+        """Move the load for two seconds, then rest; keep the times of answers that came."""
+        pending = defaultdict(list)
+        for move in range(MOVES):
+            for task in ("explore.reduced", "explore.coarse"):
+                asked = asyncio.create_task(self.ask(task, f"{0.05 + 0.01 * move:.3g}"))
+                pending[task].append(asked)
+            await asyncio.sleep(PAUSE)
+        await asyncio.sleep(0.25)
+        await self.ask_twice("explore.full", times, f"{0.04 + 0.01 * MOVES:.3g}")
+        for task, all_asked in pending.items():
+            await all_asked[-1]  # the last one is never replaced
+            times[f"{task}, last move"].append(all_asked[-1].result()[0])
+            times[task] += [asked.result()[0] for asked in all_asked if asked.done()]
+            for asked in all_asked:
+                asked.cancel()
+
+    async def close(self):
+        self.socket.close()
+        await self.reading
+
+
+def row(times, lonely):
+    """The percentiles of times, in ms and over the lonely median."""
+    times = sorted(times)
+    parts = (statistics.median(times), times[int(0.95 * (len(times) - 1))], times[-1])
+    told = " ".join(f"{1e3 * part:7.0f} ({part / lonely:4.1f})" for part in parts)
+    return f"{len(times):4} {told}"
+
+
+def megabytes(pid):
+    """What the server, and all its processes, hold for themselves."""
+    server = psutil.Process(pid)
+    own = [each.memory_full_info().uss for each in (server, *server.children(recursive=True))]
+    return own[0] / 1e6, sum(own) / 1e6
+
+
+async def measure(address, pid):
+    """Measure one page, and many; print the table."""
+    before = megabytes(pid)
+    lone = await Page.open(address, 1000)
+    lonely = {}
+    for task in TASKS:
+        await lone.ask(task)
+        taken = []
+        for lone.seed in range(1000, 1000 + LONELY_ROUNDS):
+            taken.append((await lone.ask(task))[0])
+            await asyncio.sleep(0.1)
+        lonely[task] = statistics.median(taken)
+    await lone.close()
+    pages = [await Page.open(address, seed) for seed in range(SESSIONS)]
+    print(f"{SESSIONS} pages; answers, median, 95th percentile, worst in ms (in lonely medians)")
+    burst, people = defaultdict(list), defaultdict(list)
+    for task in TASKS:
+        for page in pages:
+            page.seed += SESSIONS
+        await asyncio.gather(*(page.ask_twice(task, burst) for page in pages))
+    await asyncio.gather(*(page.move(people) for page in pages))
+    for task in TASKS:
+        print(f"{task}, one page alone: {1e3 * lonely[task]:.0f} ms")
+        for name, times in {"burst": burst, "people": people}.items():
+            for what in (each for each in times if each.startswith(task)):
+                print(f"  {name:7} {what:28} {row(times[what], lonely[task])}")
+    during = megabytes(pid)
+    await asyncio.gather(*(page.close() for page in pages))
+    await asyncio.sleep(1)
+    for name, (server, everything) in {
+        "before": before,
+        "with all pages": during,
+        "closed again": megabytes(pid),
+    }.items():
+        print(f"memory {name:16} server {server:5.0f} MB, with its processes {everything:5.0f} MB")
+
+
+def main():
+    """Start a lab, measure it and close it."""
+    command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            address = server.stdout.readline().split(" at ")[1].split(" ")[0]
+            time.sleep(3)  # what is prepared in the background
+            asyncio.run(measure(address, server.pid))
+        finally:
+            server.terminate()
+
+
+if __name__ == "__main__":
+    main()

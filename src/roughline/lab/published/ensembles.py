@@ -1,0 +1,100 @@
+"""The published ensembles: mean curves and fitted laws, remembered while a page asks again."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+import roughline as rl
+from roughline.contact import scaling
+from roughline.lab.controls import ControlError
+from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
+from roughline.lab.published.state import PublishedState, Window
+from roughline.paper.exponents import converged_stiffness
+from roughline.paper.mean_curve import MeanCurve, mean_curve
+from roughline.paper.results import published_dataset
+from roughline.statistics.averages import Averaging
+from roughline.statistics.power_law import PowerLaw, fit_power_law
+from roughline.statistics.window import inside_window
+
+if TYPE_CHECKING:
+    import xarray
+
+_PUNCHES = {"paper": scaling.PAPER_PUNCH, "exact": scaling.EXACT_PUNCH, "raw": 1.0}
+_SAME = 1e-3  # relative difference below which an edge that was typed is that of a load
+
+
+def model_of(said: object) -> ModelLabel:
+    """Read which model is asked about."""
+    if said not in MODELS:
+        raise ControlError("there is no such model; there are 1D and 3D")
+    return "1D" if said == "1D" else "3D"
+
+
+def ensemble(model: ModelLabel) -> xarray.Dataset:
+    """Lines or surfaces over fractal dimension, realisation and load."""
+    return published_dataset("lines" if model == "1D" else "surfaces")
+
+
+def one_dimension(model: ModelLabel, fractal_dimension: float) -> xarray.Dataset:
+    """Lines or surfaces of one fractal dimension."""
+    return ensemble(model).sel(fractal_dimension=fractal_dimension)
+
+
+def punch_of(state: PublishedState, model: ModelLabel) -> float:
+    """What the stiffness k / (E* L) of a model is divided by; nothing for lines."""
+    return _PUNCHES[state.punch] if model == "3D" else 1.0
+
+
+@lru_cache(maxsize=64)
+def curve_of(
+    model: ModelLabel, fractal_dimension: float, punch: float, averaging: Averaging
+) -> MeanCurve:
+    """The mean stiffness of one fractal dimension over force."""
+    return mean_curve(one_dimension(model, fractal_dimension), punch, averaging)
+
+
+def law_of(state: PublishedState, model: ModelLabel, fractal_dimension: float) -> PowerLaw:
+    """Fit the power law of one fractal dimension in the window of its model.
+
+    Raises
+    ------
+    ControlError
+        If the window holds too few loads.
+    """
+    force = ensemble(model).force_bar.values
+    low, high = (_on_load(force, edge) for edge in state.windows[model])
+    try:
+        law = _law(model, fractal_dimension, (low, high), state.mean)
+    except rl.InputError as error:
+        raise ControlError(str(error), WINDOWS[model][1].key) from None
+    punch = punch_of(state, model)
+    first, last = law.prefactor_interval
+    return replace(
+        law, prefactor=law.prefactor / punch, prefactor_interval=(first / punch, last / punch)
+    )
+
+
+def unresolved_in_window(model: ModelLabel, fractal_dimension: float, window: Window) -> bool:
+    """Whether the grid decides at some load of a window."""
+    curve = curve_of(model, fractal_dimension, 1.0, "arithmetic")
+    return not curve.resolved[inside_window(curve.force_bar, window)].all()
+
+
+@lru_cache(maxsize=1024)
+def _law(
+    model: ModelLabel, fractal_dimension: float, window: Window, averaging: Averaging
+) -> PowerLaw:
+    one = one_dimension(model, fractal_dimension)
+    stiffness, _ = converged_stiffness(one, window)
+    return fit_power_law(one.force_bar.values, stiffness, window, averaging=averaging)
+
+
+def _on_load(force: NDArray[np.float64], edge: float) -> float:
+    """An edge of a window; one that was rounded for the address is that of its load again."""
+    nearest = float(force[np.argmin(np.abs(np.log(force / edge)))])
+    return nearest if abs(nearest / edge - 1) < _SAME else edge

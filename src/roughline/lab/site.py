@@ -1,0 +1,27 @@
+"""The lab as a server serves it."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+
+from roughline.lab.page import login_page, page
+from roughline.lab.tasks import TASKS
+from roughline.server.site import Site
+
+
+def site() -> Site:
+    """Return the lab: its page, parts, figures and tasks."""
+    return Site(
+        page=page,
+        login_page=login_page,
+        parts=Path(str(files("roughline.lab").joinpath("static"))),
+        figures={
+            "explore": "roughline.lab.explore.figures",
+            "measured": "roughline.lab.measured.figures",
+            "published": "roughline.lab.published.figures",
+            "bodies": "roughline.lab.published.body_figures",
+        },
+        tasks=TASKS,
+        warm="roughline.lab.warm",
+    )

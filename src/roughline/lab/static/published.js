@@ -1,0 +1,282 @@
+// The paper: its figures from the published study, with windows and averages to choose.
+import {Controls, said as asText} from "./controls.js";
+import {embedded} from "./plots.js";
+import {drawArea, drawExponents, drawFits, drawStiffness, showFits, tableOfExponents} from "./published_curves.js";
+import {Bodies, drawPoint, drawTrust, showClaims} from "./published_maps.js";
+import {Strip} from "./strip.js";
+import {Waiting} from "./waiting.js";
+
+const MODELS = ["1D", "3D"];
+const EDGES = {"1D": ["low_1D", "high_1D"], "3D": ["low_3D", "high_3D"]};
+const STRIP = ["exponent_1D", "stated_1D", "exponent_3D", "stated_3D"];
+const LATEST = 2000; // that the plots, which keep the page busy, wait for the first numbers [ms]
+const OF_THE_POINT = ["roll_off", "map_D_f", "map_F", "tolerance"];
+
+export async function open(link, address, said) {
+  const view = new Published(link, address);
+  await view.open(said);
+  return view;
+}
+
+class Published {
+  #link; #address; #root = document.querySelector("#published"); #controls; #plots; #bodies; #strip; #waiting;
+  #got = {fits: {}}; #later = new Set(); #state = {}; #placing = false; #opening = true;
+
+  constructor(link, address) {
+    this.#link = link;
+    this.#address = address;
+    this.#controls = new Controls(this.#root, (key) => this.#changed(key));
+    this.#bodies = new Bodies(link);
+    this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
+    this.#waiting = new Waiting(this.#root.querySelector('[aria-labelledby="claims-title"] .status'), () => {
+      link.stop("claims");
+      this.#status("stopped");
+    });
+    this.#bindButtons();
+  }
+
+  #firstNumbers; #numbers = new Promise((resolve) => { this.#firstNumbers = resolve; });
+
+  async open(said) {
+    const {view, ...texts} = said;
+    this.#take(texts);
+    this.#linked = texts;
+    this.#askAll();
+    await Promise.race([this.#numbers, new Promise((resolve) => setTimeout(resolve, LATEST))]);
+    this.#plots = await embedded("published");
+    for (const model of MODELS) this.#bindWindow(model);
+    this.#bindMaps();
+    this.#drawAll();
+    this.#bodies.watch();
+    new MutationObserver(() => { this.#drawAll(); this.#bodies.recolour(); })
+      .observe(document.documentElement, {attributeFilter: ["data-theme"]});
+    this.#opening = false;
+    this.#askClaims();
+  }
+
+  shown() { this.#address.write("published", this.#state); }
+
+  reconnected() { this.#askAll(); }
+
+  #askAll() {
+    for (const model of MODELS) this.#askFits(model);
+    this.#askCurves();
+    this.#askPoint();
+    for (const [name, draw] of [["exponents", () => this.#drawExponents()], ["area", () => this.#drawArea()], ["trust", () => this.#drawTrust()]]) {
+      this.#ask(name, name, {}, (header) => { this.#got[name] = header; draw(); });
+    }
+    if (!this.#opening) this.#askClaims(); // else it waits, as it takes all of a core
+  }
+
+  #askFits(model) {
+    this.#ask("fits", `fits ${model}`, {model}, (header) => {
+      this.#got.fits[model] = header;
+      this.#settled(header, EDGES[model]);
+      this.#root.querySelector(`[data-fit-error="${model}"]`).textContent = "";
+      this.#showStrip();
+      if (Object.keys(this.#got.fits).length === MODELS.length) this.#firstNumbers();
+      if (this.#plots) this.#drawFits(model);
+      else showFits(header);
+      tableOfExponents(this.#got.fits, this.#got.exponents);
+    });
+  }
+
+  #askCurves() {
+    this.#ask("curves", "curves", {}, (header) => {
+      this.#got.curves = header;
+      this.#settled(header, ["D_f", "mean", "punch"]);
+      this.#drawCurves();
+    });
+  }
+
+  #askPoint() {
+    this.#ask("point", "point", {}, (header) => {
+      this.#got.point = header;
+      this.#settled(header, OF_THE_POINT);
+      this.#drawPoint();
+    });
+  }
+
+  #askClaims() {
+    this.#status("The claims are judged by resampling all realisations; this takes some seconds.");
+    this.#waiting.begin();
+    this.#ask("claims", "claims", {}, (header) => {
+      this.#waiting.end();
+      this.#got.claims = header;
+      this.#showClaims();
+    }, (sentence) => { this.#waiting.end(); this.#status(sentence); });
+  }
+
+  // Ask; while an answer is awaited, a newer question waits for it, so that a moving window is followed.
+  #ask(task, slot, more, answer, failed) {
+    if (this.#link.isWaiting(slot)) {
+      this.#later.add(slot);
+      this.#again.set(slot, () => this.#ask(task, slot, more, answer, failed));
+      return;
+    }
+    const ended = () => { if (this.#later.delete(slot)) this.#again.get(slot)(); };
+    this.#link.ask(`published.${task}`, slot, {state: this.#controls.said, ...more}, {
+      answer: (header) => { answer(header); ended(); },
+      error: (sentence, at) => { failed?.(sentence); this.#refuse(sentence, at); ended(); },
+    });
+  }
+  #again = new Map();
+
+  #changed(key) {
+    this.#controls.refuse("", "");
+    this.#linked = {};
+    const model = MODELS.find((each) => EDGES[each].includes(key));
+    if (model) this.#askFits(model);
+    else if (OF_THE_POINT.includes(key)) this.#askPoint();
+    else if (key === "claims") this.#showClaims();
+    else {
+      this.#askCurves();
+      for (const each of MODELS) this.#askFits(each);
+      if (key === "D_f") this.#ask("area", "area", {}, (header) => { this.#got.area = header; this.#drawArea(); });
+    }
+  }
+
+  #settled({state, numbers}, keys) {
+    this.#controls.showNumbers(numbers);
+    for (const key of keys) this.#controls.refuse(key, "");
+    this.#state = {...state, claims: this.#controls.said.claims ?? state.claims};
+    if (!this.#root.hidden) this.#address.write("published", this.#state);
+  }
+
+  // Put a sentence at its control. What a link sets wrongly is then left at its default.
+  #refuse(sentence, at) {
+    const model = MODELS.find((each) => EDGES[each].includes(at));
+    const wrong = at === "" ? Object.keys(this.#linked) : (model ? EDGES[model] : [at]).filter((key) => key in this.#linked);
+    if (wrong.length) {
+      const left = Object.entries(this.#controls.said).filter(([key]) => !wrong.includes(key));
+      this.#linked = Object.fromEntries(Object.entries(this.#linked).filter(([key]) => !wrong.includes(key)));
+      this.#take(Object.fromEntries(left));
+      this.#askAll();
+    }
+    if (model && !wrong.length) this.#root.querySelector(`[data-fit-error="${model}"]`).textContent = sentence;
+    if (!this.#controls.refuse(at, sentence) || wrong.length) this.#controls.refuse("", sentence);
+  }
+  #linked = {}; // what the link sets, until something is changed
+
+  #take(texts) {
+    this.#controls.take(texts);
+    if (!texts.D_f) return;
+    const chosen = texts.D_f.split(",");
+    for (const box of this.#root.querySelectorAll("[data-dimension]")) box.checked = chosen.includes(box.dataset.dimension);
+  }
+
+  #drawAll() {
+    this.#drawCurves();
+    for (const model of MODELS) if (this.#got.fits[model]) this.#drawFits(model);
+    this.#drawExponents();
+    this.#drawArea();
+    this.#drawTrust();
+  }
+
+  #drawCurves() {
+    if (!this.#plots || !this.#got.curves) return;
+    for (const model of MODELS) drawStiffness(this.#plots, model, this.#got.curves.models[model]);
+  }
+
+  #drawFits(model) {
+    const fits = this.#got.fits[model], [left, right] = fits.window;
+    drawFits(this.#plots, fits);
+    if (this.#moving === model) return;
+    this.#placing = true;
+    this.#plots.model(`window ${model}`).setv({left, right});
+    this.#placing = false;
+  }
+
+  #drawExponents() {
+    if (!this.#plots || !this.#got.exponents) return;
+    drawExponents(this.#plots, this.#got.exponents);
+    tableOfExponents(this.#got.fits, this.#got.exponents);
+  }
+
+  #drawArea() { if (this.#plots && this.#got.area) drawArea(this.#plots, this.#got.area); }
+
+  #drawTrust() {
+    if (this.#plots && this.#got.trust) drawTrust(this.#plots, this.#got.trust);
+    this.#drawPoint();
+  }
+
+  #drawPoint() {
+    const {point, trust} = this.#got;
+    if (point) drawPoint(this.#plots, trust, point.state, point.numbers, point);
+  }
+
+  #showClaims() {
+    const wanted = this.#controls.said.claims ?? "all";
+    if (this.#got.claims) showClaims(this.#got.claims, wanted);
+    if (Object.keys(this.#state).length) {
+      this.#state = {...this.#state, claims: wanted};
+      if (!this.#root.hidden) this.#address.write("published", this.#state);
+    }
+  }
+
+  #showStrip() {
+    this.#strip.add(MODELS.flatMap((model) => this.#got.fits[model]?.strip ?? []));
+    for (const item of this.#root.querySelectorAll('.strip [data-answer^="stated"]')) {
+      item.dataset.verdict = item.querySelector("dd").textContent;
+    }
+  }
+
+  #status(text) { this.#root.querySelector('[data-status="claims"]').textContent = text; }
+
+  #moving = null; #rest = null; // the model whose window is held by the mouse
+
+  #bindWindow(model) {
+    const box = this.#plots.model(`window ${model}`), plot = this.#plots.model(`published-stiffness-${model}`);
+    const moved = () => { if (!this.#placing) this.#windowMoved(model, box.left, box.right); };
+    for (const side of ["left", "right"]) box.properties[side].change.connect(moved);
+    plot.on_event("selectiongeometry", ({geometry}) => {
+      if (geometry.type === "rect" && geometry.x0 !== geometry.x1) this.#windowMoved(model, geometry.x0, geometry.x1);
+    });
+  }
+
+  #windowMoved(model, left, right) {
+    this.#moving = model;
+    const [low, high] = [Math.min(left, right), Math.max(left, right)].map((edge, i) => {
+      const {low: least, high: most} = this.#root.querySelector(`input[type="range"][data-key="${EDGES[model][i]}"]`).dataset;
+      return asText(Math.min(Math.max(edge, Number(least)), Number(most)));
+    });
+    const [first, last] = EDGES[model];
+    this.#controls.take({...this.#controls.said, [first]: low, [last]: high});
+    this.#changed(first);
+    clearTimeout(this.#rest);
+    this.#rest = setTimeout(() => {
+      this.#moving = null;
+      if (this.#got.fits[model]) this.#drawFits(model);
+    }, 400);
+  }
+
+  #bindMaps() {
+    for (const panel of this.#root.querySelectorAll("[data-trust]")) {
+      this.#plots.model(`published-trust-${panel.dataset.trust}`).on_event("tap", ({x, y}) => {
+        const within = (key, value) => {
+          const {low, high} = this.#root.querySelector(`input[type="range"][data-key="${key}"]`).dataset;
+          return asText(Math.min(Math.max(value, Number(low)), Number(high)));
+        };
+        this.#controls.take({...this.#controls.said, roll_off: panel.dataset.trust, map_F: within("map_F", x), map_D_f: within("map_D_f", y)});
+        this.#changed("map_F");
+      });
+    }
+  }
+
+  #bindButtons() {
+    for (const box of this.#root.querySelectorAll("[data-dimension]")) {
+      box.addEventListener("change", () => {
+        const chosen = [...this.#root.querySelectorAll("[data-dimension]:checked")].map((each) => each.dataset.dimension);
+        this.#controls.set("D_f", chosen.join(",") || ",", true);
+      });
+    }
+    this.#root.querySelector("#published-windows").addEventListener("click", () => {
+      for (const key of Object.values(EDGES).flat()) {
+        const {default: value} = this.#root.querySelector(`input[type="range"][data-key="${key}"]`).dataset;
+        this.#controls.take({...this.#controls.said, [key]: asText(Number(value))});
+        this.#controls.refuse(key, "");
+      }
+      for (const model of MODELS) this.#askFits(model);
+    });
+  }
+}

@@ -1,0 +1,67 @@
+"""The mean stiffness of an ensemble over force, as the figures draw it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughline.computing.arrays import Mask, Real
+from roughline.statistics.averages import Averaging
+
+if TYPE_CHECKING:
+    import xarray
+
+
+@dataclass(frozen=True, eq=False)
+class MeanCurve:
+    """Mean stiffness of one fractal dimension over force.
+
+    Attributes
+    ----------
+    force_bar : ndarray, shape (loads,)
+        Dimensionless force F / (E* h L). [1]
+    mean : ndarray, shape (loads,)
+        Mean of k / (punch E* L) over the realisations that converged. [1]
+    low, high : ndarray, shape (loads,)
+        One standard error below and above the mean. [1]
+    resolved : ndarray of bool, shape (loads,)
+        Whether ten springs or cells or more touch in every realisation.
+    """
+
+    force_bar: Real
+    mean: Real
+    low: Real
+    high: Real
+    resolved: Mask
+
+
+def mean_curve(
+    one: xarray.Dataset, punch: float = 1.0, averaging: Averaging = "arithmetic"
+) -> MeanCurve:
+    """Average the stiffness of one fractal dimension at fixed force.
+
+    Parameters
+    ----------
+    one : Dataset
+        An ensemble at one fractal dimension.
+    punch : float, optional
+        Saturated stiffness over E* L that the stiffness is divided by.
+    averaging : {"arithmetic", "geometric"}, optional
+        Which mean.
+    """
+    stiffness = one.stiffness.values / punch
+    averaged = np.log(stiffness) if averaging == "geometric" else stiffness
+    mean = np.nanmean(averaged, axis=0)
+    error = np.nanstd(averaged, axis=0, ddof=1) / np.sqrt(stiffness.shape[0])
+    low, high = mean - error, mean + error
+    if averaging == "geometric":
+        mean, low, high = np.exp([mean, low, high])
+    return MeanCurve(
+        force_bar=one.force_bar.values,
+        mean=mean,
+        low=low,
+        high=high,
+        resolved=(one.resolved.values == 1).all(axis=0),
+    )

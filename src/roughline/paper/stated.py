@@ -1,0 +1,65 @@
+"""The exponents that the paper states for a fractal dimension, and how near is near enough."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.power_law import linear_exponent, scaling_exponent
+from roughline.statistics.verdict import Verdict, verdict
+
+ModelLabel = Literal["1D", "3D"]
+
+EXPONENT_TOLERANCE = 0.05
+"""How near exponents must come; the paper's own plots show no more."""
+SMALL_DISCREPANCY = 2 * EXPONENT_TOLERANCE
+"""What a "small discrepancy" of exponents may be."""
+EXTREMELY_WELL_UP_TO = 2.6
+"""Fractal dimension up to which the paper finds its scaling argument to hold extremely well."""
+ENDS_OF_REDUCED = {2.0: 0.5, 3.0: 0.75}
+"""Exponents of the reduced model at the ends of the fractal dimensions (§6)."""
+
+
+@dataclass(frozen=True)
+class StatedExponent:
+    """An exponent that the paper states.
+
+    Attributes
+    ----------
+    value : float
+        The exponent.
+    tolerance : float
+        How near another must come to be the same.
+    where : str
+        The formula or number, and where it stands in the paper.
+    """
+
+    value: float
+    tolerance: float
+    where: str
+
+    def verdict(self, found: IntervalEstimate) -> Verdict:
+        """Judge an exponent that was found, by its interval."""
+        off = found - self.value
+        return verdict(off.low, off.high, -self.tolerance, self.tolerance)
+
+
+def is_smooth(fractal_dimension: float) -> bool:
+    """Whether the scaling argument should hold extremely well."""
+    return fractal_dimension <= EXTREMELY_WELL_UP_TO + 1e-9
+
+
+def stated_exponents(model: ModelLabel, fractal_dimension: float) -> tuple[StatedExponent, ...]:
+    """Return what the paper states of an exponent: the scaling argument first."""
+    tolerance = EXPONENT_TOLERANCE if is_smooth(fractal_dimension) else SMALL_DISCREPANCY
+    scaling = StatedExponent(
+        scaling_exponent(fractal_dimension), tolerance, "1 / (4 - D_f), eq. 14 and §7"
+    )
+    if model == "3D":
+        linear = linear_exponent(fractal_dimension)
+        return (scaling, StatedExponent(linear, EXPONENT_TOLERANCE, "0.2567 D_f, §7"))
+    if fractal_dimension in ENDS_OF_REDUCED:
+        end = ENDS_OF_REDUCED[fractal_dimension]
+        return (scaling, StatedExponent(end, EXPONENT_TOLERANCE, f"{end:g}, §6"))
+    return (scaling,)

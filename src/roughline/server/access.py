@@ -1,0 +1,144 @@
+"""Who may speak to the server: host and origin, password, and how often."""
+
+from __future__ import annotations
+
+import hmac
+import time
+from collections import OrderedDict
+from dataclasses import dataclass, field
+from ipaddress import IPv6Address, ip_address
+from urllib.parse import SplitResult, urlsplit
+
+from roughline.server.settings import ServerSettings
+
+CONTENT_POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'self'",
+        "style-src 'self' 'unsafe-inline'",  # BokehJS writes its styles into the page
+        "img-src 'self' data:",
+        "connect-src 'self'",
+        "form-action 'self'",
+        "base-uri 'none'",
+        "frame-ancestors 'none'",
+    )
+)
+"""Nothing is loaded but from this server, and no text is run as a program."""
+
+HEADERS = {
+    "Content-Security-Policy": CONTENT_POLICY,
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+}
+
+RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox"
+"""Documents that tasks have written run nothing, and load nothing."""
+
+_OWN_NAMES = ("localhost", "127.0.0.1", "::1")
+
+
+def host_is_ours(host: str, settings: ServerSettings) -> bool:
+    """Whether a request names this server; a name that others point here is refused.
+
+    Any port will do, since a tunnel may lead here from another one. Where other machines are let
+    in, by names that are not known here, the password protects.
+    """
+    name = _split(f"//{host}").hostname
+    if name is None:
+        return False
+    return not settings.is_local or name in (*_OWN_NAMES, settings.host)
+
+
+def origin_is_ours(origin: str | None, host: str) -> bool:
+    """Whether a request comes from a page of this server; no origin, and "null", are not ours."""
+    named = _split(origin or "")
+    return named.scheme in ("http", "https") and named.netloc.lower() == host.lower() != ""
+
+
+def _split(address: str) -> SplitResult:
+    """The parts of an address; none of what is no address."""
+    try:
+        parts = urlsplit(address)
+        parts.hostname, parts.port  # noqa: B018 - they are checked when they are read
+    except ValueError:
+        return urlsplit("")
+    return parts
+
+
+def passwords_match(given: str, wanted: str) -> bool:
+    """Compare two passwords in a time that tells nothing of them."""
+    return hmac.compare_digest(given.encode(), wanted.encode())
+
+
+@dataclass
+class Allowance:
+    """How often something may be done: a supply that fills up with time.
+
+    Parameters
+    ----------
+    rate : float
+        Of filling up. [1 / s]
+    most : float
+        When it is full.
+    """
+
+    rate: float
+    most: float
+    _left: float = field(init=False)
+    _at: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._left, self._at = self.most, time.monotonic()
+
+    def take(self) -> bool:
+        """Take one, if there is one left."""
+        now = time.monotonic()
+        self._left = min(self.most, self._left + self.rate * (now - self._at))
+        self._at = now
+        if self._left < 1:
+            return False
+        self._left -= 1
+        return True
+
+
+class Visitors:
+    """How often each address may ask, and try passwords, whatever number of pages it has open."""
+
+    _MOST = 10_000  # addresses that are remembered
+
+    def __init__(self) -> None:
+        self._questions: OrderedDict[str, Allowance] = OrderedDict()
+        self._logins: OrderedDict[str, Allowance] = OrderedDict()
+
+    def may_ask(self, address: str) -> bool:
+        """Take one question."""
+        return self._of(self._questions, address, 2000, 8000).take()
+
+    def may_try(self, address: str) -> bool:
+        """Take one try of the password."""
+        return self._of(self._logins, address, 1 / 12, 5).take()
+
+    def _of(
+        self, known: OrderedDict[str, Allowance], address: str, rate: float, most: float
+    ) -> Allowance:
+        allowance = known.pop(address, None) or Allowance(rate, most)
+        known[address] = allowance  # the latest is last
+        while len(known) > self._MOST:
+            known.popitem(last=False)
+        return allowance
+
+
+def neighbourhood(address: str) -> str:
+    """Return an address, or of one of version 6 the network that one customer commonly has."""
+    try:
+        number = ip_address(address.partition("%")[0])
+    except ValueError:  # such as a socket file
+        return address
+    if isinstance(number, IPv6Address) and not number.is_loopback:
+        if number.ipv4_mapped is not None:
+            return str(number.ipv4_mapped)
+        return str(IPv6Address(int(number) >> 64 << 64))
+    return str(number)

@@ -1,0 +1,72 @@
+"""What pages ask of a lane of processes, and what it may take."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from roughline.server.tasks import Outcome, Place
+
+
+@dataclass(frozen=True)
+class Request:
+    """One thing that a page asks for.
+
+    Attributes
+    ----------
+    address, session, slot : str
+        From where, who asks, and for which part of the page: a newer request for it takes the place
+        of an older one.
+    place : Place
+        Where the task is.
+    arguments : mapping
+        Of the task; with "refines" it makes an answer finer that is there, and lets others pass.
+    answer : callable
+        Told the outcome, unless the request was replaced or withdrawn.
+    progress : callable
+        Told (steps done, steps in all).
+    """
+
+    address: str
+    session: str
+    slot: str
+    place: Place
+    arguments: Mapping[str, Any]
+    answer: Callable[[Outcome], None]
+    progress: Callable[[int, int], None]
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """What a newer request must share to take its place."""
+        return self.session, self.slot
+
+    @property
+    def refines(self) -> bool:
+        """Whether it makes an answer finer that is there already."""
+        return self.arguments.get("refines") is True
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a lane and one task in it may take.
+
+    Attributes
+    ----------
+    count : int
+        Processes that work side by side; one that takes long lets others start beside it.
+    most : int
+        Processes in all.
+    per_session : int
+        Processes that work for one page.
+    seconds : float
+        Time of a task. [s]
+    memory : float
+        Memory of a task, beside the program. [bytes]
+    """
+
+    count: int
+    most: int
+    per_session: int
+    seconds: float
+    memory: float

@@ -1,0 +1,225 @@
+"""The server itself: what it answers at which address, from its start to its end."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+import secrets
+import signal
+import socket
+from collections.abc import Callable
+from contextlib import ExitStack, suppress
+from ipaddress import ip_address
+from pathlib import Path
+from typing import Any
+
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+from tornado.web import Application
+
+from roughline.computing.cores import available_cores
+from roughline.errors import InputError
+from roughline.server.access import Visitors
+from roughline.server.empty_figures import EmptyFigures
+from roughline.server.handlers import (
+    Figures,
+    Login,
+    Nothing,
+    Page,
+    Parts,
+    Results,
+    Uploads,
+    bokeh_folder,
+)
+from roughline.server.lanes import Lane
+from roughline.server.leftovers import folder_of_files
+from roughline.server.link import MOST_BYTES, Link
+from roughline.server.requests import Limits
+from roughline.server.session import Session
+from roughline.server.settings import ServerSettings
+from roughline.server.site import Site
+
+_QUICK_SECONDS, _QUICK_MEMORY = 20.0, 1_000_000_000
+_MOST_SLOW = 20  # processes for tasks that take long
+_PING = 20  # a page that does not answer within this time is gone [s]
+_READY = 1.5  # that the first page waits for what it will need first [s]
+_MOST_BODY = 2**16  # of a request that brings no file [bytes]
+_MOST_HEADERS = 2**14  # [bytes]
+
+
+class Server:
+    """What all requests share.
+
+    Parameters
+    ----------
+    site : Site
+        What is served.
+    settings : ServerSettings
+        Of the server.
+    root : Path
+        Folder for the files of all sessions, which is deleted at the end.
+    """
+
+    def __init__(self, site: Site, settings: ServerSettings, root: Path) -> None:
+        self.site, self.settings, self.root = site, settings, root
+        self.sessions: dict[str, Session] = {}
+        self.visitors = Visitors()
+        self.figures = EmptyFigures(site.figures)
+        self.quick, self.slow = _lanes(settings)
+
+    def application(self) -> Application:
+        """The handlers, by address."""
+        return Application(
+            [
+                (r"/", Page),
+                (r"/login", Login),
+                (r"/link", Link),
+                (r"/upload", Uploads),
+                (rf"/figures/({'|'.join(self.site.figures)})", Figures),
+                (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]+)", Results),
+                (r"/lab/(.*)", Parts, {"path": str(self.site.parts)}),
+                (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", Parts, {"path": str(bokeh_folder())}),
+            ],
+            default_handler_class=Nothing,
+            server=self,
+            cookie_secret=secrets.token_hex(32),
+            websocket_max_message_size=MOST_BYTES,
+            websocket_ping_interval=_PING,
+            websocket_ping_timeout=_PING,
+            log_function=lambda handler: None,
+        )
+
+    def has_place(self, address: str) -> bool:
+        """Whether one more page may be open there; from afar, an address has half of all places."""
+        most = self.settings.max_sessions
+        own = sum(session.address == address for session in self.sessions.values())
+        return len(self.sessions) < most and (self.settings.is_local or own < max(1, most // 2))
+
+    def open_session(
+        self,
+        address: str,
+        send: Callable[[dict[str, Any]], None],
+        send_answer: Callable[[int, bytes], None],
+    ) -> Session:
+        """Begin a session."""
+        session = Session(
+            address,
+            self.root,
+            self.site,
+            self.settings,
+            self.quick,
+            self.slow,
+            send,
+            send_answer,
+        )
+        self.sessions[session.token] = session
+        return session
+
+    def close_session(self, session: Session) -> None:
+        """End a session, and all that it has."""
+        self.sessions.pop(session.token, None)
+        session.close()
+
+    async def prepare(self) -> None:
+        """Start processes ahead of the first page."""
+        await self.quick.prepare()
+        await self.slow.prepare()
+        await self.figures.of_view(next(iter(self.site.figures)))
+
+    async def close(self) -> None:
+        """End everything."""
+        self.figures.close()
+        for session in list(self.sessions.values()):
+            self.close_session(session)
+        await asyncio.gather(self.quick.close(), self.slow.close())
+
+
+def _lanes(settings: ServerSettings) -> tuple[Lane, Lane]:
+    """Processes for quick tasks, and for the others: as many as have memory, at least two."""
+    import psutil  # here because it is wanted once
+
+    cores = available_cores()
+    most = min(_MOST_SLOW, int(psutil.virtual_memory().total / settings.max_memory))
+    quick = Limits(cores, 2 * cores + 2, cores, _QUICK_SECONDS, _QUICK_MEMORY)
+    slow = Limits(cores, max(cores + 1, most), 2, settings.max_seconds, settings.max_memory)
+    return Lane(quick, lasting=True), Lane(slow, lasting=False)
+
+
+def serve(site: Site, settings: ServerSettings, ready: Callable[[str], None]) -> None:
+    """Serve until Ctrl-C.
+
+    Parameters
+    ----------
+    site : Site
+        What is served.
+    settings : ServerSettings
+        What to listen to, and the limits of a session.
+    ready : callable
+        Told the address of the page as soon as it can be opened.
+
+    Raises
+    ------
+    InputError
+        If the address is not free, or not one of this machine.
+    """
+    logging.getLogger("tornado.general").setLevel(logging.ERROR)  # refusals are told to the page
+    with suppress(KeyboardInterrupt), ExitStack() as opened:
+        sockets = [opened.enter_context(each) for each in _listening(settings)]
+        server = Server(site, settings, opened.enter_context(folder_of_files()))
+        asyncio.run(_serve(server, sockets, ready))
+
+
+async def _serve(
+    server: Server, sockets: list[socket.socket], ready: Callable[[str], None]
+) -> None:
+    stopped = asyncio.Event()
+    for name in ("SIGINT", "SIGTERM"):
+        with suppress(NotImplementedError, AttributeError):  # Windows raises KeyboardInterrupt
+            asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
+    listening = HTTPServer(
+        server.application(), max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS
+    )
+    preparing = asyncio.create_task(server.prepare())
+    try:
+        listening.add_sockets(sockets)
+        server.site.page()
+        with suppress(TimeoutError):
+            await asyncio.wait_for(asyncio.shield(preparing), _READY)
+        if not stopped.is_set():
+            ready(_address(server.settings, sockets[0]))
+        await stopped.wait()
+    finally:
+        listening.stop()
+        await server.close()
+        await preparing
+
+
+def _listening(settings: ServerSettings) -> list[socket.socket]:
+    """Sockets on the address of the settings."""
+    try:
+        sockets = bind_sockets(settings.port, settings.host)
+    except socket.gaierror as error:
+        raise InputError(
+            f'host="{settings.host}" is no address of this machine: give one, or 127.0.0.1 for '
+            "this machine alone"
+        ) from error
+    except (OSError, UnicodeError) as error:
+        why = os.strerror(error.errno) if isinstance(error, OSError) and error.errno else error
+        raise InputError(
+            f"cannot listen on {settings.host}, port {settings.port} ({why}): take another port=, "
+            "or 0 for any free one, and an address of this machine"
+        ) from error
+    found = {each.getsockname()[0] for each in sockets}
+    if settings.is_local and not all(ip_address(each).is_loopback for each in found):
+        for each in sockets:
+            each.close()
+        raise InputError(f'host="{settings.host}" leads to other machines here: give 127.0.0.1')
+    return sockets
+
+
+def _address(settings: ServerSettings, listening: socket.socket) -> str:
+    """The address of the page."""
+    port = listening.getsockname()[1]
+    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(settings.host, settings.host)
+    return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"

@@ -1,0 +1,238 @@
+"""Explore: its addresses, and its numbers, which are those of the library."""
+
+import math
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import xarray
+from matplotlib import image
+
+import roughline as rl
+from lab.unpacked import unpacked
+from roughline.lab.controls import ControlError
+from roughline.lab.explore import code, downloads, pictures
+from roughline.lab.explore.address import state_of
+from roughline.lab.explore.state import ExploreState
+from roughline.lab.frames import frame
+from roughline.report.values import with_interval
+
+SMALL = {"n": "64", "D_f": "2.4", "seed": "3", "F": "0.2", "cutoff": "0.0625"}
+LENGTH, E_STAR, HEIGHT = 1e-3, 110e9, 1e-6
+
+
+def arguments(state, folder=None, **others):
+    session = {"max_points": 1024, "folder": str(folder), "names": {}}
+    return {"state": state, "session": session, "crowded": False, **others}
+
+
+def answer(task, state, **others):
+    return unpacked(task(arguments(state, **others), lambda done, total: None))
+
+
+@pytest.fixture(scope="module")
+def surface():
+    q_low = 2 * math.pi / LENGTH
+    spectrum = rl.SelfAffine(
+        fractal_dimension=2.4, length=LENGTH, rms_height=HEIGHT, q_high=q_low / 0.0625
+    )
+    return spectrum.surface(64, 3)
+
+
+@pytest.fixture(scope="module")
+def curve(surface):
+    force = 0.2 * E_STAR * HEIGHT * LENGTH
+    return rl.press(surface, E_star=E_STAR, forces=[force], fields=True, grid_error=True)
+
+
+def test_a_message_is_read_as_it_was_written():
+    arrays = {
+        "marks": np.arange(5, dtype=np.uint8),
+        "heights": np.linspace(0, 1, 6).reshape(2, 3),
+        "colours": np.array([[2**32 - 1]], dtype=np.uint32),
+    }
+    header, read = unpacked(frame({"value": math.nan, "text": "k̄"}, arrays))
+    assert header["value"] is None
+    assert header["text"] == "k̄"
+    for name, values in arrays.items():
+        np.testing.assert_array_equal(read[name], values.astype(read[name].dtype))
+        assert header["arrays"][name]["offset"] % 8 == 0
+
+
+def test_the_contact_is_that_of_the_library(curve):
+    header, arrays = answer(pictures.full, SMALL)
+    fields = curve.fields[0]
+    assert header["curve"]["stiffness_bar"] == curve.stiffness_bar.tolist()
+    assert header["curve"]["area"] == curve.area_fraction_corrected.tolist()
+    np.testing.assert_array_equal(arrays["area"], fields.contact.T)
+    np.testing.assert_array_equal(arrays["pressure"], (fields.pressure / E_STAR).astype("f4").T)
+    for name in ("gap", "displacement"):
+        wanted = getattr(fields, name) / HEIGHT
+        np.testing.assert_allclose(arrays[name], wanted.T, rtol=1e-6, atol=1e-7)
+
+
+def test_the_answer_strip_says_what_the_library_says(curve, surface):
+    header, _ = answer(pictures.full, SMALL)
+    said = {item["key"]: item for item in header["strip"]}
+    k, error = curve.stiffness[0], curve.stiffness_error[0]
+    assert said["stiffness_3d"]["value"] == f"{curve.stiffness_bar[0]:.3g}"
+    assert said["stiffness_3d"]["below"] == with_interval(
+        k, (k / (1 + error / k), k + error), "N/m"
+    )
+    assert said["area"]["value"] == f"{100 * curve.area_fraction_corrected[0]:.3g}%"
+    in_contact = curve.force[0] / (curve.area_fraction[0] * surface.area) / E_STAR
+    assert said["pressure"]["value"] == f"{in_contact:.3g} E*"
+    assert said["depth"]["value"] == f"{curve.depth[0] / HEIGHT:.3g} h"
+    assert said["roughness"]["below"] == f"slope {surface.rms_slope:.3g}"
+
+
+def test_the_line_is_the_mean_of_lines_with_the_same_waves():
+    header, _ = answer(pictures.reduced, SMALL)
+    spectrum = rl.SelfAffine(
+        fractal_dimension=2.4,
+        length=LENGTH,
+        rms_height=HEIGHT,
+        q_high=2 * math.pi / LENGTH / 0.0625,
+    )
+    stiffness = []
+    for seed in range(3, 23):
+        line = spectrum.line(2**13, seed)
+        force = 0.2 * E_STAR * line.rms_height * LENGTH
+        pressed = rl.press(line, E_star=E_STAR, forces=[force])
+        stiffness.append(pressed.stiffness[0] / (E_STAR * LENGTH))
+    assert header["stiffness_bar_1d"] == pytest.approx(np.mean(stiffness), rel=1e-12)
+
+
+def test_the_curve_is_that_of_the_library(surface):
+    header, _ = answer(pictures.curve, {**SMALL, "theories": "persson"})
+    forces = np.array(header["curve"]["force_bar"])
+    pressed = rl.press(surface, E_star=E_STAR, forces=forces * (E_STAR * HEIGHT * LENGTH))
+    np.testing.assert_allclose(header["curve"]["stiffness_bar"], pressed.stiffness_bar, rtol=1e-9)
+    persson = header["theories"][0]
+    pressures = np.array(persson["force_bar"]) * E_STAR * HEIGHT * LENGTH / surface.area
+    wanted = rl.theory("persson", surface, E_STAR, pressures)
+    np.testing.assert_allclose(persson["area"], wanted.area_fraction, rtol=1e-12)
+
+
+def test_a_coarse_answer_has_the_waves_of_its_grid():
+    state = {"n": "256", "seed": "3"}
+    header, arrays = answer(pictures.coarse, state)
+    assert header["points"] == 128
+    assert header["is_coarse"]
+    assert arrays["topography"].shape == (128, 128)
+    crowded, _ = unpacked(
+        pictures.coarse({**arguments(state), "crowded": True}, lambda done, total: None)
+    )
+    assert crowded["points"] == 64
+
+
+def test_periodic_contacts_are_those_of_the_library(surface):
+    header, _ = answer(pictures.full, {**SMALL, "boundary": "periodic"})
+    force = 0.2 * E_STAR * HEIGHT * LENGTH
+    pressed = rl.press(surface, E_star=E_STAR, forces=[force], periodic=True)
+    assert header["curve"]["stiffness_bar"] == pytest.approx(pressed.stiffness_bar.tolist())
+
+
+def test_an_rms_slope_is_that_of_the_surface():
+    header, _ = answer(pictures.full, {**SMALL, "rms": "slope", "slope": "0.05"})
+    said = {item["key"]: item["below"] for item in header["strip"]}
+    assert said["roughness"] == "slope 0.05"
+
+
+@pytest.mark.parametrize(
+    ("said", "name", "value"),
+    [
+        ({"D_f": "H = 0.8"}, "D_f", 2.2),
+        ({"H": "0.3"}, "D_f", 2.7),
+        ({"roll_off": "0.2 mm"}, "roll_off", 0.2),
+        ({"h": "0.3 um"}, "h", 3e-4),
+        ({"F": "11 N"}, "F", 0.1),
+        ({"F": "11 MPa"}, "F", 0.1),
+        ({"F": "11 N", "h": "2 um"}, "F", 0.05),
+        ({"L": "2 mm", "roll_off": "1 mm"}, "roll_off", 0.5),
+    ],
+)
+def test_numbers_may_have_units(said, name, value):
+    assert getattr(state_of(said, 1024), name) == pytest.approx(value)
+
+
+def test_an_address_gives_its_state_again():
+    said = {"D_f": "2.35", "n": "128", "boundary": "periodic", "theories": "persson", "L": "3 um"}
+    state = state_of(said, 1024)
+    assert state_of(state.address(), 1024) == state
+    assert state_of({}, 1024) == ExploreState()
+    assert state_of(ExploreState().address(), 1024) == ExploreState()
+
+
+@pytest.mark.parametrize(
+    ("said", "at"),
+    [
+        ({"D_f": "5"}, "D_f"),
+        ({"D_f": "2,2"}, "D_f"),
+        ({"D_f": "H = 2"}, "D_f"),
+        ({"F": "10 apples"}, "F"),
+        ({"F": "1e9 N"}, "F"),
+        ({"F": "nan"}, "F"),
+        ({"F": ""}, "F"),
+        ({"h": "1 m"}, "h"),
+        ({"h": "0"}, "h"),
+        ({"seed": "1.5"}, "seed"),
+        ({"n": "77"}, "n"),
+        ({"n": "1024"}, "n"),
+        ({"L": "3"}, "L"),
+        ({"E": "-1 GPa"}, "E"),
+        ({"cutoff": "0.5", "roll_off": "0.2"}, "cutoff"),
+        ({"theories": "hertz"}, "theories"),
+        ({"boundary": "open"}, "boundary"),
+        ({"v": "2"}, ""),
+        ({"colour": "red"}, ""),
+    ],
+)
+def test_what_cannot_be_used_is_refused_where_it_stands(said, at):
+    with pytest.raises(ControlError) as refused:
+        state_of(said, 512)
+    assert refused.value.at == at
+    assert "\n" not in str(refused.value)
+
+
+def test_as_python_gives_the_same_numbers(curve):
+    header, _ = answer(code.code, SMALL, which="python")
+    done = subprocess.run(
+        [sys.executable, "-c", header["text"]], capture_output=True, text=True, check=True
+    )
+    numbers = [float(line.split()[-1]) for line in done.stdout.splitlines()]
+    wanted = [curve.stiffness_bar[0], curve.area_fraction_corrected[0], curve.depth[0] / HEIGHT]
+    np.testing.assert_allclose(numbers, wanted, rtol=1e-9)
+
+
+def test_as_command_gives_the_same_numbers(curve, tmp_path):
+    header, _ = answer(code.code, SMALL, which="command")
+    for line in header["text"].splitlines():
+        command = f"{sys.executable} -m {line}"
+        done = subprocess.run(
+            command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=True
+        )
+    assert f"{100 * curve.area_fraction_corrected[0]:.4g}%" in done.stdout
+
+
+@pytest.mark.parametrize("name", downloads.FILES)
+def test_every_file_can_be_saved_and_opened(name, tmp_path, surface):
+    header, _ = answer(downloads.download, SMALL, folder=tmp_path, name=name)
+    file = tmp_path / "results" / header["file"]
+    if name == "surface.nc":
+        np.testing.assert_allclose(rl.read(file).heights, surface.heights, rtol=1e-12)
+    elif file.suffix == ".nc":
+        with xarray.open_dataset(file, engine="h5netcdf") as data:
+            assert np.isfinite(data.stiffness).all()
+    elif file.suffix == ".csv":
+        assert file.read_text().startswith("force [N],")
+    elif file.suffix == ".pdf":
+        assert file.read_bytes().startswith(b"%PDF")
+    else:
+        assert image.imread(file).size
+
+
+def test_no_other_file_can_be_saved(tmp_path):
+    with pytest.raises(ControlError):
+        answer(downloads.download, SMALL, folder=tmp_path, name="../../surface.nc")

@@ -1,0 +1,147 @@
+"""A lab of its own process, and the pages that a headless browser opens of it."""
+
+import contextlib
+import re
+import selectors
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from urllib.parse import urlsplit
+
+WANTED = (
+    "no Chromium: install Debian's (apt-get install chromium), or `playwright install chromium`"
+)
+_ARGUMENTS = ("--no-sandbox", "--disable-gpu")  # root has no sandbox, and pictures must not differ
+_OWN = ("data:", "blob:", "about:")
+
+
+def chromium_of(playwright):
+    """Return the path of a Chromium, of the system or Playwright's own; None if there is none."""
+    for name in ("chromium", "chromium-browser"):
+        if path := shutil.which(name):
+            return path
+    own = playwright.chromium.executable_path
+    return own if shutil.which(own) else None
+
+
+def launched(playwright):
+    """Start a headless Chromium."""
+    return playwright.chromium.launch(
+        executable_path=chromium_of(playwright), args=list(_ARGUMENTS), headless=True
+    )
+
+
+class RunningLab:
+    """A lab on a free port of this machine.
+
+    Attributes
+    ----------
+    address : str
+        Of its page.
+    process : Popen
+        Its server.
+    seconds_to_open : float
+        From its start until it said its address. [s]
+    """
+
+    def __init__(self, log, *arguments):
+        self._log = log.open("w+b")
+        command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0"]
+        started = time.perf_counter()
+        self.process = subprocess.Popen(
+            [*command, *arguments], stdout=subprocess.PIPE, stderr=self._log
+        )
+        line = _first_line(self.process.stdout, 60)
+        self.seconds_to_open = time.perf_counter() - started
+        found = re.search(rb"http://\S+", line)
+        if found is None:
+            self.process.kill()
+            self.close()
+            raise TimeoutError(f"the lab does not start: {line!r} {log.read_text()}")
+        self.address = found[0].decode()
+
+    def close(self):
+        """Stop it by Ctrl-C; returns its exit code, and what it wrote to the terminal as errors."""
+        with contextlib.suppress(ProcessLookupError):
+            self.process.send_signal(signal.SIGINT)
+        try:
+            code = self.process.wait(20)
+        finally:
+            self.process.kill()
+            self.process.wait()
+            self.process.stdout.close()
+        self._log.seek(0)
+        said = self._log.read().decode(errors="replace")
+        self._log.close()
+        return code, said
+
+
+def _first_line(stream, seconds):
+    """Return the first line of a stream, or what came of it in time."""
+    with selectors.DefaultSelector() as ready:
+        ready.register(stream, selectors.EVENT_READ)
+        return stream.readline() if ready.select(seconds) else b""
+
+
+class Pages:
+    """Pages of a lab, each with a browser profile of its own, and what they complain of.
+
+    Attributes
+    ----------
+    complaints : list of str
+        Errors on the console, errors of scripts, refusals of the content security policy, and
+        requests that leave the machine.
+    """
+
+    def __init__(self, browser, address):
+        self._browser, self.address = browser, address
+        self._host = urlsplit(address).netloc
+        self._contexts = []
+        self.complaints = []
+
+    def open(self, query="", *, width=1600, height=1100, theme="light", **context):
+        """Open a page of the lab; `query` is what follows its address."""
+        page = self.blank(width=width, height=height, theme=theme, **context)
+        page.goto(self.address + query)
+        return page
+
+    def blank(self, *, width=1600, height=1100, theme="light", **context):
+        """Open an empty page, which is listened to."""
+        made = self._browser.new_context(
+            viewport={"width": width, "height": height},
+            color_scheme=theme,
+            accept_downloads=True,
+            **context,
+        )
+        made.set_default_timeout(20_000)
+        self._contexts.append(made)
+        page = made.new_page()
+        page.on("console", self._console)
+        page.on("pageerror", lambda error: self.complaints.append(f"error of a script: {error}"))
+        page.on("request", lambda request: self._request(request.url))
+        page.on("websocket", lambda socket: self._request(socket.url))
+        return page
+
+    def close(self):
+        """Close all of them."""
+        while self._contexts:
+            self._contexts.pop().close()
+
+    @contextlib.contextmanager
+    def expecting(self, pattern):
+        """Let complaints pass that match a pattern; one at least must come."""
+        before, self.complaints = self.complaints, []
+        yield
+        came, self.complaints = self.complaints, before
+        assert any(re.search(pattern, each) for each in came), came
+        self.complaints += [each for each in came if not re.search(pattern, each)]
+
+    def _console(self, message):
+        if message.type == "error":
+            self.complaints.append(f"console: {message.text} ({message.location.get('url')})")
+
+    def _request(self, url):
+        if not url.startswith(_OWN) and urlsplit(url).netloc != self._host:
+            self.complaints.append(f"a request leaves for {url}")

@@ -1,0 +1,215 @@
+"""A lab in a process of its own, and pages of it without a browser."""
+
+import asyncio
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import asynccontextmanager, contextmanager, suppress
+from pathlib import Path
+from urllib.parse import urlencode
+
+import psutil
+from tornado.httpclient import AsyncHTTPClient, HTTPRequest
+from tornado.websocket import websocket_connect
+
+PATIENCE = 30  # [s]
+
+
+@contextmanager
+def running_lab(*options, temporary, closes=True):
+    """Run a lab with options and a folder for its files; give its address, process and output."""
+    command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0", *options]
+    log = Path(temporary) / "errors.txt"
+    with (
+        log.open("w") as errors,
+        subprocess.Popen(
+            command,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            text=True,
+            env=os.environ | {"TMPDIR": str(temporary)},
+        ) as process,
+    ):
+        try:
+            first = process.stdout.readline()
+            assert " at http" in first, first + log.read_text()
+            lab = Lab(first.split(" at ")[1].split(" ")[0], process, Path(temporary), log, first)
+            yield lab
+        finally:
+            process.send_signal(signal.SIGINT if closes else signal.SIGKILL)
+            process.wait(PATIENCE)
+
+
+class Lab:
+    """A running lab."""
+
+    def __init__(self, address, process, temporary, log, first):
+        self.address, self.process, self.log, self.first = address.rstrip("/"), process, log, first
+        self.temporary = temporary
+
+    @property
+    def folder(self):
+        """Where it keeps files."""
+        (found,) = self.temporary.glob("roughline-lab-*")
+        return found
+
+    async def fetch(self, path, **options):
+        """Ask by HTTP; returns the response, whatever its status."""
+        options = {"follow_redirects": False, "decompress_response": False} | options
+        request = HTTPRequest(f"{self.address}{path}", **options)
+        response = await AsyncHTTPClient().fetch(request, raise_error=False)
+        assert_tells_nothing(response.body)
+        return response
+
+    @asynccontextmanager
+    async def page(self, headers=None):
+        """Open a page."""
+        request = HTTPRequest(
+            f"ws{self.address.removeprefix('http')}/link",
+            headers={"Origin": self.address} if headers is None else headers,
+        )
+        socket = await websocket_connect(request, max_message_size=2**28)
+        page = Page(socket)
+        page.token = json.loads(await page.heard())["session"]
+        try:
+            yield page
+        finally:
+            socket.close()
+            while not page.is_closed and await page.heard() is not None:
+                pass
+
+
+class Page:
+    """One page."""
+
+    def __init__(self, socket):
+        self.socket, self.number, self.is_closed = socket, 0, False
+
+    async def heard(self):
+        """Next message; None if the page is closed."""
+        message = await asyncio.wait_for(self.socket.read_message(), PATIENCE)
+        if message is None:
+            self.is_closed = True
+        else:
+            assert_tells_nothing(message)
+        return message
+
+    async def say(self, text):
+        """Send a text, or bytes."""
+        await self.socket.write_message(text, binary=isinstance(text, bytes))
+
+    async def ask(self, task, slot="slot", **arguments):
+        """Send a question; returns its number."""
+        self.number += 1
+        said = {"id": self.number, "slot": slot, "task": task, "arguments": arguments}
+        await self.say(json.dumps(said))
+        return self.number
+
+    async def answer(self):
+        """Next answer or refusal: its number, and its header or the sentence."""
+        while True:
+            message = await self.heard()
+            if isinstance(message, bytes):
+                length = int.from_bytes(message[8:12], "little")
+                return int.from_bytes(message[:8], "little"), json.loads(message[12 : 12 + length])
+            said = json.loads(message)
+            if "error" in said:
+                return said["id"], said["error"]
+
+
+def assert_tells_nothing(said):
+    """Fail if an answer names a folder of the server, or a place in its program."""
+    said = said if isinstance(said, bytes) else said.encode()
+    for secret in (b"/tmp", b"Traceback", b"site-packages", b"roughline-lab-", b"/src/"):
+        assert secret not in said, said[:2000]
+
+
+def wait_until(is_so, seconds=PATIENCE):
+    """Wait until something is so, and fail if it does not become so."""
+    end = time.monotonic() + seconds
+    while not is_so():
+        assert time.monotonic() < end
+        time.sleep(0.02)
+
+
+async def becomes(is_so, seconds=PATIENCE):
+    """Wait until something is so, while pages go on."""
+    end = time.monotonic() + seconds
+    while not is_so():
+        assert time.monotonic() < end
+        await asyncio.sleep(0.02)
+
+
+def run(scenario):
+    """Run a scenario."""
+    asyncio.run(scenario())
+
+
+async def upload(lab, token, content, name, origin=None):
+    """Send a file as a page does."""
+    return await lab.fetch(
+        f"/upload?{urlencode({'session': token, 'name': name})}",
+        method="POST",
+        body=content,
+        headers={"Origin": origin or lab.address},
+    )
+
+
+async def log_in(lab, password):
+    """Send the form with a password."""
+    return await lab.fetch(
+        "/login",
+        method="POST",
+        body=urlencode({"password": password}),
+        headers={"Origin": lab.address},
+    )
+
+
+async def raw(lab, request):
+    """Send bytes; returns what comes back first."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
+    writer.write(request)
+    said = await asyncio.wait_for(reader.read(2000), 10)
+    writer.close()
+    assert_tells_nothing(said)
+    return said
+
+
+def alive(lab):
+    """Processes of a lab that compute."""
+    found = []
+    for each in psutil.Process(lab.process.pid).children(recursive=True):
+        with suppress(psutil.Error):  # it has ended meanwhile
+            if "forkserver" in " ".join(each.cmdline()):
+                found.append(each)
+    return found[1:]  # the first is the one that the others are forked from
+
+
+def busy(process):
+    """Whether a process computes just now."""
+    with suppress(psutil.Error):
+        before = sum(process.cpu_times()[:2])
+        time.sleep(0.1)
+        return sum(process.cpu_times()[:2]) - before > 0.02
+    return False
+
+
+def alive_still(process):
+    """Whether a process runs, and is not only waited for."""
+    try:
+        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False
+
+
+def held(lab):
+    """Memory of the server, and of it with all its processes. [bytes]"""
+    server = psutil.Process(lab.process.pid)
+    children = 0
+    for each in alive(lab):
+        with suppress(psutil.Error):
+            children += each.memory_full_info().uss
+    return server.memory_info().rss, server.memory_full_info().uss + children

@@ -1,0 +1,121 @@
+"""Who may speak to the lab."""
+
+import pytest
+
+from roughline.errors import InputError
+from roughline.server.access import (
+    Allowance,
+    Visitors,
+    host_is_ours,
+    neighbourhood,
+    origin_is_ours,
+    passwords_match,
+)
+from roughline.server.settings import ServerSettings, password_in
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1:5107", "localhost", "LOCALHOST:1", "[::1]:5107"])
+def test_names_of_this_machine_are_ours(host):
+    assert host_is_ours(host, ServerSettings())
+
+
+@pytest.mark.parametrize(
+    "host", ["rebound.example:5107", "127.0.0.1.example", "", "[::1", "localhost:x", "a@evil", "0"]
+)
+def test_names_that_others_point_here_are_not_ours(host):
+    assert not host_is_ours(host, ServerSettings())
+
+
+def test_other_names_lead_to_a_lab_with_a_password():
+    settings = ServerSettings(host="0.0.0.0", password="long enough")
+    assert host_is_ours("laboratory.example:5107", settings)
+    assert not host_is_ours("", settings)
+
+
+def test_only_pages_of_the_same_name_and_port_may_ask():
+    assert origin_is_ours("http://localhost:5107", "localhost:5107")
+    for origin in (
+        None,
+        "null",
+        "",
+        "http://localhost",
+        "http://localhost:5108",
+        "http://[",
+        "ftp:",
+    ):
+        assert not origin_is_ours(origin, "localhost:5107")
+    assert not origin_is_ours("null", "")
+
+
+def test_an_allowance_fills_up_with_time(monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr("roughline.server.access.time.monotonic", lambda: now[0])
+    allowance = Allowance(rate=2.0, most=3.0)
+    assert [allowance.take() for _ in range(4)] == [True, True, True, False]
+    now[0] = 0.5
+    assert [allowance.take() for _ in range(2)] == [True, False]
+    now[0] = 1e6
+    assert [allowance.take() for _ in range(4)] == [True, True, True, False]
+
+
+def test_tries_of_a_password_are_counted_for_each_address():
+    visitors = Visitors()
+    assert [visitors.may_try("10.0.0.1") for _ in range(6)] == [True] * 5 + [False]
+    assert visitors.may_try("10.0.0.2")
+
+
+def test_addresses_that_are_remembered_are_bounded():
+    visitors = Visitors()
+    for number in range(visitors._MOST + 10):
+        visitors.may_try(str(number))
+    assert len(visitors._logins) == visitors._MOST
+
+
+def test_a_customer_with_many_addresses_counts_once():
+    assert neighbourhood("2001:db8:1:2:3::4") == neighbourhood("2001:db8:1:2:ffff::1")
+    assert neighbourhood("2001:db8:1:3::1") != neighbourhood("2001:db8:1:2::1")
+    assert neighbourhood("::ffff:10.0.0.1") == "10.0.0.1"
+    assert neighbourhood("::1") == "::1"
+    assert neighbourhood("") == ""
+
+
+def test_passwords_of_any_letters_are_compared():
+    assert passwords_match("größer als acht", "größer als acht")
+    assert not passwords_match("größer als ach", "größer als acht")
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"host": "0.0.0.0"}, "lets other machines in"),
+        ({"host": "::"}, "lets other machines in"),
+        ({"host": "laboratory.example"}, "lets other machines in"),
+        ({"host": ""}, "host is empty"),
+        ({"password": "short"}, "fewer than 8"),
+        ({"port": 65536}, "port is 65536"),
+        ({"max_upload": 0}, "a limit of 0 is none: give a positive max_upload="),
+        ({"max_seconds": -1.0}, "positive max_seconds="),
+        ({"max_seconds": float("nan")}, "limit of nan"),
+        ({"max_seconds": float("inf")}, "limit of inf"),
+        ({"max_memory": 1e6}, "1 MB of memory are too few"),
+    ],
+)
+def test_a_lab_that_makes_no_sense_is_refused(options, said):
+    with pytest.raises(InputError, match=said):
+        ServerSettings(**options)
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "127.8.8.8", "::1", "localhost"])
+def test_this_machine_alone_needs_no_password(host):
+    assert ServerSettings(host=host).is_local
+
+
+def test_a_password_is_the_first_line_of_its_file(tmp_path):
+    file = tmp_path / "password"
+    file.write_text("correct horse\nbattery\n")
+    assert password_in(file) == "correct horse"
+    file.write_text("\n")
+    with pytest.raises(InputError, match="no password in its first line"):
+        password_in(file)
+    with pytest.raises(InputError, match="cannot read the password"):
+        password_in(tmp_path / "missing")

@@ -1,0 +1,172 @@
+"""How the lab starts, refuses to, and ends."""
+
+import asyncio
+import gc
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import psutil
+import pytest
+from tornado.httpclient import HTTPRequest
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+from tornado.websocket import websocket_connect
+
+from roughline.lab.site import site
+from roughline.server.serve import Server
+from roughline.server.settings import ServerSettings
+from server.serving import (
+    alive_still,
+    becomes,
+    run,
+    running_lab,
+    upload,
+    wait_until,
+)
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+PASSWORD = "correct horse"
+LEFT_SOCKETS = pytest.mark.filterwarnings(  # Tornado leaves those that it cannot bind unclosed
+    "ignore:Exception ignored in. <socket:pytest.PytestUnraisableExceptionWarning",
+    "ignore:unclosed <socket:ResourceWarning",
+)
+
+
+@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM])
+def test_it_is_stopped_with_pages_open(stop, tmp_path):
+    with running_lab(temporary=tmp_path) as lab:
+
+        async def scenario():
+            async with lab.page() as page:
+                await upload(lab, page.token, b"1 2\n", "a.txt")
+                await page.ask("explore.full", state={"n": "512"})
+                await asyncio.sleep(0.1)
+                children = psutil.Process(lab.process.pid).children(recursive=True)
+                asked = time.monotonic()
+                lab.process.send_signal(stop)
+                while await page.heard() is not None:
+                    pass
+            lab.process.wait(10)
+            assert time.monotonic() - asked < 5
+            wait_until(lambda: not any(child.is_running() for child in children), 5)
+
+        run(scenario)
+        assert lab.process.returncode == 0
+        assert lab.process.stdout.read() == "The lab is closed.\n"
+        for word in ("Task was", "never retrieved", "KeyboardInterrupt", "ignored", "tornado"):
+            assert word not in lab.log.read_text()
+        assert not list(tmp_path.glob("roughline-lab-*"))
+
+
+def test_what_a_killed_server_leaves_is_removed_by_the_next(tmp_path):
+    with running_lab(temporary=tmp_path, closes=False) as lab:
+        children = psutil.Process(lab.process.pid).children(recursive=True)
+        left = lab.folder
+    wait_until(lambda: not any(alive_still(child) for child in children), 10)
+    assert left.is_dir()
+    others = tmp_path / "roughline-lab-mine"
+    others.mkdir()
+    (tmp_path / "roughline-lab-999999-linked").symlink_to(others)
+    with running_lab(temporary=tmp_path) as lab:
+        assert not left.exists()
+    assert others.is_dir()
+
+
+@LEFT_SOCKETS
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--host", "0.0.0.0"), "--password-file"),
+        (("--host", ""), "host is empty"),
+        (("--host", "192.0.2.1", "--password-file", "password"), "cannot listen on 192.0.2.1"),
+        (
+            ("--host", "no.such.invalid", "--password-file", "password"),
+            "no address of this machine",
+        ),
+        (("--password-file", "missing"), "cannot read the password"),
+        (("--password-file", "empty"), "no password in its first line"),
+        (("--password-file", "short"), "fewer than 8"),
+        (("--port", "70000"), "port is 70000"),
+        (("--max-upload", "0"), "positive --max-upload"),
+        (("--max-upload", "nan"), "positive --max-upload"),
+        (("--max-seconds", "-1"), "positive --max-seconds"),
+        (("--max-memory", "inf"), "positive --max-memory"),
+        (("--max-points", "0"), "positive --max-points"),
+    ],
+)
+def test_options_that_make_no_sense_are_one_line(invoke, tmp_path, monkeypatch, options, said):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "password").write_text(PASSWORD)
+    (tmp_path / "empty").write_text("")
+    (tmp_path / "short").write_text("1234567")
+    code, out, errors = invoke("lab", "--no-browser", *options)
+    gc.collect()
+    assert code == 2
+    assert out == ""
+    assert said in errors
+    assert errors.count("\n") == 1
+
+
+@LEFT_SOCKETS
+def test_a_port_that_is_taken_is_one_line(invoke):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = str(taken.getsockname()[1])
+        code, _, errors = invoke("lab", "--no-browser", "--port", port)
+    gc.collect()
+    assert code == 2
+    assert f"port {port}" in errors
+    assert "--port" in errors
+
+
+@pytest.mark.parametrize("moment", ["forking", "folder"])
+def test_ctrl_c_before_it_is_up_ends_it_quietly(moment, tmp_path):
+    """In a terminal it reaches all processes of the lab at once."""
+    command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0"]
+    with subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env=os.environ | {"TMPDIR": str(tmp_path)},
+        start_new_session=True,
+    ) as process:
+        if moment == "forking":
+            wait_until(psutil.Process(process.pid).children)
+        else:
+            wait_until(lambda: list(tmp_path.glob("roughline-lab-*")))
+        os.killpg(process.pid, signal.SIGINT)
+        said = process.communicate(timeout=20)[0]
+    assert "KeyboardInterrupt" not in said
+    assert "Task" not in said
+    assert not list(tmp_path.glob("roughline-lab-*"))
+
+
+def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
+    monkeypatch.setattr("roughline.server.serve._PING", 0.3)
+
+    async def scenario():
+        lab = Server(site(), ServerSettings(), tmp_path)
+        (listening,) = bind_sockets(0, "127.0.0.1")
+        server = HTTPServer(lab.application())
+        server.add_sockets([listening])
+        port = listening.getsockname()[1]
+        page = await websocket_connect(
+            HTTPRequest(
+                f"ws://127.0.0.1:{port}/link", headers={"Origin": f"http://127.0.0.1:{port}"}
+            )
+        )
+        await page.read_message()
+        await asyncio.sleep(0.7)
+        (session,) = lab.sessions.values()
+        session.new_upload("a.txt", 1)[1].path.write_text("1")
+        page.protocol._handle_message = lambda opcode, data: None  # it answers no ping any more
+        await becomes(lambda: not lab.sessions and not list(tmp_path.iterdir()), 15)
+        page.close()
+        server.stop()
+        await lab.close()
+
+    run(scenario)
