@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+import roughline as rl
 from roughline.lab.measured.controls import EXAMPLES
-from roughline.spectra.self_affine import SelfAffine
 
 
 def path_of(key: str, folder: Path) -> Path:
@@ -32,9 +32,13 @@ def _ground_steel(path: Path) -> None:
     """A ground face under an optical profiler: lay, tilt, dark spots, and spikes of dust."""
     n, length = 320, 0.6e-3
     rng = np.random.default_rng(7)
-    spectrum = SelfAffine(hurst=0.75, length=length, rms_height=0.16e-6, q_roll=2 * math.pi / 60e-6)
+    spectrum = rl.SelfAffine(
+        hurst=0.75, length=length, rms_height=0.16e-6, q_roll=2 * math.pi / 60e-6
+    )
     heights = spectrum.surface(n, 7).heights
-    grooves = SelfAffine(hurst=0.6, length=length, rms_height=0.07e-6, q_roll=2 * math.pi / 25e-6)
+    grooves = rl.SelfAffine(
+        hurst=0.6, length=length, rms_height=0.07e-6, q_roll=2 * math.pi / 25e-6
+    )
     heights = heights + grooves.surface(n, 8).heights[:, :1]  # the lay runs along y
     x, y = np.meshgrid(*2 * [np.arange(n) / n], indexing="ij")
     heights += 2.4e-6 * x - 1.1e-6 * y  # the stage
@@ -51,7 +55,9 @@ def _ground_steel(path: Path) -> None:
 def _sputtered_film(path: Path) -> None:
     """A sputtered film under an atomic force microscope: a self-affine law with a roll-off."""
     n, length = 384, 4e-6
-    spectrum = SelfAffine(hurst=0.8, length=length, rms_height=3.2e-9, q_roll=2 * math.pi / 0.5e-6)
+    spectrum = rl.SelfAffine(
+        hurst=0.8, length=length, rms_height=3.2e-9, q_roll=2 * math.pi / 0.5e-6
+    )
     heights = spectrum.surface(n, 11).heights
     x, y = np.meshgrid(*2 * [np.arange(n) / n], indexing="ij")
     _write_x3p(path, np.ma.MaskedArray(heights + 9e-9 * x + 4e-9 * y), (length, length))
@@ -62,7 +68,7 @@ def _turned_shaft(path: Path) -> None:
     n, step = 4000, 0.5e-6
     length = n * step
     x = (np.arange(n) + 0.5) * step
-    spectrum = SelfAffine(
+    spectrum = rl.SelfAffine(
         hurst=0.7, length=length, rms_height=0.25e-6, q_roll=2 * math.pi / 0.15e-3
     )
     rough = spectrum.surface(1024, 5).heights[:, 0]

@@ -100,7 +100,7 @@ def _of_description(found: Description) -> dict[str, Any]:
         "remarks": [in_controls(each) for each in remarks],
         "missing": found.missing.count,
         "body": None if body is None else _of_body(body),
-        "spectrum": None if parameters is None else spectrum_of(parameters),
+        "spectrum": spectrum_of(found),
     }
 
 

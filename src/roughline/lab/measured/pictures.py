@@ -9,15 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.assessment.assessment import Assessment
-from roughline.computing.arrays import Mask, Real
+from roughline.assessment.description import Description
 from roughline.engineering.answer import Ends
 from roughline.files.measurement import Measurement
 from roughline.report.pixels import any_marked, thinned
-from roughline.spectra.isotropic import IsotropicSpectrum
-from roughline.spectra.roughness import Roughness
 from roughline.topography.body import Body, Surface
 from roughline.topography.preparation import outliers
 from roughline.units import decimal, engineering, metres_per, prefix
+
+Real = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 _MOST_SPIKES = 2000  # that are marked
 _MOST_SPOTS = 100  # points in contact that are marked
@@ -64,13 +65,14 @@ def drawing_of_body(body: Body) -> Drawing:
     return _drawn("body", heights, sides, _unit(max(sides), 1.0), _unit(_span(heights), 1.0))
 
 
-def spectrum_of(parameters: Roughness) -> dict[str, Any] | None:
+def spectrum_of(found: Description) -> dict[str, Any] | None:
     """The spectrum with the nearest law, as the reports draw it."""
-    spectrum, power, fit = parameters.spectrum, parameters.power, parameters.fit
-    if spectrum is None or power is None:
+    parameters = found.roughness
+    if parameters is None or parameters.spectrum is None or parameters.power is None:
         return None
+    spectrum, power, fit = parameters.spectrum, parameters.power, parameters.fit
     known = power > 0
-    of_surface = isinstance(spectrum, IsotropicSpectrum)
+    of_surface = isinstance(found.body, Surface)
     law = parameters.law
     kept = None
     if law is not None:

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import roughline as rl
 from roughline.assessment.question import Question, Reading
 from roughline.engineering.materials import Material, material
-from roughline.errors import RoughlineError
 from roughline.lab.controls import ControlError
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import path_of
@@ -211,7 +211,7 @@ def at(key: str) -> Iterator[None]:
     """Say of a refusal at which control it arose, in the words of the page."""
     try:
         yield
-    except RoughlineError as error:
+    except rl.RoughlineError as error:
         raise ControlError(in_controls(str(error)), getattr(error, "at", "") or key) from None
 
 
