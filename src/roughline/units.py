@@ -100,6 +100,25 @@ def in_si(text: str, unit: str, name: str) -> float:
         ) from error
 
 
+def lengths(text: str, name: str) -> list[float]:
+    """Read lengths with units between commas. [m]
+
+    Parameters
+    ----------
+    text : str
+        Such as "0 um, 50 um".
+    name : str
+        Name of the quantity, for the message.
+
+    Raises
+    ------
+    UnitError
+        If one of them is no length with a unit, or has a decimal comma.
+    """
+    refuse_decimal_comma(text, name)
+    return [in_si(part, "m", name) for part in text.split(",")]
+
+
 def refuse_decimal_comma(text: str, name: str) -> None:
     """Refuse a number such as 0,33.
 

@@ -88,8 +88,9 @@ def compare_models(
             f"q_roll / q_0 = {roughness.q_roll / roughness.q_low:.3g}"
         )
     else:
-        body = _surface(roughness, reading or Reading())
-        what = _what_is_in(roughness, body)
+        reading = reading or Reading()
+        body = _surface(roughness, reading)
+        what = _what_is_in(reading.name or str(roughness), body)
     result = compare(
         body, n=n, surfaces=surfaces, force_bars=force_bars, rng=seed, progress=progress
     )
@@ -99,16 +100,18 @@ def compare_models(
 
 def _surface(file: Path, reading: Reading) -> Surface:
     """The surface in a file."""
-    content = measurement(file, reading.channel)
+    content = measurement(file, reading.channel, reading.name)
     body = prepared(measured_body(content, reading, None, in_place=True))
     if isinstance(body, Line):
-        raise InputError(f"{file} holds a line; the models are compared on a surface")
+        raise InputError(
+            f"{reading.name or file} holds a line; the models are compared on a surface"
+        )
     return body
 
 
-def _what_is_in(file: Path, surface: Surface) -> str:
+def _what_is_in(name: str, surface: Surface) -> str:
     """Say what is compared, and whether a spectrum without directions stands for it."""
-    what = f"{file}, {surface.shape[0]} x {surface.shape[1]} points, and lines of its spectrum"
+    what = f"{name}, {surface.shape[0]} x {surface.shape[1]} points, and lines of its spectrum"
     if (alike := isotropy(surface)) < ALIKE:
         what += (
             f"; its slopes differ by direction, least {alike:.2f} of the largest: a spectrum "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -74,13 +74,46 @@ def describe(
         If the file cannot be read, or what is asked for does not suit it.
     """
     reading = reading or Reading()
-    content = measurement(file, reading.channel)
+    content = measurement(file, reading.channel, reading.name)
+    return describe_measurement(file, content, reading, preparation)
+
+
+def describe_measurement(
+    file: Path,
+    content: Measurement,
+    reading: Reading,
+    preparation: Preparation | None = None,
+    *,
+    body_of: Callable[[], Body] | None = None,
+) -> Description:
+    """Prepare what a file holds, once it is read, and describe it.
+
+    Parameters
+    ----------
+    file : Path
+        The topography.
+    content : Measurement
+        What it holds; it stays as it is.
+    reading, preparation
+        As for :func:`describe`.
+    body_of : callable, optional
+        Gives the body as it is read, before its preparation, where that is kept.
+
+    Raises
+    ------
+    InputError
+        If what is asked for does not suit it.
+    """
     missing = missing_pattern(content.unknown, content.sizes)
     filling = Missing(reading.missing, reading.most_missing)
     obstacles = [str(each) for each in content.obstacles(reading.unit, reading.sizes, filling)]
     if obstacles:
         return Description(file, reading.unit, content, missing, obstacles)
-    body = prepared(measured_body(content, reading, preparation, in_place=False), preparation)
+    if body_of is None:
+        read = measured_body(content, reading, preparation, in_place=False)
+    else:
+        read = body_of()
+    body = prepared(read, preparation)
     notes, parameters = suspicions(body) + filled_points_and_spikes(body), None
     try:
         parameters = roughness(body)

@@ -30,6 +30,8 @@ class Reading:
     ----------
     unit, channel, sizes, missing, most_missing
         As for :func:`roughline.read`.
+    name : str, optional
+        What the first file is called in messages and results; default: its own name.
     """
 
     unit: str | None = None
@@ -37,6 +39,7 @@ class Reading:
     sizes: Sizes | None = None
     missing: Filling = "harmonic"
     most_missing: float = 0.1
+    name: str | None = None
 
     def __post_init__(self) -> None:
         Missing(self.missing, self.most_missing)  # refuses what cannot be
@@ -162,7 +165,7 @@ class Question:
     def name(self) -> str:
         """What the first body is called: its file's name, or what it is."""
         if isinstance(self.body, Path):
-            return self.body.name
+            return self.reading.name or self.body.name
         return "a surface" if isinstance(self.body, Surface) else "a line"
 
     @property

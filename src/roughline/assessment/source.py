@@ -57,7 +57,7 @@ class Topography:
         """
         if isinstance(given, Surface | Line):
             return cls(prepared(given, preparation), None, None, reading, preparation)
-        content = measurement(given, reading.channel)
+        content = measurement(given, reading.channel, reading.name)
         kept = content if not content.by_roughline and content.unknown.any() else None
         body = measured_body(content, reading, preparation, in_place=kept is None)
         return cls(prepared(body, preparation), given, kept, reading, preparation)
@@ -105,10 +105,14 @@ def measured_body(
 
 def topographies(question: Question) -> list[Topography]:
     """Read and prepare the first body and, if it is rough, the second."""
-    given = [each for each in (question.body, question.against) if each is not None]
+    given = [
+        (question.body, question.reading),
+        (question.against, replace(question.reading, name=None)),
+    ]
     return [
-        Topography.of(each, question.reading, question.preparation)  # type: ignore[arg-type]
-        for each in given
+        Topography.of(body, reading, question.preparation)  # type: ignore[arg-type]
+        for body, reading in given
+        if body is not None
     ]
 
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import re
 import shlex
+
+from roughline.report.arguments import with_arguments_called
 
 _FLAGS = {
     "E_star": "--modulus",
@@ -27,15 +28,8 @@ _FLAGS = {
     "max_seconds": "--max-seconds",
     "max_memory": "--max-memory",
 }
-_ARGUMENT = re.compile(rf'\b({"|".join(_FLAGS)})=(?:True|"([^"]*)")?')
 
 
 def in_flags(message: str) -> str:
     """Return a message with flags in the places of arguments, which have an equals sign."""
-    return _ARGUMENT.sub(_flag, message)
-
-
-def _flag(argument: re.Match[str]) -> str:
-    """The flag of an argument, with its value if that is a text."""
-    name, value = argument.groups()
-    return _FLAGS[name] if value is None else f"{_FLAGS[name]} {shlex.quote(value)}"
+    return with_arguments_called(message, _FLAGS, shlex.quote)

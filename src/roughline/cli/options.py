@@ -138,7 +138,7 @@ def preparation_of(
 ) -> Preparation | None:
     """The preparation that the options describe; None where none is given."""
     from roughline.topography.preparation import Preparation
-    from roughline.units import in_si
+    from roughline.units import in_si, lengths
 
     if not (trend or crop or low_pass or resample is not None or remove_outliers):
         return None
@@ -149,14 +149,6 @@ def preparation_of(
         low_pass=in_si(low_pass, "m", "low-pass") if low_pass else None,
         points=resample,
     )
-
-
-def lengths(text: str, name: str) -> list[float]:
-    """Read lengths with units between commas. [m]"""
-    from roughline.units import in_si, refuse_decimal_comma
-
-    refuse_decimal_comma(text, name)
-    return [in_si(part, "m", name) for part in text.split(",")]
 
 
 def spectrum_of(

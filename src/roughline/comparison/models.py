@@ -122,7 +122,8 @@ def compare(
     rng : int, optional
         Root of all seeds.
     progress : callable, optional
-        Called with (surfaces done, surfaces in all).
+        Called with (surfaces done, surfaces in all); of a single surface with its loads and lines
+        instead.
 
     Raises
     ------
@@ -146,13 +147,13 @@ def _compare_surface(
     """Compare one surface with random lines of its spectrum."""
     spectrum = isotropic_spectrum(surface)
     springs = _SPRINGS_PER_WAVE * spectrum.q.size
-    report(0, 1)
-    full, resolved = _stiffness_under(forces, surface)
-    report(1, 1)
-    lines = (spectrum.line(springs, seed) for seed in _seeds(rng, COMPARED_LINES))
-    stiffness = np.array(
-        [[_stiffness_under(loads, line)[0] for loads in (forces, forces / 2)] for line in lines]
-    )
+    steps = forces.size + COMPARED_LINES
+    full, resolved = _stiffness_under(forces, surface, lambda done, loads: report(done, steps))
+    stiffness = np.empty((COMPARED_LINES, 2, forces.size))
+    for i, seed in enumerate(_seeds(rng, COMPARED_LINES)):
+        line = spectrum.line(springs, seed)
+        stiffness[i] = [_stiffness_under(loads, line)[0] for loads in (forces, forces / 2)]
+        report(forces.size + i + 1, steps)
     reduced, at_half = stiffness[:, 0], stiffness[:, 1]
     scatter = scatter_of_surfaces(reduced, at_half)
     difference, low, high = difference_of_one(full, reduced, scatter)
@@ -219,7 +220,10 @@ def _on_grid(spectrum: SelfAffine, n: int) -> SelfAffine:
     )
 
 
-def _stiffness_under(force_bars: Real, body: Body) -> tuple[Real, Mask]:
+def _stiffness_under(
+    force_bars: Real, body: Body, progress: Callable[[int, int], None] | None = None
+) -> tuple[Real, Mask]:
     """Raw dimensionless stiffness under dimensionless forces, and where it is resolved."""
-    curve = press(body, E_star=1.0, forces=force_bars * body.rms_height * body.length)
+    forces = force_bars * body.rms_height * body.length
+    curve = press(body, E_star=1.0, forces=forces, progress=progress)
     return curve.stiffness / body.length, curve.resolved

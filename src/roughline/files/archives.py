@@ -11,8 +11,15 @@ _LARGE = 2**26  # unpacked; smaller ones do no harm [bytes]
 _RATIO = 200  # unpacked over packed; measured heights reach about 10
 
 
-def refuse_bombs(path: Path) -> None:
+def refuse_bombs(path: Path, name: str) -> None:
     """Refuse an archive, such as X3P or XLSX, whose parts are too large for a measurement.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    name : str
+        What it is called.
 
     Raises
     ------
@@ -25,10 +32,10 @@ def refuse_bombs(path: Path) -> None:
         with zipfile.ZipFile(path) as archive:
             unpacked = sum(part.file_size for part in archive.infolist())
     except (zipfile.BadZipFile, ValueError, OSError, NotImplementedError) as error:
-        raise InputError(f"{path.name} is a damaged archive ({error}): export it again") from error
+        raise InputError(f"{name} is a damaged archive ({error}): export it again") from error
     packed = path.stat().st_size
     if unpacked > max(_LARGE, _RATIO * packed):
         raise InputError(
-            f"{path.name} has {packed / 1e6:.3g} MB and would unpack to {unpacked / 1e6:.4g} MB, "
+            f"{name} has {packed / 1e6:.3g} MB and would unpack to {unpacked / 1e6:.4g} MB, "
             "which no measurement does: export it again"
         )

@@ -21,13 +21,15 @@ from roughline.topography.settings import MEASURED
 _BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
 
 
-def read_instrument(path: Path, channel: int | str | None) -> Measurement:
+def read_instrument(path: Path, channel: int | str | None, name: str) -> Measurement:
     """Read the heights of an instrument's file, and what it states of them.
 
     Parameters
     ----------
     path, channel
         As for :func:`roughline.read`.
+    name : str
+        What the file is called.
 
     Raises
     ------
@@ -41,24 +43,24 @@ def read_instrument(path: Path, channel: int | str | None) -> Measurement:
 
     try:
         with _silence(), open_topography(str(path)) as reader:
-            chosen = _channel_of(reader, channel, path)
+            chosen = _channel_of(reader, channel, name)
             refuse_beyond_memory(
                 _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
-                f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {path.name}",
+                f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {name}",
                 "crop it with the instrument's software",
             )
-            return _measurement_of(reader, chosen, path)
+            return _measurement_of(reader, chosen, name)
     except (RoughlineError, MemoryError):
         raise
     except ReadFileError as error:
         raise InputError(
-            f"{path.name} is damaged or of a type that is not known ({type(error).__name__}): "
+            f"{name} is damaged or of a type that is not known ({type(error).__name__}): "
             "export it again, or to another format such as X3P, SDF, SUR or GWY"
         ) from error
     except Exception as error:  # of a damaged file the readers raise errors of any type
         first_line = (str(error).strip() or "no reason given").splitlines()[0][:120]
         raise InputError(
-            f"{path.name} cannot be read ({type(error).__name__}: {first_line}): export it again"
+            f"{name} cannot be read ({type(error).__name__}: {first_line}): export it again"
         ) from error
 
 
@@ -75,7 +77,7 @@ def _silence() -> Iterator[None]:
         logging.disable(before)
 
 
-def _channel_of(reader: Any, wanted: int | str | None, path: Path) -> Any:
+def _channel_of(reader: Any, wanted: int | str | None, file: str) -> Any:
     """Find a channel of heights by number or name."""
     channels = reader.channels
     listed = ", ".join(f"{i} {each.name!r}" for i, each in enumerate(channels))
@@ -87,14 +89,14 @@ def _channel_of(reader: Any, wanted: int | str | None, path: Path) -> Any:
     else:
         named = [each for each in channels if each.name.lower() == text.lower()]
         if not named:
-            raise InputError(f"{path.name} has no channel {text!r}; it has {listed}")
+            raise InputError(f"{file} has no channel {text!r}; it has {listed}")
         if len(named) > 1:
             raise InputError(
-                f"{path.name} has {len(named)} channels {text!r}: choose by number, of {listed}"
+                f"{file} has {len(named)} channels {text!r}: choose by number, of {listed}"
             )
         chosen = named[0]
     if not _holds_heights(chosen):
-        raise InputError(f"channel {text!r} of {path.name} holds no heights; it has {listed}")
+        raise InputError(f"channel {text!r} of {file} holds no heights; it has {listed}")
     return chosen
 
 
@@ -103,7 +105,7 @@ def _holds_heights(channel: Any) -> bool:
     return bool(channel.is_height_channel) and of_lengths
 
 
-def _measurement_of(reader: Any, channel: Any, path: Path) -> Measurement:
+def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
     unit = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
     stated = channel.physical_sizes is not None
     topography = reader.topography(
@@ -114,7 +116,7 @@ def _measurement_of(reader: Any, channel: Any, path: Path) -> Measurement:
     )
     uneven = topography.dim == 1 and not topography.is_uniform
     return Measurement(
-        file=path.name,
+        file=file,
         heights=topography.heights(),
         unit=unit or None,
         sizes=tuple(map(float, topography.physical_sizes)) if stated else None,
@@ -125,5 +127,5 @@ def _measurement_of(reader: Any, channel: Any, path: Path) -> Measurement:
             for i, each in enumerate(reader.channels)
         ),
         positions=np.asarray(topography.positions(), dtype=np.float64) if uneven else None,
-        settings={"origin": MEASURED, "file": path.name, "channel": channel.name},
+        settings={"origin": MEASURED, "file": file, "channel": channel.name},
     )

@@ -59,13 +59,15 @@ def write(body: Body, path: str | Path) -> None:
         raise StoreError(f"cannot write {path} ({error}): choose another place") from error
 
 
-def read_body_file(path: Path) -> Measurement | None:
+def read_body_file(path: Path, name: str) -> Measurement | None:
     """Read a file that roughline wrote; None if it has another format.
 
     Parameters
     ----------
     path : Path
         The file.
+    name : str
+        What it is called.
 
     Raises
     ------
@@ -81,7 +83,7 @@ def read_body_file(path: Path) -> Measurement | None:
             points = file["heights"].shape
             refuse_beyond_memory(
                 2 * 8 * math.prod(points),
-                f"reading the {' x '.join(map(str, points))} points of {path.name}",
+                f"reading the {' x '.join(map(str, points))} points of {name}",
                 "take a smaller piece",
             )
             heights = file["heights"][:]
@@ -94,13 +96,13 @@ def read_body_file(path: Path) -> Measurement | None:
         if name.startswith("body_")
     }
     return Measurement(
-        file=path.name,
+        file=name,
         heights=heights,
         unit=attrs["unit"] or None,
         sizes=tuple(np.atleast_1d(attrs["sizes"]).tolist()),
         kind=attrs["kind"],
         by_roughline=True,
-        settings={**settings, "file": path.name},
+        settings={**settings, "file": name},
         # files of earlier versions state both in their settings alone
         is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else AS_RECORDED,
         removed_trend=attrs.get("removed_trend", AS_RECORDED),

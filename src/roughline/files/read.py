@@ -76,13 +76,17 @@ def read(
     return measurement(path, channel).body(unit, sizes, filling, trend, in_place=True)
 
 
-def measurement(path: str | Path, channel: int | str | None = None) -> Measurement:
+def measurement(
+    path: str | Path, channel: int | str | None = None, name: str | None = None
+) -> Measurement:
     """Read the heights of a file, whether or not they suffice for a body.
 
     Parameters
     ----------
     path, channel
         As for :func:`read`.
+    name : str, optional
+        What the file is called in messages and in the settings; default: its own name.
 
     Raises
     ------
@@ -92,21 +96,22 @@ def measurement(path: str | Path, channel: int | str | None = None) -> Measureme
     path = Path(path)
     if not path.is_file():
         what = "is a folder" if path.is_dir() else "does not exist"
-        raise InputError(f"{path} {what}; give a file with a topography")
+        raise InputError(f"{name or path} {what}; give a file with a topography")
+    name = name or path.name
     if path.stat().st_size == 0:
-        raise InputError(f"{path.name} is empty: export it again")
-    measured = read_body_file(path) if path.suffix == ".nc" else None
+        raise InputError(f"{name} is empty: export it again")
+    measured = read_body_file(path, name) if path.suffix == ".nc" else None
     if measured is None and path.suffix == ".npy":
-        measured = _read_array(path)
+        measured = _read_array(path, name)
     if measured is None:
-        refuse_bombs(path)
-        return read_instrument(path, channel)
+        refuse_bombs(path, name)
+        return read_instrument(path, channel, name)
     if channel is not None:
-        raise InputError(f"{path.name} has one channel; leave it out")
+        raise InputError(f"{name} has one channel; leave it out")
     return measured
 
 
-def _read_array(path: Path) -> Measurement:
+def _read_array(path: Path, name: str) -> Measurement:
     """Read an array in NumPy's format, x along the first axis."""
     try:
         stored = np.load(path, mmap_mode="r", allow_pickle=False)
@@ -115,15 +120,15 @@ def _read_array(path: Path) -> Measurement:
     except (ValueError, OSError, EOFError) as error:
         reason = str(error).splitlines()[0][:120] if str(error) else type(error).__name__
         raise InputError(
-            f"{path.name} holds no array of real heights ({reason}): save one or two dimensions"
+            f"{name} holds no array of real heights ({reason}): save one or two dimensions"
         ) from error
     return Measurement(
-        file=path.name,
+        file=name,
         heights=np.array(stored, dtype=np.float64),
         unit=None,
         sizes=None,
         kind="surface" if stored.ndim == 2 else "profile",
-        settings={"origin": MEASURED, "file": path.name},
+        settings={"origin": MEASURED, "file": name},
     )
 
 

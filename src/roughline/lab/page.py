@@ -10,7 +10,9 @@ import jinja2
 from markupsafe import Markup, escape
 
 import roughline as rl
+from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
+from roughline.lab.measured import controls as measured
 from roughline.lab.published import controls as published
 
 _SUBSCRIPT = re.compile(r"_(\w)")
@@ -20,7 +22,13 @@ _SUBSCRIPT = re.compile(r"_(\w)")
 def page() -> str:
     """Return the page; it is the same for everyone."""
     template = _environment().get_template("index.html.jinja")
-    return template.render(version=rl.__version__, explore=explore, published=published)
+    return template.render(
+        version=rl.__version__,
+        explore=explore,
+        measured=measured,
+        published=published,
+        materials=list(materials()),
+    )
 
 
 def login_page(complaint: str) -> str:

@@ -193,20 +193,15 @@ def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
 
 def draw_spectrum(axes: Axes, parameters: Roughness) -> None:
     """Spectrum C_2d of a surface or C_profile of a line, and the self-affine law."""
-    spectrum, fit = parameters.spectrum, parameters.fit
-    if spectrum is None:
+    spectrum, fit, power = parameters.spectrum, parameters.fit, parameters.power
+    if spectrum is None or power is None:
         axes.text(0.5, 0.5, "no spectrum", ha="center", transform=axes.transAxes)
         return
     of_surface = isinstance(spectrum, IsotropicSpectrum)
-    power = spectrum.C_2d if isinstance(spectrum, IsotropicSpectrum) else spectrum.C_profile
     known = power > 0
     axes.loglog(spectrum.q[known], power[known], ".", color="0.4", markersize=2)
-    if fit is not None and of_surface:
-        axes.loglog(spectrum.q, fit.values(spectrum.q), color="tab:red")
-    elif fit is not None and 0 <= fit.hurst <= 1:
-        inside = (spectrum.q >= fit.q_low) & (spectrum.q <= (fit.q_high or fit.q_last))
-        law = replace(fit.spectrum().continuum, C_0=fit.C_0).C_profile(spectrum.q[inside])
-        axes.loglog(spectrum.q[inside], law, color="tab:red")
+    if parameters.law is not None:
+        axes.loglog(*parameters.law, color="tab:red")
     symbol = "$C_{2d}$ [m⁴]" if of_surface else "$C_{profile}$ [m³]"
     axes.set(xlabel="wavenumber $q = 2\\pi/\\lambda$ [1/m]", ylabel=f"spectrum {symbol}")
     if fit is not None:

@@ -1,4 +1,4 @@
-"""The report that a client receives: one page, as HTML and PDF, from a assessment file."""
+"""The report that a client receives: one page, as HTML and PDF, from an assessment."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 
 from roughline._version import __version__
 from roughline.assessment.assessment import Assessment
-from roughline.engineering.materials import Material
 from roughline.report.contact_figures import (
     draw_area,
     draw_contact,
@@ -26,6 +25,7 @@ from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
     formula_table,
+    material_in_words,
     quantity,
     star_is_shown,
 )
@@ -61,7 +61,7 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
 
     Parameters
     ----------
-    assessment : Pressed
+    assessment : Assessment
         With answers for two materials.
     folder : Path
         Made if it does not exist.
@@ -131,7 +131,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
     return [
         Section(
             "Answers",
-            [f"Materials: {_material(pair.first)}; {_material(pair.second)}."],
+            [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."],
             notes=[*legend, *map(_sentence, assessment.remarks)],
             tables=[
                 Table(header, rows, numbers=range(1, len(header)))
@@ -180,13 +180,6 @@ def _caption(assessment: Assessment) -> str:
 
 def _shown(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-def _material(material: Material) -> str:
-    parts = [f"E = {engineering(material.E, 'Pa')}", f"nu = {material.nu:g}"]
-    if material.hardness:
-        parts.append(f"H = {engineering(material.hardness, 'Pa')}")
-    return f"{material.name} ({', '.join(parts)}; {material.source})"
 
 
 def _surface(assessment: Assessment) -> str:

@@ -6,6 +6,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.contact.curve import Status
 from roughline.contact.quantities import QUANTITIES
 from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.materials import Material
 from roughline.report.values import with_interval
 from roughline.units import engineering
 
@@ -74,6 +75,14 @@ def quantity(answer: Answer, i: int) -> str:
     ends = None if answer.low is None or answer.high is None else (answer.low, answer.high)
     unit = "%" if answer.key in _SHARES else answer.unit
     return with_interval(float(answer.values[i]), _at(ends, i), unit)
+
+
+def material_in_words(material: Material) -> str:
+    """Name, moduli and hardness of a material, and where they are from."""
+    parts = [f"E = {engineering(material.E, 'Pa')}", f"nu = {material.nu:g}"]
+    if material.hardness:
+        parts.append(f"H = {engineering(material.hardness, 'Pa')}")
+    return f"{material.name} ({', '.join(parts)}; {material.source})"
 
 
 def _starred(assessment: Assessment) -> list[str]:

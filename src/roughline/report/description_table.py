@@ -46,7 +46,7 @@ def _rows_of_file(description: Description) -> list[tuple[str, str]]:
     """What the file holds, and of the body its points and sizes."""
     content, body, missing = description.measurement, description.body, description.missing
     channel = "own format" if content.by_roughline else content.channel
-    rows = [("file", ", ".join(filter(None, (description.file.name, channel))))]
+    rows = [("file", ", ".join(filter(None, (content.file, channel))))]
     if len(content.channels) > 1:
         rows.append(("channels", ", ".join(content.channels)))
     points = content.heights.shape if body is None else body.heights.shape

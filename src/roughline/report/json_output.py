@@ -29,7 +29,9 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
     """
     question, curve, slip = assessment.question, assessment.curve_as_asked, assessment.partial_slip
     content = {
-        "file": question.body if isinstance(question.body, Path) else None,
+        "file": (question.reading.name or question.body)
+        if isinstance(question.body, Path)
+        else None,
         "body": _of_body(assessment.body),
         "E_star": curve.E_star,
         "nominal_area": assessment.area,

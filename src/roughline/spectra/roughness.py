@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -53,6 +53,27 @@ class Roughness:
     spectrum: IsotropicSpectrum | ProfileSpectrum | None
     fit: SelfAffineFit | None
     remarks: list[str]
+
+    @property
+    def power(self) -> Real | None:
+        """C_2d of a surface [length⁴] or C_profile of a line [length³], at `spectrum.q`."""
+        spectrum = self.spectrum
+        if spectrum is None:
+            return None
+        return spectrum.C_2d if isinstance(spectrum, IsotropicSpectrum) else spectrum.C_profile
+
+    @property
+    def law(self) -> tuple[Real, Real] | None:
+        """The fitted law as (q, power); None without a fit, or where a line's is not known."""
+        spectrum, fit = self.spectrum, self.fit
+        if spectrum is None or fit is None:
+            return None
+        if isinstance(spectrum, IsotropicSpectrum):
+            return spectrum.q, fit.values(spectrum.q)
+        if not 0 <= fit.hurst <= 1:
+            return None
+        q = spectrum.q[(spectrum.q >= fit.q_low) & (spectrum.q <= (fit.q_high or fit.q_last))]
+        return q, replace(fit.spectrum().continuum, C_0=fit.C_0).C_profile(q)
 
 
 def roughness(body: Body) -> Roughness:

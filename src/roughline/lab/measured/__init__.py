@@ -1,0 +1,1 @@
+"""My surface: a file of an instrument, prepared, pressed and answered for."""

@@ -1,0 +1,39 @@
+"""Both models of the surface in a file, and where the reduced one may be trusted."""
+
+from __future__ import annotations
+
+from roughline.assessment.comparison import compare_models
+from roughline.lab.frames import frame
+from roughline.lab.measured.state import Arguments, at, reading_of, said_of, source_of
+from roughline.lab.measured.words import in_controls
+from roughline.report.comparison_table import comparison_table, verdict_in_words
+from roughline.server.tasks import Progress
+
+
+def compare(arguments: Arguments, progress: Progress) -> bytes:
+    """Compare the models on the surface as the file has it, without its tilt."""
+    said = said_of(arguments)
+    source = source_of(said, arguments["session"])
+    reading = reading_of(said, source.name)
+    with at("compare"):
+        found = compare_models(source.path, reading=reading, progress=progress)
+    result = found.comparison
+    header, rows = comparison_table(found)
+    star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"
+    return frame(
+        {
+            "what": found.what,
+            "verdict": verdict_in_words(found),
+            "verdicts": [str(each) for each in found.verdicts],
+            "table": [header, rows],
+            "star": star,
+            "notes": [in_controls(each) for each in result.warnings],
+            "force_bar": result.force_bar,
+            "full": result.full.mean,
+            "reduced": {
+                "mean": result.reduced.mean,
+                "low": result.reduced.low,
+                "high": result.reduced.high,
+            },
+        }
+    )

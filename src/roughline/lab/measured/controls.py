@@ -1,0 +1,111 @@
+"""The controls of the view "My surface"."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roughline.lab.controls import Choice
+
+MOST_POINTS = 4096
+"""Most points along a side that are resampled to."""
+MOST_LOADS = 20
+"""Most loads of one question."""
+
+FILLING = Choice(
+    "fill",
+    "filling",
+    {"harmonic": "smoothest surface", "nearest": "nearest height"},
+    "harmonic",
+    "How missing points are filled: by the smoothest surface through their neighbours, or by the "
+    "nearest known height. The answers try both.",
+)
+TREND = Choice(
+    "trend",
+    "trend",
+    {
+        "default": "tilt, as measured",
+        "tilt": "tilt",
+        "curvature": "curvature",
+        "mean": "mean",
+        "none": "none",
+    },
+    "default",
+    "What is removed from the heights by least squares. As it stands, the tilt of the stage goes "
+    "out of what an instrument measured; our own files are kept.",
+)
+OUTLIERS = Choice(
+    "outliers",
+    "spikes",
+    {"keep": "keep", "remove": "remove and fill"},
+    "keep",
+    "Points that stick out of their neighbours by more than five times their scatter: dust, or "
+    "errors of the instrument. The highest point decides where touch is.",
+)
+BODIES = Choice(
+    "bodies",
+    "bodies by",
+    {"materials": "two materials", "modulus": "contact modulus"},
+    "materials",
+    "Two materials give all answers; a contact modulus E* alone gives the curve.",
+)
+BOUNDARY = Choice(
+    "boundary",
+    "half-space",
+    {"free": "free", "periodic": "periodic"},
+    "free",
+    "Free: the half-space goes on, unloaded, around the surface. Periodic: the surface is repeated "
+    "without end.",
+)
+GRID = Choice(
+    "grid_error",
+    "grid error",
+    {"default": "where it is quick", "yes": "estimate", "no": "leave out"},
+    "default",
+    "What the distance of the points leaves open, from coarser grids; without it there are no "
+    "intervals. It takes a third longer.",
+)
+GRID_ERRORS = {"default": None, "yes": True, "no": False}
+
+KEYS = (
+    *("unit", "channel", "size", "fill", "most_missing", "trend", "outliers", "crop", "low_pass"),
+    *("resample", "bodies", "first", "second", "E", "loads", "boundary", "friction"),
+    *("frequency", "theories", "grid_error"),
+)
+"""Keys of all controls, as in the address."""
+
+
+@dataclass(frozen=True)
+class Example:
+    """A measurement made by ourselves.
+
+    Attributes
+    ----------
+    file : str
+        Name of its file.
+    name, meaning : str
+        What the page calls it, and one sentence.
+    """
+
+    file: str
+    name: str
+    meaning: str
+
+
+EXAMPLES = {
+    "ground": Example(
+        "ground-steel.x3p",
+        "ground steel, optical profiler",
+        "A map of 0.6 mm with a tilt, missing points and spikes of dust.",
+    ),
+    "film": Example(
+        "sputtered-film.x3p",
+        "sputtered film, AFM",
+        "A map of 4 µm that follows a self-affine law with a roll-off.",
+    ),
+    "shaft": Example(
+        "turned-shaft.txt",
+        "turned shaft, stylus",
+        "A line scan of 2 mm along feed marks.",
+    ),
+}
+"""By their keys in the address."""

@@ -1,0 +1,123 @@
+"""What a file of a page holds: read once, kept, and described as it stands and as prepared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from roughline.assessment.description import Description, describe_measurement
+from roughline.assessment.source import measured_body
+from roughline.files.read import measurement
+from roughline.lab.frames import frame
+from roughline.lab.measured.kept import kept
+from roughline.lab.measured.pictures import (
+    drawing_of_body,
+    drawing_of_file,
+    spectrum_of,
+)
+from roughline.lab.measured.state import (
+    Arguments,
+    Said,
+    Source,
+    at,
+    preparation_of,
+    reading_of,
+    said_of,
+    source_of,
+)
+from roughline.lab.measured.words import in_controls
+from roughline.report.description_table import description_table
+from roughline.server.tasks import Progress
+from roughline.topography.body import Body, Surface
+
+
+def look(arguments: Arguments, progress: Progress) -> bytes:
+    """What the file holds, what it leaves open, and its roughness as it is read."""
+    said = said_of(arguments)
+    source = source_of(said, arguments["session"])
+    with at("file"):
+        found = described(said, source, arguments["session"])
+    content = found.measurement
+    drawing = drawing_of_file(content, found.body)
+    header = {
+        "name": source.name,
+        "asks": {
+            "unit": content.unit is None,
+            "size": content.sizes is None,
+            "channels": list(content.channels) if len(content.channels) > 1 else [],
+        },
+        "channel": content.channel,
+        "obstacles": [in_controls(each) for each in found.obstacles],
+        "file": drawing.header,
+        **_of_description(found),
+    }
+    return frame(header, drawing.arrays | _body_arrays(found.body))
+
+
+def prepare(arguments: Arguments, progress: Progress) -> bytes:
+    """The file, prepared."""
+    said = said_of(arguments)
+    source = source_of(said, arguments["session"])
+    with at("preparation"):
+        found = described(said, source, arguments["session"], is_prepared=True)
+    header = {"obstacles": [in_controls(each) for each in found.obstacles]}
+    return frame({**header, **_of_description(found)}, _body_arrays(found.body))
+
+
+def described(
+    said: Said, source: Source, session: Mapping[str, Any], *, is_prepared: bool = False
+) -> Description:
+    """Describe a file, prepared or as it is read."""
+    reading = reading_of(said, source.name)
+    preparation = preparation_of(said) if is_prepared else None
+    content = kept(
+        session,
+        "measurement",
+        (source.key, reading.channel),
+        lambda: measurement(source.path, reading.channel, source.name),
+    )
+    keeps_trend = preparation is not None and preparation.trend is not None
+
+    def body_of() -> Body:  # filling missing points loads slowly
+        return kept(
+            session,
+            "body",
+            (source.key, reading, keeps_trend),
+            lambda: measured_body(content, reading, preparation, in_place=False),
+        )
+
+    return describe_measurement(source.path, content, reading, preparation, body_of=body_of)
+
+
+def _of_description(found: Description) -> dict[str, Any]:
+    """Table, remarks and spectrum of a body, and what the page draws of it."""
+    body, parameters = found.body, found.roughness
+    remarks = [*found.notes, *(parameters.remarks if parameters else [])]
+    return {
+        "table": description_table(found),
+        "remarks": [in_controls(each) for each in remarks],
+        "missing": found.missing.count,
+        "body": None if body is None else _of_body(body),
+        "spectrum": spectrum_of(found),
+    }
+
+
+def _of_body(body: Body) -> dict[str, Any]:
+    sides, kind, is_cut_out = (
+        (body.sizes, "surface", body.is_cut_out)
+        if isinstance(body, Surface)
+        else ((body.length,), body.kind, False)
+    )
+    return {
+        **drawing_of_body(body).header,
+        "kind": kind,
+        "sides": sides,
+        "points": body.heights.shape,
+        "is_cut_out": is_cut_out,
+    }
+
+
+def _body_arrays(body: Body | None) -> dict[str, np.ndarray[Any, Any]]:
+    return {} if body is None else drawing_of_body(body).arrays

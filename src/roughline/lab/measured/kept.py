@@ -1,0 +1,61 @@
+"""What a page has had computed, kept in its folder for its next question."""
+
+from __future__ import annotations
+
+import copyreg
+import os
+import pickle
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from hashlib import sha256
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+Value = TypeVar("Value")
+
+_MOST = {"assessment": 1, "body": 3, "measurement": 3}
+"""How many are kept of each kind."""
+
+
+def _read_only(settings: dict[str, Any]) -> MappingProxyType[str, Any]:
+    return MappingProxyType(settings)
+
+
+copyreg.pickle(MappingProxyType, lambda settings: (_read_only, (dict(settings),)))
+
+
+def kept(session: Mapping[str, Any], kind: str, asked: object, make: Callable[[], Value]) -> Value:
+    """Return what was kept of a kind for a question, or else make and keep it.
+
+    Parameters
+    ----------
+    session : mapping
+        Of the page.
+    kind : {"measurement", "body", "assessment"}
+        What it is; the oldest ones go.
+    asked : object
+        What it depends on; two that print alike are the same.
+    make : callable
+        Makes it.
+    """
+    folder = Path(session["folder"])
+    place = folder / f"{kind}-{digest(asked)}.pickle"
+    with suppress(FileNotFoundError):
+        found: Value = pickle.loads(place.read_bytes())
+        os.utime(place)
+        return found
+    made = make()
+    folder.mkdir(parents=True, exist_ok=True)
+    begun = place.with_suffix(f".{os.getpid()}")
+    begun.write_bytes(pickle.dumps(made, protocol=5))
+    begun.replace(place)
+    by_age = sorted(folder.glob(f"{kind}-*.pickle"), key=lambda each: each.stat().st_mtime)
+    for older in by_age[: -_MOST[kind]]:
+        older.unlink(missing_ok=True)
+    return made
+
+
+def digest(asked: object) -> str:
+    """A short name for what is asked."""
+    return sha256(repr(asked).encode()).hexdigest()[:12]

@@ -1,0 +1,252 @@
+"""Heights, spectra and contacts as the page draws them: numbers in handy units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.description import Description
+from roughline.engineering.answer import Ends
+from roughline.files.measurement import Measurement
+from roughline.report.pixels import any_marked, thinned
+from roughline.topography.body import Body, Surface
+from roughline.topography.preparation import outliers
+from roughline.units import decimal, engineering, metres_per, prefix
+
+Real = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_MOST_SPIKES = 2000  # that are marked
+_MOST_SPOTS = 100  # points in contact that are marked
+_MOST_LINE_POINTS = 8000  # that are drawn
+_MOST = (0.1, 99.9)  # of heights, without spikes [%]
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """Heights as the page draws them.
+
+    Attributes
+    ----------
+    header : dict
+        Sides, units, ranges of all and of most heights, and where spikes are.
+    arrays : dict of ndarray
+        Heights, rows along x; NaN where they are missing.
+    """
+
+    header: dict[str, Any]
+    arrays: dict[str, NDArray[Any]] = field(default_factory=dict)
+
+
+def drawing_of_file(content: Measurement, body: Body | None) -> Drawing:
+    """Heights as the file has them; spikes are marked where there is a body."""
+    metres = metres_per(content.unit) if content.unit else None
+    unknown = content.unknown
+    heights = np.array(np.ma.getdata(content.heights), dtype=np.float64)
+    heights[unknown] = np.nan
+    spikes = None
+    if body is not None and body.heights.shape == heights.shape:
+        spikes = outliers(body)
+    sides = content.sizes or tuple(map(float, heights.shape))
+    otherwise = "unit not stated" if content.sizes else "points"
+    along = _unit(max(sides), metres if content.sizes else None, otherwise)
+    up = _unit(_span(heights), metres, "unit not stated")
+    return _drawn("file", heights, sides, along, up, spikes)
+
+
+def drawing_of_body(body: Body) -> Drawing:
+    """Heights of a body about their mean, with its spikes."""
+    heights = body.heights - body.heights.mean()
+    sides = body.sizes if isinstance(body, Surface) else (body.length,)
+    return _drawn("body", heights, sides, _unit(max(sides), 1.0), _unit(_span(heights), 1.0))
+
+
+def spectrum_of(found: Description) -> dict[str, Any] | None:
+    """The spectrum with the nearest law, as the reports draw it."""
+    parameters = found.roughness
+    if parameters is None or parameters.spectrum is None or parameters.power is None:
+        return None
+    spectrum, power, fit = parameters.spectrum, parameters.power, parameters.fit
+    known = power > 0
+    of_surface = isinstance(found.body, Surface)
+    law = parameters.law
+    kept = None
+    if law is not None:
+        finite = np.isfinite(law[1])
+        kept = {"q": law[0][finite], "power": law[1][finite]}
+    title = ""
+    if fit is not None:
+        low, high = fit.hurst_interval
+        title = f"H = {fit.hurst:.2f} ({low:.2f} to {high:.2f})"
+    return {
+        "q": spectrum.q[known],
+        "power": power[known],
+        "law": kept,
+        "label": "C_2d [m⁴]" if of_surface else "C_profile [m³]",
+        "title": title,
+        "rows": _spectrum_rows(spectrum.q[known], power[known]),
+    }
+
+
+def _spectrum_rows(q: Real, power: Real) -> list[list[str]]:
+    """Some of the spectrum for a table."""
+    shown = np.unique(np.geomspace(1, q.size, 40).astype(int)) - 1
+    return [[f"{q[i]:.3g}", f"{power[i]:.3g}"] for i in shown]
+
+
+def _drawn(
+    name: str,
+    heights: Real,
+    sides: tuple[float, ...],
+    along: tuple[float, str],
+    up: tuple[float, str],
+    spikes: Mask | None = None,
+) -> Drawing:
+    """Heights of a map or a line in their units."""
+    known = heights[np.isfinite(heights)] * up[0]
+    header: dict[str, Any] = {
+        "is_map": heights.ndim == 2,
+        "sizes": [side * along[0] for side in sides],
+        "along": along[1],
+        "up": up[1],
+        "metres": 1 / along[0],
+        "range": [float(known.min()), float(known.max())] if known.size else [0.0, 1.0],
+        "most": np.percentile(known, _MOST) if known.size else [0.0, 1.0],
+        "spikes": _spikes(spikes, sides, along[0], heights * up[0]),
+        "rows": _height_rows(known, up[1]),
+    }
+    if heights.ndim == 2:
+        marked = any_marked(~np.isfinite(heights))
+        shown = thinned(heights) * up[0]
+        shown[marked[: shown.shape[0], : shown.shape[1]]] = np.nan
+        return Drawing(header, {f"{name} heights": shown.T})
+    step = max(1, heights.size // _MOST_LINE_POINTS)
+    x = (np.arange(heights.size) + 0.5) * sides[0] / heights.size * along[0]
+    header["missing"] = x[~np.isfinite(heights)][:_MOST_SPIKES]
+    return Drawing(header, {f"{name} x": x[::step], f"{name} heights": heights[::step] * up[0]})
+
+
+def _spikes(
+    spikes: Mask | None, sides: tuple[float, ...], scale: float, heights: Real
+) -> dict[str, Any] | None:
+    """Where spikes are, up to a number that can be seen."""
+    if spikes is None:
+        return None
+    places = np.argwhere(spikes)
+    shown = places[:_MOST_SPIKES]
+    steps = [scale * side / n for side, n in zip(sides, spikes.shape, strict=True)]
+    columns = [(shown[:, i] + 0.5) * step for i, step in enumerate(steps)]
+    y = columns[1] if spikes.ndim == 2 else heights[spikes][:_MOST_SPIKES]
+    return {"count": len(places), "x": columns[0], "y": y}
+
+
+def _height_rows(known: Real, unit: str) -> list[list[str]]:
+    """Heights in numbers, for those who do not see the map."""
+    if not known.size:
+        return []
+    unit = "" if unit == "unit not stated" else unit
+    shares = {"lowest": 0, "lowest tenth below": 10, "median": 50, "highest tenth above": 90}
+    rows = [
+        [name, f"{decimal(float(np.percentile(known, share)), 4)} {unit}"]
+        for name, share in (shares | {"highest": 100}).items()
+    ]
+    return rows
+
+
+def _span(heights: Real) -> float:
+    known = heights[np.isfinite(heights)]
+    return float(np.abs(known).max()) if known.size else 0.0
+
+
+def _unit(largest: float, metres: float | None, otherwise: str = "m") -> tuple[float, str]:
+    """The factor to a handy unit, and its sign; without metres the file's own numbers stay."""
+    if metres is None:
+        return 1.0, otherwise
+    factor, prefixed = prefix(largest * metres, "m")
+    return metres * factor, prefixed
+
+
+def contact_drawing(result: Assessment) -> Drawing:
+    """The contact at the load whose fields were kept, beside the topography."""
+    surface = result.body
+    assert isinstance(surface, Surface)
+    body = drawing_of_body(surface)
+    shown = next((i for i, each in enumerate(result.curve.fields) if each is not None), None)
+    if shown is None:
+        return Drawing({**body.header, "load": "", "fields": {}}, body.arrays)
+    fields = result.curve.fields[shown]
+    assert fields is not None
+    assert result.curve.area_fraction_corrected is not None
+    share = decimal(100 * float(result.curve.area_fraction_corrected[shown]), 4)
+    force = engineering(float(result.curve.force[shown]), "N")
+    arrays: dict[str, NDArray[Any]] = {"area": any_marked(fields.contact).astype(np.uint8).T}
+    units = {"area": {"unit": "", "range": [0, 1]}}
+    for name, values, unit in (
+        ("pressure", fields.pressure, "Pa"),
+        ("gap", np.maximum(fields.gap, 0), "m"),  # rounding leaves it just below in contact
+        ("displacement", fields.displacement, "m"),
+    ):
+        factor, prefixed = prefix(float(np.nanmax(np.abs(values), initial=0.0)), unit)
+        arrays[name] = thinned(values).T * factor
+        largest = float(np.nanmax(values, initial=0.0)) * factor
+        units[name] = {"unit": prefixed, "range": [0, largest or 1.0]}
+    header = {
+        **body.header,
+        "load": f"corrected area {share}% at {force}",
+        "fields": units,
+        "spots": _spots(fields.contact, surface, body.header["metres"]),
+    }
+    return Drawing(header, body.arrays | arrays)
+
+
+def _spots(contact: Mask, surface: Surface, metres: float) -> dict[str, Any]:
+    """Where points touch, if they are so few that a map does not show them."""
+    places = np.argwhere(contact)
+    if len(places) > _MOST_SPOTS:
+        places = places[:0]
+    x, y = ((places[:, i] + 0.5) * spacing / metres for i, spacing in enumerate(surface.spacing))
+    return {"x": x, "y": y}
+
+
+def curve_drawing(result: Assessment) -> dict[str, Any]:
+    """Stiffness and area over force with their intervals, and theories beside them."""
+    curve, solved = result.curve, result.curve.converged
+    force_factor, force_unit = prefix(_largest(curve.force[solved]), "N")
+    factor, unit = prefix(_largest(curve.stiffness[solved]), "N/m")
+    drawn: dict[str, Any] = {
+        "force": curve.force[solved] * force_factor,
+        "force_unit": force_unit,
+        "stiffness": curve.stiffness[solved] * factor,
+        "stiffness_unit": unit,
+        "resolved": curve.resolved[solved],
+        "asked": np.isin(np.flatnonzero(solved), result.asked),
+        "stiffness_interval": _ends(result.stiffness_interval, solved, factor),
+        "area": None,
+        "area_interval": _ends(result.area_interval, solved, 1.0),
+        "theories": [
+            {
+                "name": each.name,
+                "force": each.pressure * result.area * force_factor,
+                "area": each.area_fraction,
+                "stiffness": None
+                if each.stiffness is None
+                else each.stiffness * result.area * factor,
+            }
+            for each in result.theories
+        ],
+    }
+    if curve.area_fraction_corrected is not None:
+        drawn["area"] = curve.area_fraction_corrected[solved]
+    return drawn
+
+
+def _ends(ends: Ends | None, solved: Mask, factor: float) -> list[Real] | None:
+    return None if ends is None else [end[solved] * factor for end in ends]
+
+
+def _largest(values: Real) -> float:
+    return float(np.nanmax(values, initial=0.0))

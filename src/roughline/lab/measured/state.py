@@ -1,0 +1,249 @@
+"""What is set in the view "My surface": texts read and checked, control by control."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import roughline as rl
+from roughline.assessment.question import Question, Reading
+from roughline.engineering.materials import Material, material
+from roughline.lab.controls import ControlError
+from roughline.lab.measured import controls as c
+from roughline.lab.measured.examples import path_of
+from roughline.lab.measured.words import in_controls
+from roughline.theories.theory import THEORIES
+from roughline.topography.preparation import Preparation
+from roughline.units import in_si, lengths, load_in_newtons, refuse_decimal_comma
+
+VERSION = "1"
+"""Of the address; one of another version is refused."""
+
+_OF_THE_PAGE = ("view", "theme")
+_KNOWN = ("v", "file", "example", *c.KEYS)
+
+Arguments = Mapping[str, Any]
+Said = Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Source:
+    """The file of a page.
+
+    Attributes
+    ----------
+    path : Path
+        Where it lies.
+    name : str
+        What its owner calls it.
+    key : str
+        By which the page knows it.
+    """
+
+    path: Path
+    name: str
+    key: str
+
+
+def said_of(arguments: Arguments) -> Said:
+    """The texts of the controls by their keys; empty ones are as if they were not there.
+
+    Raises
+    ------
+    ControlError
+        If one has no place here, or the link that they are from is of another version.
+    """
+    said = arguments.get("state")
+    if not isinstance(said, Mapping) or not all(isinstance(each, str) for each in said.values()):
+        raise ControlError("this question is none of the lab's: reload the page")
+    if said.get("v", VERSION) != VERSION:
+        raise ControlError(
+            f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '
+            f"reads version {VERSION}: set the controls by hand"
+        )
+    strange = [name[:40] for name in said if name not in (*_KNOWN, *_OF_THE_PAGE)]
+    if strange:
+        raise ControlError(
+            f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
+            "version; set the controls by hand"
+        )
+    return {key: text.strip() for key, text in said.items() if text.strip()}
+
+
+def source_of(said: Said, session: Mapping[str, Any]) -> Source:
+    """The file that a page means.
+
+    Raises
+    ------
+    ControlError
+        If there is none, or it is gone.
+    """
+    if key := said.get("example"):
+        if key not in c.EXAMPLES:
+            raise ControlError(
+                f'there is no example "{key[:40]}"; there are {", ".join(c.EXAMPLES)}', "file"
+            )
+        return Source(path_of(key, Path(session["folder"]) / "results"), c.EXAMPLES[key].file, key)
+    path = session["files"].get(said.get("file"))
+    if path is None:
+        raise ControlError("the file is no longer here: choose it again", "file")
+    return Source(Path(path), session["names"][path], said["file"])
+
+
+def reading_of(said: Said, name: str | None) -> Reading:
+    """How the file is read."""
+    with at("unit"):
+        if unit := said.get("unit"):
+            in_si(f"1 {unit}", "m", "unit")
+    return Reading(
+        unit=unit,
+        channel=said.get("channel"),
+        sizes=said.get("size"),
+        missing=c.FILLING.read(said.get("fill", c.FILLING.default)),  # type: ignore[arg-type]
+        most_missing=_share(said.get("most_missing")),
+        name=name,
+    )
+
+
+def preparation_of(said: Said) -> Preparation | None:
+    """What is done to the topography; None where nothing is set, as on the command line."""
+    trend = c.TREND.read(said.get("trend", c.TREND.default))
+    with at("crop"):
+        crop = tuple(lengths(said["crop"], "crop")) if "crop" in said else None
+    with at("low_pass"):
+        low_pass = in_si(said["low_pass"], "m", "low pass") if "low_pass" in said else None
+        Preparation(low_pass=low_pass)
+    points = _whole(said.get("resample"), "resample", "points to resample to", 2, c.MOST_POINTS)
+    spikes = c.OUTLIERS.read(said.get("outliers", c.OUTLIERS.default)) == "remove"
+    found = Preparation(
+        crop=crop,
+        remove_outliers=spikes,
+        trend=None if trend == c.TREND.default else trend,  # type: ignore[arg-type]
+        low_pass=low_pass,
+        points=points,
+    )
+    return None if found == Preparation() else found
+
+
+def question_of(said: Said, source: Source) -> Question:
+    """The question that the page asks of its file.
+
+    Raises
+    ------
+    ControlError
+        If a text cannot be used; it says at which control.
+    """
+    given = bodies_of(said)
+    loads = loads_of(said)
+    with at("friction"):
+        friction = _number(said.get("friction"), "the coefficient of friction")
+    with at("frequency"):
+        frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None
+    needs = next((key for key in ("friction", "frequency") if key in said), "")
+    reading, preparation = reading_of(said, source.name), preparation_of(said)
+    with at(needs):
+        return Question(
+            source.path,
+            **given,
+            loads=loads,
+            periodic=c.BOUNDARY.read(said.get("boundary", c.BOUNDARY.default)) == "periodic",
+            friction=friction,
+            frequency=frequency,
+            theories=theories_of(said),
+            grid_error=c.GRID_ERRORS[c.GRID.read(said.get("grid_error", c.GRID.default))],
+            reading=reading,
+            preparation=preparation,
+            whole_curve=bool(loads),
+        )
+
+
+def bodies_of(said: Said) -> dict[str, Any]:
+    """Two materials, or a contact modulus, as a question takes them."""
+    if c.BODIES.read(said.get("bodies", c.BODIES.default)) == "modulus":
+        with at("E"):
+            if "E" not in said:
+                raise ControlError('give the contact modulus, such as "110 GPa"', "E")
+            modulus = in_si(said["E"], "Pa", "contact modulus")
+            if not 0 < modulus < math.inf:
+                raise ControlError(f'contact modulus is "{said["E"]}"; give a positive one', "E")
+        return {"E_star": modulus}
+    pair: list[Material] = []
+    for key in ("first", "second"):
+        with at(key):
+            if key not in said:
+                raise ControlError(
+                    f'give the {key} material: a name, or values such as "E=70 GPa nu=0.33"', key
+                )
+            pair.append(material(said[key]))
+    if all(math.isinf(each.E) for each in pair):
+        raise ControlError("both materials are rigid: one of them must give way", "second")
+    return {"materials": tuple(pair)}
+
+
+def loads_of(said: Said) -> tuple[str, ...]:
+    """The loads, as they were typed."""
+    loads = tuple(part.strip() for part in said.get("loads", "").split(";") if part.strip())
+    with at("loads"):
+        for load in loads:
+            if not 0 < load_in_newtons(load, 1.0) < math.inf:
+                raise ControlError(f'load is "{load}"; give positive ones', "loads")
+        if len(loads) > c.MOST_LOADS:
+            raise ControlError(f"{len(loads)} loads; give up to {c.MOST_LOADS}", "loads")
+    return loads
+
+
+def theories_of(said: Said) -> tuple[str, ...]:
+    """Theories that are drawn beside the curve."""
+    names = tuple(name for name in said.get("theories", "").split(",") if name)
+    for name in names:
+        if name not in THEORIES:
+            allowed = ", ".join(THEORIES)
+            raise ControlError(f'there is no theory "{name[:40]}"; there are {allowed}', "theories")
+    return names
+
+
+@contextmanager
+def at(key: str) -> Iterator[None]:
+    """Say of a refusal at which control it arose, in the words of the page."""
+    try:
+        yield
+    except rl.RoughlineError as error:
+        raise ControlError(in_controls(str(error)), getattr(error, "at", "") or key) from None
+
+
+def _share(text: str | None) -> float:
+    """A share, in per cent or as a number."""
+    with at("most_missing"):
+        if text is None:
+            return Reading().most_missing
+        share = _number(text.removesuffix("%"), "most missing") or 0.0
+        share = share / 100 if text.endswith("%") else share
+        if not 0 <= share < 1:
+            raise ControlError(
+                f'most missing is "{text}"; give a share such as 20 %, below 100 %', "most_missing"
+            )
+        return share
+
+
+def _number(text: str | None, name: str) -> float | None:
+    if text is None:
+        return None
+    refuse_decimal_comma(text, name)
+    try:
+        return float(text)
+    except ValueError:
+        raise ControlError(f'{name} is "{text[:40]}"; give a number such as 0.3') from None
+
+
+def _whole(text: str | None, key: str, name: str, least: int, most: int) -> int | None:
+    if text is None:
+        return None
+    if not text.isdecimal() or not least <= int(text) <= most:
+        raise ControlError(
+            f'{name} is "{text[:40]}"; give a whole number from {least} to {most}', key
+        )
+    return int(text)

@@ -1,0 +1,24 @@
+"""Messages of the library in the words of the view "My surface"."""
+
+from __future__ import annotations
+
+from roughline.report.arguments import with_arguments_called
+
+_CONTROLS = {
+    "E_star": "the contact modulus",
+    "materials": "two materials",
+    "loads": "loads",
+    "grid_error": 'grid error "estimate"',
+    "unit": "unit",
+    "channel": "channel",
+    "sizes": "size",
+    "missing": "filling",
+    "most_missing": "most missing",
+    "trend": "trend",
+    "crop": "crop",
+}
+
+
+def in_controls(message: str) -> str:
+    """Return a message with the names of controls in the places of arguments."""
+    return with_arguments_called(message, _CONTROLS, lambda text: f'"{text}"')

@@ -1,0 +1,159 @@
+// Answers of My surface: pressing, both models, the report, and code that repeats it.
+import {fillList} from "./measured-pictures.js";
+import {fillTable} from "./plots.js";
+import {Waiting} from "./waiting.js";
+
+const TASKS = ["answers", "compare", "report"];
+const VERDICTS = {confirmed: "good", refuted: "error", undecided: "doubt"};
+
+export class Answers {
+  #link; #view; #waiting = {}; #contact = null; #arrays = {}; #isAnswered = false;
+  pictures = null;
+
+  constructor(link, view) {
+    this.#link = link;
+    this.#view = view;
+    for (const name of TASKS) {
+      this.#waiting[name] = new Waiting(view.find(`[data-waiting="${name}"]`), () => {
+        link.stop(`measured ${name}`);
+        this.#end(name, "stopped");
+      });
+    }
+    view.find("[data-press]").addEventListener("click", () => this.#press());
+    view.find("[data-compare]").addEventListener("click", () => this.#compare());
+    view.find("[data-report]").addEventListener("click", () => this.#report());
+    for (const button of view.findAll("[data-code]")) button.addEventListener("click", () => this.#code(button.dataset.code));
+    view.find("[data-shown]").addEventListener("change", () => this.#drawField());
+    view.find("[data-copy]").addEventListener("click", () => navigator.clipboard?.writeText(view.find("[data-code-dialog] pre").textContent));
+  }
+
+  // The file can be pressed, or not.
+  ready() {
+    const {body} = this.#view;
+    const isSurface = body?.kind === "surface";
+    for (const name of ["press", "report"]) this.#view.find(`[data-${name}]`).disabled = !body;
+    for (const button of this.#view.findAll("[data-code]")) button.disabled = !body;
+    this.#view.find("[data-compare]").disabled = !isSurface;
+    this.#view.find("[data-compare-note]").textContent = !body || isSurface
+      ? "Where the reduced model may be trusted on this surface, as its file has it; the preparation of step 2 is left out."
+      : "The models are compared on a surface: a line scan shows one direction, and the full model needs both.";
+    this.changed();
+  }
+
+  // Something was set: what is shown is of what was set before.
+  changed() {
+    this.#view.find("[data-changed]").hidden = !this.#isAnswered;
+    this.#view.find('[data-result="answers"]').classList.toggle("dimmed", this.#isAnswered);
+    this.#view.find("[data-links]").replaceChildren();
+  }
+
+  forget() {
+    for (const name of TASKS) {
+      this.#link.stop(`measured ${name}`);
+      this.#end(name, "");
+    }
+    this.#isAnswered = false;
+    this.#view.find('[data-empty="answers"]').hidden = false;
+    this.ready();
+  }
+
+  #ask(task, name, done, extra = {}) {
+    this.#view.refuse("", name);
+    this.#waiting[name].begin();
+    this.#say(name, "");
+    this.#link.ask(task, `measured ${name}`, {state: this.#view.state, ...extra}, {
+      answer: (answer) => { this.#end(name, ""); done(answer); },
+      error: (sentence, at) => { this.#end(name, ""); this.#view.refuse(sentence, at || name); },
+      progress: (message) => this.#waiting[name].progress(message),
+    });
+  }
+
+  #press() {
+    this.#view.find('[data-result="answers"]').classList.add("dimmed");
+    this.#ask("measured.answer", "answers", (answer) => this.#show(answer), {presses: this.#presses()});
+  }
+
+  // How often the body is pressed: again where points were filled, and for the larger surface.
+  #presses() {
+    const {body, isFilled, state} = this.#view;
+    if (!body || body.kind !== "surface") return 1;
+    const again = body.is_cut_out && state.boundary !== "periodic" && state.bodies !== "modulus";
+    return (isFilled ? 2 : 1) * (again ? 2 : 1);
+  }
+
+  #show(answer) {
+    const view = this.#view;
+    this.#isAnswered = true;
+    view.find('[data-empty="answers"]').hidden = true;
+    view.find('[data-result="answers"]').hidden = false;
+    this.changed();
+    view.find("[data-changed]").hidden = true;
+    view.find('[data-result="answers"]').classList.remove("dimmed");
+    view.find("[data-modulus]").textContent = answer.modulus;
+    fillTable("measured-answers", ...(answer.answers ?? answer.curve));
+    view.find("[data-star]").textContent = answer.star;
+    fillList(view, "answer-remarks", [...answer.remarks, ...answer.theories]);
+    fillTable("measured-formulas", ...(answer.formulas ?? [["no answers follow from a contact modulus alone"], []]));
+    view.find("[data-slip]").hidden = !answer.slip;
+    if (answer.slip) fillTable("measured-slip", ["displacement", "tangential force"], answer.slip.rows);
+    this.#contact = answer.contact;
+    this.#arrays = answer.arrays;
+    this.pictures.drawContact(answer.contact, answer.arrays, this.#shown);
+    this.pictures.drawCurve(answer.plot, answer.curve);
+  }
+
+  get #shown() { return this.#view.find("[data-shown]").value; }
+  #drawField() { if (this.#contact) this.pictures.drawField(this.#contact, this.#arrays, this.#shown); }
+
+  #compare() {
+    this.#ask("measured.compare", "compare", (found) => {
+      const view = this.#view;
+      view.find('[data-empty="answers"]').hidden = true;
+      view.find('[data-result="compare"]').hidden = false;
+      view.find("[data-what]").textContent = found.what;
+      view.find("[data-verdict]").textContent = `${found.verdict[0].toUpperCase()}${found.verdict.slice(1)}.`;
+      view.find("[data-compare-star]").textContent = found.star;
+      fillList(view, "compare-notes", found.notes);
+      this.pictures.drawModels(found);
+      for (const cell of view.findAll('[data-table="measured-models"] td')) {
+        if (cell.textContent in VERDICTS) cell.className = VERDICTS[cell.textContent];
+      }
+    });
+  }
+
+  #report() {
+    this.#ask("measured.report", "report", ({files}) => {
+      const links = Object.entries(files).map(([name, place]) => {
+        const item = document.createElement("li"), anchor = document.createElement("a");
+        const isPage = name.endsWith(".html");
+        anchor.href = `/results/${this.#link.session}/${place}${isPage ? "" : "?save=1"}`;
+        anchor.textContent = `${name}${isPage ? ", opens in a new tab" : ", to save"}`;
+        if (isPage) Object.assign(anchor, {target: "_blank", rel: "noopener"});
+        else anchor.download = place;
+        item.append(anchor);
+        return item;
+      });
+      this.#view.find("[data-links]").replaceChildren(...links);
+    }, {presses: this.#presses()});
+  }
+
+  #code(which) {
+    this.#link.ask("measured.code", "measured code", {state: this.#view.state, which}, {
+      answer: ({text}) => {
+        this.#view.find("[data-code-dialog] pre").textContent = text;
+        this.#view.find("[data-code-dialog]").showModal();
+      },
+      error: (sentence, at) => this.#view.refuse(sentence, at || "report"),
+    });
+  }
+
+  #end(name, text) {
+    this.#waiting[name].end();
+    this.#say(name, text);
+    if (name === "answers" && !this.#view.find("[data-changed]").hidden === false) {
+      this.#view.find('[data-result="answers"]').classList.remove("dimmed");
+    }
+  }
+
+  #say(name, text) { this.#view.find(`[data-waiting="${name}"] [data-said]`).textContent = text; }
+}

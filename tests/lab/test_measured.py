@@ -1,0 +1,407 @@
+"""My surface: answers are the library's, texts the command line's, refusals sentences."""
+
+import re
+import shlex
+import shutil
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray
+
+import roughline as rl
+from lab.unpacked import unpacked
+from roughline.assessment.comparison import compare_models
+from roughline.assessment.description import describe
+from roughline.lab.measured import documents
+from roughline.lab.measured.controls import EXAMPLES
+from roughline.lab.measured.examples import path_of
+from roughline.lab.measured.state import question_of, said_of, source_of
+from roughline.lab.tasks import TASKS
+from roughline.report.comparison_table import comparison_table, verdict_in_words
+from roughline.report.contact_tables import answer_table, curve_table, formula_table
+from roughline.report.description_table import description_table
+from roughline.server.tasks import outcome_of
+
+PAIR = {"first": "steel", "second": "copper", "loads": "2 MPa"}
+SMALL = {"resample": "64"}
+RANDOM = "3f9a0c5d7e2b4a61"  # as an upload lies on the disk
+
+
+class Page:
+    """A session with its files, which asks as a page does."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.files, self.names = {}, {}
+        self.steps = []
+
+    def bring(self, file, name=None):
+        """Put a file where uploads lie."""
+        key = f"key{len(self.files)}"
+        path = self.folder / f"{RANDOM}{len(self.files)}{file.suffix}"
+        shutil.copyfile(file, path)
+        self.files[key], self.names[str(path)] = str(path), name or file.name
+        return {"file": key}
+
+    @property
+    def session(self):
+        return {
+            "folder": str(self.folder),
+            "files": self.files,
+            "names": self.names,
+            "max_points": 1024,
+            "max_memory": 4e9,
+        }
+
+    def outcome(self, task, state, **others):
+        arguments = {"state": state, "session": self.session, "crowded": False, **others}
+        return outcome_of(
+            TASKS[f"measured.{task}"],
+            arguments,
+            lambda done, total: self.steps.append((done, total)),
+        )
+
+    def ask(self, task, state, **others):
+        outcome = self.outcome(task, state, **others)
+        assert outcome.answer is not None, outcome.error
+        return unpacked(outcome.answer)
+
+    def refusal(self, task, state, **others):
+        outcome = self.outcome(task, state, **others)
+        assert outcome.answer is None
+        for private in (str(self.folder), RANDOM, "Traceback", "/"):
+            assert private not in outcome.error.replace("W/m/K", "").replace("1/m", "")
+        assert len(outcome.error.splitlines()) == 1
+        return outcome.error, outcome.at
+
+
+@pytest.fixture
+def page(tmp_path):
+    return Page(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def measured_page(tmp_path_factory, topographies):
+    """A page that has brought every measured file."""
+    page = Page(tmp_path_factory.mktemp("measured"))
+    page.keys = {file.name: page.bring(file) for file in topographies.iterdir()}
+    return page
+
+
+@pytest.mark.parametrize("key", EXAMPLES)
+def test_examples_say_all_that_is_needed_and_are_always_the_same(page, tmp_path, key):
+    header, arrays = page.ask("look", {"example": key})
+    assert header["asks"] == {"unit": False, "size": False, "channels": []}
+    assert header["obstacles"] == []
+    first = rl.read(path_of(key, tmp_path / "one"))
+    again = rl.read(path_of(key, tmp_path / "two"))
+    np.testing.assert_array_equal(first.heights, again.heights)
+    assert arrays["body heights"].size == first.heights.size
+
+
+def test_the_ground_example_has_tilt_missing_points_and_spikes(page):
+    header, arrays = page.ask("look", {"example": "ground"})
+    heights = arrays["file heights"]
+    assert np.isnan(heights).sum() == header["missing"] > 100
+    assert header["file"]["spikes"]["count"] == 7
+    assert np.nanmean(heights[:, -20:]) - np.nanmean(heights[:, :20]) > 1  # of the tilt [µm]
+    assert any("7 spikes kept" in each for each in header["remarks"])
+    removed, _ = page.ask("prepare", {"example": "ground", "outliers": "remove"})
+    assert any("7 spikes removed" in each for each in removed["remarks"])
+
+
+def test_the_film_example_follows_its_law(page):
+    header, _ = page.ask("look", {"example": "film"})
+    found = dict(header["table"])
+    assert found["self-affine"] == "yes"
+    assert found["Hurst exponent"].startswith("0.79")
+    assert header["spectrum"]["law"]["q"]
+
+
+@pytest.mark.parametrize("key", EXAMPLES)
+def test_answers_are_those_of_the_library(page, key):
+    said = {"example": key, **PAIR, **SMALL, "friction": "0.3", "frequency": "5 MHz"}
+    source = source_of(said, page.session)
+    question = question_of(said, source)
+    expected = rl.assess(question)
+    header, arrays = page.ask("answer", said, presses=4)
+    rows = [list(table) for table in (answer_table(expected, slice(None)), formula_table(expected))]
+    assert [header["answers"], header["formulas"]] == rows
+    assert header["curve"] == list(curve_table(expected))
+    assert header["remarks"] == [each.replace("trend=", "trend ") for each in expected.remarks]
+    assert bool(page.steps) == (expected.fields is not None)  # a line scan is solved at once
+    assert all(done <= total for done, total in page.steps)
+    if expected.fields is not None:
+        np.testing.assert_array_equal(arrays["area"].T, expected.fields.contact)
+        largest = (
+            expected.fields.pressure.max() / header["contact"]["fields"]["pressure"]["range"][1]
+        )
+        np.testing.assert_allclose(
+            arrays["pressure"].T * largest, expected.fields.pressure, rtol=1e-6
+        )
+    solved = np.array(header["plot"]["stiffness"])
+    assert (
+        np.ptp(solved / expected.curve.stiffness) < 1e-9 * solved[0] / expected.curve.stiffness[0]
+    )
+
+
+def test_an_assessment_is_solved_once(page, monkeypatch):
+    said = {"example": "film", **PAIR, **SMALL}
+    first, _ = page.ask("answer", said)
+
+    def never(*_, **__):
+        raise AssertionError("solved again")
+
+    monkeypatch.setattr("roughline.lab.measured.answers.assess", never)
+    again, _ = page.ask("answer", said)
+    assert again == first
+    assert page.ask("report", said)[0]["files"]
+
+
+def test_both_models_are_compared_as_by_the_command(page):
+    said = {"example": "film"}
+    source = source_of(said, page.session)
+    expected = compare_models(source.path)
+    header, _ = page.ask("compare", said)
+    assert header["table"] == list(comparison_table(expected))
+    assert header["verdict"] == verdict_in_words(expected)
+    error, at = page.refusal("compare", {"example": "shaft"})
+    assert at == "compare"
+    assert "turned-shaft.txt holds a line" in error
+
+
+@pytest.mark.parametrize(
+    "name", ["al3d-1.al3d", "di-1.di", "opd-1.opd", "dektak-1.csv", "mitutoyo_mock.xlsx"]
+)
+def test_measured_files_are_described_as_by_the_command(measured_page, topographies, name):
+    said = measured_page.keys[name]
+    expected = describe(topographies / name)
+    for _ in range(2):  # read, and kept
+        header, arrays = measured_page.ask("look", said)
+        assert [tuple(row) for row in header["table"]] == description_table(expected)
+        assert header["obstacles"] == list(expected.obstacles)
+        assert header["missing"] == expected.missing.count
+        assert header["body"]["points"] == list(expected.body.heights.shape)
+        assert RANDOM not in str(header)
+    assert ("channels" in dict(header["table"])) == bool(header["asks"]["channels"])
+    assert np.isnan(arrays["file heights"]).any() == bool(expected.missing.count)
+
+
+@pytest.mark.parametrize(
+    "name", ["al3d-1.al3d", "di-1.di", "opd-1.opd", "dektak-1.csv", "mitutoyo_mock.xlsx"]
+)
+def test_measured_files_are_answered_for_as_by_the_library(measured_page, topographies, name):
+    said = {**measured_page.keys[name], "first": "steel", "second": "copper", "loads": "1 mN"}
+    expected = rl.assess(
+        rl.Question(
+            topographies / name,
+            materials=("steel", "copper"),
+            loads=["1 mN"],
+            whole_curve=True,
+            preparation=rl.Preparation(points=96),
+        )
+    )
+    header, _ = measured_page.ask("answer", {**said, "resample": "96"})
+    assert header["answers"] == list(answer_table(expected, slice(None)))
+    assert RANDOM not in str(header)
+
+
+def test_what_a_file_leaves_open_is_asked(measured_page):
+    said = measured_page.keys["xy-1.txt"]
+    header, _ = measured_page.ask("look", said)
+    assert header["asks"]["unit"]
+    assert header["obstacles"] == [
+        'xy-1.txt states no unit; say which its lengths have, such as unit "um"'
+    ]
+    assert header["body"] is None
+    header, _ = measured_page.ask("look", {**said, "unit": "um"})
+    assert header["obstacles"] == []
+    assert header["body"]["sides"][0] == pytest.approx(187.19e-6, rel=1e-3)
+    error, at = measured_page.refusal("look", {**said, "unit": "parsnip"})
+    assert at == "unit"
+    assert "parsnip" in error
+
+
+def test_a_file_of_which_most_is_missing_is_shown_and_can_be_allowed(measured_page):
+    said = measured_page.keys["sur-3.sur"]
+    header, arrays = measured_page.ask("look", said)
+    assert "allow more (most missing)" in header["obstacles"][0]
+    assert np.isnan(arrays["file heights"]).mean() == pytest.approx(0.8889, abs=1e-4)
+    header, _ = measured_page.ask("look", {**said, "most_missing": "95 %"})
+    assert any("233009 missing points (88.89%) filled" in each for each in header["remarks"])
+
+
+def test_an_array_needs_unit_and_size(page, tmp_path):
+    heights = rl.SelfAffine(hurst=0.8, length=1e3, rms_height=1.0).surface(64, 1).heights
+    np.save(tmp_path / "map.npy", heights)
+    said = page.bring(tmp_path / "map.npy", "my <b>map</b>.npy")
+    header, arrays = page.ask("look", said)
+    assert header["asks"] == {"unit": True, "size": True, "channels": []}
+    assert len(header["obstacles"]) == 2
+    assert header["file"]["along"] == "points"
+    np.testing.assert_allclose(arrays["file heights"].T, heights, rtol=1e-6)
+    header, _ = page.ask("look", {**said, "unit": "um", "size": "1 mm"})
+    assert header["body"]["sides"] == [1e-3, 1e-3]
+    answered, _ = page.ask("answer", {**said, "unit": "um", "size": "1 mm", **PAIR})
+    expected = rl.assess(
+        rl.Question(
+            tmp_path / "map.npy",
+            materials=("steel", "copper"),
+            loads=["2 MPa"],
+            whole_curve=True,
+            reading=rl.Reading(unit="um", sizes="1 mm"),
+        )
+    )
+    assert answered["answers"] == list(answer_table(expected, slice(None)))
+
+
+def test_damaged_empty_misnamed_and_large_files_are_refused_in_a_sentence(page, tmp_path):
+    for name, content, told in (
+        ("empty.x3p", b"", "is empty: export it again"),
+        ("text.sur", b"this is no topography\n", "damaged or of a type that is not known"),
+        ("no.npy", b"\x93NUMPY garbage", "holds no array of real heights"),
+        ("cut.x3p", b"PK\x03\x04" + bytes(400), "export it again"),
+        ("<img src=x>.nc", bytes(range(256)) * 20, "export it again"),
+    ):
+        (tmp_path / "came").write_bytes(content)
+        file = tmp_path / f"file{name.rpartition('.')[1]}{name.rpartition('.')[2]}"
+        file.write_bytes(content)
+        for task in ("look", "answer"):
+            error, at = page.refusal(task, {**page.bring(file, name), **PAIR})
+            assert name in error
+            assert told in error
+            assert at in ("file", "answers")
+
+
+def test_measured_files_that_are_damaged_are_refused_by_their_own_name(measured_page):
+    error, at = measured_page.refusal("look", measured_page.keys["di_corrupted.di"])
+    assert at == "file"
+    assert error.startswith("di_corrupted.di is damaged")
+
+
+def test_a_file_that_is_gone_is_asked_for_again(page):
+    assert page.refusal("look", {"file": "another"}) == (
+        "the file is no longer here: choose it again",
+        "file",
+    )
+
+
+@pytest.mark.parametrize(
+    ("said", "task", "at", "told"),
+    [
+        ({"first": "steal"}, "bodies", "first", 'did you mean "steel"'),
+        ({"second": ""}, "bodies", "second", "give the second material"),
+        ({"first": "rigid", "second": "rigid"}, "bodies", "second", "must give way"),
+        ({"bodies": "modulus"}, "bodies", "E", 'such as "110 GPa"'),
+        ({"bodies": "modulus", "E": "110"}, "bodies", "E", "without a unit"),
+        ({"bodies": "modulus", "E": "-1 Pa"}, "bodies", "E", "give a positive one"),
+        ({"loads": "10"}, "bodies", "loads", "give a total force"),
+        ({"loads": "-3 N"}, "bodies", "loads", "give positive ones"),
+        ({"loads": "0,5 N"}, "bodies", "loads", "decimal point"),
+        ({"friction": "rough"}, "answer", "friction", "give a number"),
+        ({"friction": "-1"}, "answer", "friction", "a positive one is needed"),
+        ({"frequency": "5 m"}, "answer", "frequency", "no quantity in Hz"),
+        ({"theories": "hertz"}, "answer", "theories", "there is no theory"),
+        ({"crop": "1, 2"}, "prepare", "crop", "without a unit"),
+        ({"crop": "0 um, 1 um"}, "prepare", "preparation", "give 4"),
+        ({"low_pass": "-1 um"}, "prepare", "low_pass", "a positive wavelength"),
+        ({"resample": "1.5"}, "prepare", "resample", "give a whole number"),
+        ({"trend": "cubic"}, "prepare", "trend", "allowed are"),
+        ({"most_missing": "120%"}, "look", "most_missing", "below 100 %"),
+        ({"v": "7"}, "look", "", "reads version 1"),
+        ({"parsnip": "1"}, "look", "", "does not know"),
+        ({"example": "mars"}, "look", "file", "there is no example"),
+    ],
+)
+def test_what_cannot_be_used_is_said_at_its_control(page, said, task, at, told):
+    error, found = page.refusal(task, {"example": "film", **PAIR, **said})
+    assert told in error
+    assert found == at
+
+
+def test_bodies_and_loads_are_said_as_soon_as_they_can_be_read(page):
+    said = {**PAIR, "loads": "2 MPa; 10 N"}
+    header, _ = page.ask("bodies", said, sides=[1e-3, 0.5e-3])
+    pair = rl.contact_modulus(rl.material("steel"), rl.material("copper"))
+    assert header["rows"][0] == ["contact modulus E*", f"{pair / 1e9:.4g} GPa"]
+    assert header["loads"][0].startswith("load 2 MPa: 1 N in all, 2 MPa over the nominal area")
+    assert "20 MPa over" in header["loads"][1]
+    header, _ = page.ask("bodies", {**PAIR, "first": "E=70 GPa nu=0.33"}, sides=None)
+    assert header["loads"] == []
+    assert any("hardness of the first body (given)" in each for each in header["notes"])
+    assert page.refusal("bodies", said, sides=["a"])[1] == ""
+
+
+def test_no_file_that_is_taken_away_tells_where_the_upload_lay(page, tmp_path, rough):
+    said = {**page.bring(rough, "Müller <1>.nc"), **PAIR}
+    header, _ = page.ask("report", said)
+    results = page.folder / "results"
+    assert {"report.html", "report.pdf", "curve.nc"} <= header["files"].keys()
+    for place in header["files"].values():
+        assert re.fullmatch(r"[\w.-]+", place, re.ASCII)
+        content = (results / place).read_bytes()
+        assert RANDOM.encode() not in content
+        assert str(tmp_path).encode() not in content
+    html = (results / header["files"]["report.html"]).read_text(encoding="utf-8")
+    assert "<h1>Contact of Müller &lt;1&gt;.nc</h1>" in html
+    with xarray.open_dataset(results / header["files"]["curve.nc"], engine="h5netcdf") as curve:
+        assert curve.attrs["body_file"] == "Müller <1>.nc"
+
+
+def test_the_command_repeats_the_answers(page, invoke, tmp_path, monkeypatch):
+    said = {
+        **{"example": "ground", **PAIR, **SMALL, "outliers": "remove", "trend": "curvature"},
+        **{"crop": "0 um, 300 um, 0 um, 300 um", "friction": "0.3", "boundary": "periodic"},
+        **{"theories": "persson", "grid_error": "no", "fill": "nearest", "most_missing": "20 %"},
+    }
+    header, _ = page.ask("answer", said)
+    page.ask("code", said, which="command")
+    path_of("ground", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    command = shlex.split(documents.as_command(said, "ground-steel.x3p"))
+    code, out, errors = invoke(*command[1:])
+    assert code == 0, errors
+    table = [row[1] for row in header["answers"][1]]
+    assert all(value.split(" (")[0] in out for value in table)
+    page_html = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    assert "Contact of ground-steel.x3p" in page_html
+
+
+def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
+    said = {"example": "film", **PAIR, **SMALL, "crop": "0 um, 2 um, 0 um, 2 um"}
+    header, _ = page.ask("code", said, which="python")
+    path_of("film", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    found = {}
+    exec(header["text"], found)
+    answered, _ = page.ask("answer", said)
+    assert answered["answers"] == list(answer_table(found["result"], slice(None)))
+
+
+def test_a_contact_modulus_alone_gives_a_curve(page):
+    said = {"example": "film", **SMALL, "bodies": "modulus", "E": "110 GPa"}
+    header, _ = page.ask("answer", said)
+    assert header["answers"] is None
+    assert not header["can_report"]
+    assert len(header["curve"][1]) == 20
+    files, _ = page.ask("report", said)
+    assert "report.html" not in files["files"]
+    assert "curve.nc" in files["files"]
+
+
+def test_names_of_arguments_are_those_of_the_controls(page):
+    header, _ = page.ask("answer", {"example": "film", **PAIR, "resample": "32"})
+    assert any('grid error "estimate" does it still' in each for each in header["remarks"])
+
+
+def test_a_name_may_be_given_to_a_file(rough):
+    question = rl.Question(
+        rough, E_star=1e9, n_loads=3, reading=replace(rl.Reading(), name="mine.nc")
+    )
+    assert question.name == "mine.nc"
+    assert rl.assess(question).curve.settings["body_file"] == "mine.nc"
+
+
+def test_state_is_text_alone():
+    assert said_of({"state": {"first": " steel ", "second": ""}}) == {"first": "steel"}
