@@ -21,7 +21,7 @@ def faint(page):
 def tabbed(page, view):
     """Go through a view by the tab key: what should stop it, what did, and what was unseen."""
     wanted = asked(page, "stops", view)
-    page.keyboard.press("Tab")  # leads past the header
+    page.focus(".skip")  # the first stop of all, which leads past the header
     reached, unseen = [], []
     for _ in range(2 * len(wanted)):
         if len(reached) == len(wanted):
