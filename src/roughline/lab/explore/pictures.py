@@ -23,7 +23,7 @@ from roughline.lab.explore.words import (
     stiffness_rows,
 )
 from roughline.lab.frames import frame
-from roughline.lab.shading import shaded
+from roughline.report.shading import shaded
 from roughline.server.tasks import Progress
 
 COARSE, COARSER = 128, 64

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-import roughline as rl
+from roughline.topography.body import Surface
 
 _LIGHT = (315.0, 45.0)  # direction and height of the light [degree]
 _RELIEF = 0.35  # rms slope that a surface is lit with, so that smooth ones show as well
 
 
-def shaded(surface: rl.Surface) -> NDArray[np.uint32]:
+def shaded(surface: Surface) -> NDArray[np.uint32]:
     """Return red, green, blue and opacity of every point in one number, as BokehJS reads them.
 
     Colours are heights, as in the reports; the light shows slopes.
