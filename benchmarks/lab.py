@@ -106,7 +106,7 @@ def measure_moves(browser, running, times, moves, points, dimension, seed):
     pages = Pages(browser, running.address)
     page = opened(pages, f"?view=explore&v=1&D_f={dimension}&seed={seed}&n={points}&F=0.1")
     page.wait_for_selector("#plot-explore-area[data-shown]")
-    for key, at_rest in (("F", False), ("D_f", False), ("seed", False), ("F", True)):
+    for key, at_rest in (("F", False), ("D_f", False), ("cutoff", False), ("F", True)):
         if points > 512 and not at_rest:
             continue
         for _ in drag(page, key, moves):
@@ -168,7 +168,7 @@ NumPy {np.__version__}, headless Chromium {browser} without a graphics card, on 
 {chr(10).join(rows)}
 
 A move counts from the event of the slider until the frame in which the picture of this value is on
-the screen. Sliders are dragged with the mouse over the loads, fractal dimensions and seeds of
+the screen. Sliders are dragged with the mouse over the loads, fractal dimensions and cutoffs of
 {len(SURFACES)} surfaces; the times of 512² and 1024² points hold the 250 ms without a move after
 which a slider counts as at rest.
 """

@@ -185,8 +185,8 @@ def test_an_address_gives_its_state_again():
         ({"cutoff": "0.5", "roll_off": "0.2"}, "cutoff"),
         ({"theories": "hertz"}, "theories"),
         ({"boundary": "open"}, "boundary"),
-        ({"v": "2"}, ""),
-        ({"colour": "red"}, ""),
+        ({"v": "2"}, "v"),
+        ({"colour": "red"}, "v"),
     ],
 )
 def test_what_cannot_be_used_is_refused_where_it_stands(said, at):

@@ -235,8 +235,8 @@ def test_the_address_holds_all_that_is_chosen():
 @pytest.mark.parametrize(
     ("said", "at", "words"),
     [
-        ({"v": "2"}, "", "reads version 1"),
-        ({"seed": "3"}, "", 'the link sets "seed"'),
+        ({"v": "2"}, "v", "reads version 1"),
+        ({"seed": "3"}, "v", 'the link sets "seed"'),
         ({"D_f": "2.3"}, "D_f", "choose one or more of 2, 2.2"),
         ({"D_f": ","}, "D_f", "no fractal dimension is chosen"),
         ({"mean": "median"}, "mean", "allowed are arithmetic, geometric"),

@@ -148,16 +148,18 @@ def refuse_strange(said: Mapping[str, str], known: Collection[str]) -> None:
     Raises
     ------
     ControlError
-        In one sentence.
+        In one sentence, at the version, which stands for the whole address.
     """
     if said.get("v", VERSION) != VERSION:
         raise ControlError(
             f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '
-            f"reads version {VERSION}: set the controls by hand"
+            f"reads version {VERSION}: set the controls by hand",
+            "v",
         )
     strange = [name[:40] for name in said if name not in (*known, "v", *_OF_THE_PAGE)]
     if strange:
         raise ControlError(
             f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
-            "version; set the controls by hand"
+            "version; set the controls by hand",
+            "v",
         )

@@ -38,7 +38,7 @@ def _stiffness() -> figure:
 
 
 def _area() -> figure:
-    plot = log_figure(_FORCE, "real contact area A / A_0", _FORCES, (1e-4, 1.3))
+    plot = log_figure(_FORCE, "real contact area A / A₀", _FORCES, (1e-4, 1.3))
     _draw_loads(plot, "area")
     return plot
 
@@ -75,6 +75,8 @@ def _draw_loads(plot: figure, name: str) -> None:
             fill_alpha=float(filled),
         )
         marks.glyph.tags = themed(fill_color=colour, line_color=colour)
+        item = plot.legend.items[-1]
+        item.name, item.visible = f"{name} {what} label", what != "unsure"  # shown if there are any
     cursor = Span(dimension="height", location=0.1, line_width=3, editable=True)
     cursor.name, cursor.tags = f"{name} cursor", themed(line_color="here", hover_line_color="mark")
     plot.add_layout(cursor)

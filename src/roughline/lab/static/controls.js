@@ -2,7 +2,7 @@
 const STEPS = 1000; // of a slider on a logarithmic scale
 
 export class Controls {
-  #root; #changed; #said = {};
+  #root; #changed; #said = {}; #defaults = {};
 
   // changed(key, isFinal) is called when something is set; isFinal is false while a slider moves.
   constructor(root, changed) {
@@ -21,6 +21,10 @@ export class Controls {
       });
     }
     root.addEventListener("submit", (event) => event.preventDefault());
+    for (const choice of root.querySelectorAll('select[data-key], input[type="radio"][data-key]')) {
+      if (choice.type !== "radio" || choice.defaultChecked) this.#defaults[choice.dataset.key] = choice.value;
+    }
+    for (const text of root.querySelectorAll("input[data-text]")) this.#defaults[text.dataset.text] = text.value;
   }
 
   // Texts by key: what the server reads.
@@ -32,37 +36,43 @@ export class Controls {
     this.#changed(key, isFinal);
   }
 
-  // Take texts from an address, without telling anyone.
+  // Take texts from an address, without telling anyone; what it does not say has its default.
   take(said) {
     this.#said = {...said};
-    for (const [key, text] of Object.entries(said)) this.#show(key, text);
+    for (const [key, text] of Object.entries({...this.#defaults, ...said})) this.#show(key, text);
   }
 
   // Show where numbers stand after the server has read their texts.
   showNumbers(numbers) {
     for (const [key, value] of Object.entries(numbers)) {
       const slider = this.#slider(key);
-      if (slider && document.activeElement !== slider) slider.value = position(slider, value);
+      if (slider && document.activeElement !== slider) place(slider, value);
       const text = this.#text(key);
       const hasUnit = Number.isNaN(Number(this.#said[key] ?? value)); // stays as it was typed
       if (text && document.activeElement !== text && !hasUnit) text.value = said(value);
     }
   }
 
-  // Write a sentence beside a control; an empty one takes it away.
+  // Write a sentence beside a control; an empty one takes it away. Tells whether it can be seen there.
   refuse(key, sentence) {
     const place = this.#root.querySelector(`[data-error="${CSS.escape(key)}"]`);
     if (!place) return false;
+    if (place.textContent === sentence) return true;
     place.textContent = sentence;
     this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
-    return true;
+    return sentence === "" || place.parentElement.checkVisibility();
+  }
+
+  // Take all sentences away: all that is set was used.
+  accept() {
+    for (const {dataset} of this.#root.querySelectorAll("[data-error]")) this.refuse(dataset.error, "");
   }
 
   #bindSlider(slider) {
     const {low, high, scale, step, key} = slider.dataset;
     const whole = scale === "whole", linear = scale === "linear" || whole;
     Object.assign(slider, linear ? {min: low, max: high, step} : {min: 0, max: STEPS, step: STEPS * step / Math.log10(high / low)});
-    slider.value = position(slider, Number(slider.dataset.default));
+    place(slider, Number(slider.dataset.default));
     this.#text(key).value = said(Number(slider.dataset.default));
     const moved = (isFinal) => {
       const text = said(number(slider));
@@ -90,7 +100,7 @@ export class Controls {
     const field = this.#text(key);
     if (field) field.value = text;
     const slider = this.#slider(key);
-    if (slider && Number.isFinite(Number(text))) slider.value = position(slider, Number(text));
+    if (slider && text && Number.isFinite(Number(text))) place(slider, Number(text));
   }
 
   #slider(key) { return this.#root.querySelector(`input[type="range"][data-key="${CSS.escape(key)}"]`); }
@@ -101,6 +111,11 @@ export class Controls {
 export function said(value) {
   const rounded = Number(value.toPrecision(4));
   return rounded !== 0 && Math.abs(rounded) < 1e-4 ? rounded.toExponential() : String(rounded);
+}
+
+function place(slider, value) {
+  slider.value = position(slider, value);
+  slider.setAttribute("aria-valuetext", said(value));
 }
 
 function position(slider, value) {

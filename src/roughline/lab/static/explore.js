@@ -2,6 +2,8 @@
 import {Controls} from "./controls.js";
 import {embedded, fillTable} from "./plots.js";
 import {Strip} from "./strip.js";
+import {bindTabs} from "./tabs.js";
+import {TakeAlong} from "./take_along.js";
 import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
@@ -30,21 +32,15 @@ class Explore {
     this.#link = link;
     this.#address = address;
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
-    this.#waiting = new Waiting(this.#root.querySelector(".status"), () => {
-      link.stop("full");
-      link.stop("curve");
-      this.#say("stopped; the coarse answer is shown");
-    });
+    this.#waiting = new Waiting(this.#root.querySelector(".status"), (works) => this.#cancel(works));
+    new TakeAlong(this.#root, link, () => this.#arguments(), this.#waiting, (...said) => this.#refuse(...said));
     this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#bindButtons();
   }
 
   async open(said) {
-    const {view, ...texts} = said;
-    this.#controls.take(texts);
-    this.#showHeightOrSlope();
-    const theories = (texts.theories ?? "").split(",");
-    for (const box of this.#root.querySelectorAll("[data-theory]")) box.checked = theories.includes(box.dataset.theory);
+    this.#take(said);
+    this.#dim([...CONTACT, ...CURVES]);
     this.#askNow();
     this.#plots = await embedded("explore");
     for (const name of ["stiffness", "area"]) {
@@ -53,6 +49,14 @@ class Explore {
     this.#plots.frame(["explore-topography", "explore-contact"], [1, 1]);
     for (const draw of this.#missed.splice(0)) draw();
     this.#sharpen();
+  }
+
+  // Take the texts of an address, or none.
+  #take({view, theme, H, ...texts}) {
+    this.#controls.take(H === undefined ? texts : {...texts, D_f: `H = ${H}`});
+    this.#showHeightOrSlope();
+    const theories = (texts.theories ?? "").split(",");
+    for (const box of this.#root.querySelectorAll("[data-theory]")) box.checked = theories.includes(box.dataset.theory);
   }
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
@@ -68,67 +72,84 @@ class Explore {
       this.#writeAddress();
       return;
     }
+    this.#ofLink = "";
     if (key === "rms") this.#showHeightOrSlope();
     this.#stale = key !== "F" || this.#stale;
     this.#dim(key === "F" ? CONTACT : [...CONTACT, ...CURVES]);
     this.#askNow();
     clearTimeout(this.#rest);
-    this.#link.stop("full");
-    this.#link.stop("curve");
+    this.#stop(["full", "curve"]);
     this.#rest = setTimeout(() => this.#sharpen(), isFinal ? 0 : REST);
+  }
+
+  #stop(works) {
+    for (const work of works) { this.#link.stop(work); this.#waiting.end(work); }
+  }
+
+  #cancel(works) {
+    this.#stop(works);
+    const left = {full: "the coarse answer is shown", curve: "the marks of the curves are of the surface before",
+      download: "nothing was saved"};
+    this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
   }
 
   #arguments() { return {state: this.#controls.said}; }
 
   #askNow() {
-    const error = (sentence, at) => this.#refuse(sentence, at), args = this.#arguments();
+    const turn = ++this.#turn, args = this.#arguments();
+    const error = (sentence, at) => this.#refuse(sentence, at, turn);
     this.#link.stop("finer lines");
     this.#link.ask("explore.reduced", "reduced", args, {
       answer: (header) => {
-        this.#draw(() => this.#drawLine(header));
-        if (header.is_coarse) { // many ask at once
+        this.#draw(() => this.#drawLine(header, turn));
+        if (header.is_coarse && turn === this.#turn) { // many ask at once
           this.#link.ask("explore.reduced", "finer lines", {...args, refines: true}, {
-            answer: (finer) => this.#draw(() => this.#drawLine(finer))});
+            answer: (finer) => this.#draw(() => this.#drawLine(finer, turn))});
         }
       },
       error,
     });
     this.#link.ask("explore.coarse", "coarse", this.#arguments(), {
-      answer: (header) => this.#draw(() => this.#drawContact(header)), error});
+      answer: (header) => this.#draw(() => this.#drawContact(header, turn)), error});
   }
 
   #sharpen(refines = false) {
     if (!this.#plots) return;
-    const error = (sentence, at) => { this.#waiting.end(); this.#refuse(sentence, at); };
+    const turn = this.#turn, args = {...this.#arguments(), refines};
     const progress = (message) => this.#waiting.progress(message);
-    const args = {...this.#arguments(), refines};
-    this.#waiting.begin();
+    const error = (sentence, at) => {
+      if (turn === this.#turn) this.#stop(["full", "curve"]);
+      this.#refuse(sentence, at, turn);
+    };
+    this.#waiting.begin("full");
     this.#link.ask("explore.full", "full", args, {
       answer: (header) => {
-        this.#drawContact(header);
-        if (header.is_coarse && !args.refines) { this.#sharpen(true); return; } // many ask at once
-        if (!this.#stale) { this.#waiting.end(); return; }
-        this.#link.ask("explore.curve", "curve", {...args, refines: true}, {
-          answer: (curve) => { this.#waiting.end(); this.#drawCurve(curve); }, error, progress});
+        this.#drawContact(header, turn);
+        if (header.is_coarse && !refines) { this.#sharpen(true); return; } // many ask at once
+        if (this.#stale) {
+          this.#waiting.begin("curve");
+          this.#link.ask("explore.curve", "curve", {...args, refines: true}, {
+            answer: (curve) => { this.#waiting.end("curve"); this.#drawCurve(curve); }, error, progress});
+        }
+        this.#waiting.end("full");
       },
       error,
       progress,
     });
   }
 
-  #drawLine({state, numbers, line, table, strip}) {
-    this.#settled(state, numbers);
+  #drawLine({state, numbers, line, table, strip}, turn) {
+    this.#settled(state, numbers, turn);
     this.#plots.shows("explore-stiffness", {what: "line", numbers});
     this.#plots.set("stiffness line", {x: line.force_bar, y: line.stiffness_bar, low: line.low, high: line.high});
     this.#strip.add(strip);
-    this.#cursorTo(numbers.F);
     this.#lineTable = table;
   }
 
-  #drawContact(header) {
+  #drawContact(header, turn) {
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
     this.#last = header;
-    this.#settled(header.state, header.numbers);
+    this.#settled(header.state, header.numbers, turn);
     const what = {what: "contact", points: header.points, numbers: header.numbers};
     for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
     this.#plots.setMap("topography", header.arrays.topography, [1, 1], header.heights);
@@ -137,20 +158,24 @@ class Explore {
     this.#plots.set("stiffness here", {x, y: stiffness_bar});
     this.#plots.set("area here", {x, y: area});
     this.#strip.add(header.strip);
-    this.#say(header.status);
+    this.#fillTables(header.strip);
+    this.#say(header.status, !header.is_coarse);
     this.#undim(CONTACT);
-    if (!header.is_coarse) this.#drawRest(header);
+    if (!header.is_coarse) this.#drawSpectrum(header);
   }
 
-  // What follows at rest: the spectrum and the tables.
-  #drawRest({spectrum: {waves, C_2d, law}, spectrum_table, strip}) {
+  #fillTables(strip) {
+    const rows = (kept) => strip.filter(kept).map(({symbol, value, below, meaning}) => [symbol, value, below, meaning]);
+    const columns = ["quantity", "value", "with unit, interval", "meaning"];
+    fillTable("explore-topography", columns, rows(({key}) => key === "roughness"));
+    fillTable("explore-contact", columns, rows(({key}) => key !== "roughness"));
+  }
+
+  #drawSpectrum({spectrum: {waves, C_2d, law}, spectrum_table}) {
     this.#plots.span("explore-spectrum", "x", waves);
     this.#plots.span("explore-spectrum", "y", C_2d);
     this.#plots.set("spectrum", {x: waves, y: C_2d, law: law.map((value) => value ?? NaN)});
     fillTable("explore-spectrum", ["waves in the side", "C_2d [m⁴]", "law [m⁴]"], spectrum_table);
-    const rows = (kept) => strip.filter(kept).map(({symbol, value, below}) => [symbol, value, below]);
-    fillTable("explore-topography", ["quantity", "value", ""], rows(({key}) => key === "roughness"));
-    fillTable("explore-contact", ["quantity", "value", ""], rows(({key}) => key !== "roughness"));
   }
 
   #drawField(header) {
@@ -180,7 +205,9 @@ class Explore {
     for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
     for (const [name, values] of [["stiffness", curve.stiffness_bar], ["area", curve.area]]) {
       this.#plots.set(`${name} curve`, rows(true, values));
-      this.#plots.set(`${name} unsure`, rows(false, values));
+      const few = rows(false, values);
+      this.#plots.set(`${name} unsure`, few);
+      this.#plots.model(`${name} unsure label`).visible = few.x.length > 0;
     }
     for (let i = 0; i < MOST_THEORIES; i++) {
       const {force_bar = [], stiffness_bar = null, area = []} = theories[i] ?? {};
@@ -190,8 +217,10 @@ class Explore {
     this.#plots.span("explore-stiffness", "y", curve.stiffness_bar, [1e-3, 1.3]);
     this.#plots.span("explore-area", "y", curve.area, [1e-4, 1]);
     const failed = curve.converged.filter((each) => !each).length;
-    const note = failed ? `; ${failed} loads were not solved` : "";
-    const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${name}: ${validity}`);
+    const unsure = curve.resolved.some((each) => !each) ? "; hollow, and * in the table: fewer than ten cells touch" : "";
+    const note = unsure + (failed ? `; ${failed} loads were not solved` : "");
+    const called = (name) => this.#root.querySelector(`[data-theory="${name}"]`).parentElement.textContent.trim();
+    const drawn = theories.map(({name, validity}, i) => `${DASHES[i]} ${called(name)}: ${validity}`);
     this.#caption("stiffness", `marks of the curve on ${grid} points${note}`);
     this.#caption("area", `marks of the curve on ${grid} points${note}`);
     this.#caption("theories", drawn.map((each) => `${each}.`).join(" "));
@@ -200,9 +229,14 @@ class Explore {
   }
   #lineTable = [];
 
-  #settled(state, numbers) {
+  #turn = 0; // of the questions: controls and cursor follow the answer to the newest alone
+
+  #settled(state, numbers, turn = this.#turn) {
+    if (turn !== this.#turn) return;
+    this.#cursorTo(numbers.F);
     this.#controls.showNumbers(numbers);
-    for (const place of this.#root.querySelectorAll("[data-error]")) place.textContent = "";
+    this.#controls.accept();
+    this.#controls.refuse("", this.#ofLink);
     this.#address.write("explore", {...state, ...(this.#controls.said.shown ? {shown: this.#controls.said.shown} : {})});
   }
 
@@ -223,12 +257,29 @@ class Explore {
     this.#changed("F", false);
   }
 
-  #refuse(sentence, at) {
+  #refuse(sentence, at, turn = this.#turn) {
+    if (turn !== this.#turn) return;
     clearTimeout(this.#rest);
-    if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
+    if (at === "v") this.#begin(sentence);
+    else if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
   }
 
-  #say(text) { this.#root.querySelector("[data-status]").textContent = text; }
+  #ofLink = ""; // why the link that was opened is not shown
+
+  // Begin with the defaults in the place of a link that cannot be read.
+  #begin(sentence) {
+    if (this.#ofLink) return;
+    this.#ofLink = sentence;
+    this.#take({});
+    this.#askNow();
+    this.#sharpen();
+  }
+
+  // Write the status; at rest it is spoken too, with the numbers.
+  #say(text, atRest) {
+    this.#root.querySelector("[data-status]").textContent = text;
+    if (atRest) this.#root.querySelector("[data-spoken]").textContent = `${text}; ${this.#strip.spoken}`;
+  }
   #caption(name, text) { this.#root.querySelector(`[data-caption="${name}"]`).textContent = text; }
 
   #showHeightOrSlope() {
@@ -243,64 +294,13 @@ class Explore {
       this.#controls.take({...this.#controls.said, seed: String(Math.floor(Math.random() * 1e6))});
       this.#changed("seed", true);
     });
-    const tabs = [...this.#root.querySelectorAll('[role="tab"]')];
-    const choose = (chosen) => {
-      for (const tab of tabs) {
-        tab.setAttribute("aria-selected", String(tab === chosen));
-        tab.tabIndex = tab === chosen ? 0 : -1;
-        find(`#${tab.getAttribute("aria-controls")}`).hidden = tab !== chosen;
-      }
-    };
-    for (const tab of tabs) {
-      tab.addEventListener("click", () => choose(tab));
-      tab.addEventListener("keydown", ({key}) => {
-        if (key !== "ArrowLeft" && key !== "ArrowRight") return;
-        const other = tabs[(tabs.indexOf(tab) + 1) % tabs.length];
-        choose(other);
-        other.focus();
-      });
-    }
-    choose(tabs[0]);
+    bindTabs(this.#root);
     for (const box of this.#root.querySelectorAll("[data-theory]")) {
       box.addEventListener("change", () => {
         const chosen = [...this.#root.querySelectorAll("[data-theory]:checked")].map((each) => each.dataset.theory);
         this.#controls.set("theories", chosen.join(","), true);
       });
     }
-    for (const [id, which] of [["#as-python", "python"], ["#as-command", "command"]]) {
-      find(id).addEventListener("click", () => this.#showCode(which));
-    }
-    find("#copy-code").addEventListener("click", () => navigator.clipboard.writeText(find("#code pre").textContent));
-    find("#save").addEventListener("change", ({target}) => {
-      const name = target.value;
-      target.value = "";
-      if (name) this.#save(name);
-    });
-  }
-
-  #showCode(which) {
-    this.#link.ask("explore.code", "code", {...this.#arguments(), which}, {
-      answer: ({text}) => {
-        this.#root.querySelector("#code pre").textContent = text;
-        this.#root.querySelector("#code").showModal();
-      },
-      error: (sentence, at) => this.#refuse(sentence, at),
-    });
-  }
-
-  #save(name) {
-    this.#waiting.begin();
-    this.#link.ask("explore.download", "download", {...this.#arguments(), name}, {
-      answer: ({file}) => {
-        this.#waiting.end();
-        const anchor = document.createElement("a");
-        anchor.href = `/results/${this.#link.session}/${file}?save=1`;
-        anchor.download = name;
-        anchor.click();
-      },
-      error: (sentence, at) => { this.#waiting.end(); this.#refuse(sentence, at); },
-      progress: (message) => this.#waiting.progress(message),
-    });
   }
 }
 

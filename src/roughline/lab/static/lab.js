@@ -1,4 +1,5 @@
 // The page: its three views, the address, the theme, and the connection.
+import {copy} from "./clipboard.js";
 import {Link} from "./link.js";
 import {recolourAll} from "./plots.js";
 
@@ -13,6 +14,9 @@ const link = new Link((isOpen, isNew, reason) => {
   if (isNew) for (const view of opened.values()) view.then((each) => each.reconnected?.());
 });
 
+const RARE = 300; // between two changes of the address; browsers stop pages that change it more often [ms]
+let later = null, written = 0;
+
 // The state of a view in the address of the page.
 const address = {
   read() {
@@ -21,12 +25,16 @@ const address = {
     return said;
   },
   write(view, said) {
-    const query = new URLSearchParams({view, ...said});
-    history.replaceState(null, "", `?${query}`);
+    clearTimeout(later);
+    later = setTimeout(() => {
+      written = performance.now();
+      history.replaceState(null, "", `?${new URLSearchParams({view, ...said})}`);
+    }, Math.max(0, written + RARE - performance.now()));
   },
 };
 
 async function show(name, said) {
+  clearTimeout(later); // it was of the view before
   for (const view of VIEWS) {
     document.querySelector(`#${view}`).hidden = view !== name;
     const item = document.querySelector(`nav [data-view="${view}"]`);
@@ -69,12 +77,8 @@ help.addEventListener("click", () => {
   help.setAttribute("aria-expanded", String(!helpText.hidden));
 });
 
-const copy = document.querySelector("#copy-link");
-copy.addEventListener("click", async () => {
-  await navigator.clipboard.writeText(location.href);
-  copy.textContent = "copied";
-  setTimeout(() => { copy.textContent = "copy link"; }, 1500);
-});
+const copyLink = document.querySelector("#copy-link");
+copyLink.addEventListener("click", () => copy(location.href, copyLink));
 
 document.querySelectorAll(".drawer").forEach((drawer) => {
   const controls = document.querySelector(`#${drawer.getAttribute("aria-controls")}`);

@@ -85,9 +85,9 @@ class Measured {
   }
 
   refuse(sentence, at = "") {
-    if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
     const folded = sentence && at && this.find(`[data-error="${CSS.escape(at)}"]`)?.closest("details");
     if (folded) folded.open = true;
+    if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
   }
 
   #take(said) {

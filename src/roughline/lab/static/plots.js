@@ -37,7 +37,11 @@ export class Plots {
 
   // Say what the next picture of a plot shows; when it is on the screen, its element tells so by the
   // event "drawn", and its data-shown says what was drawn last.
-  shows(plot, what) { this.#shown.set(plot, [...(this.#shown.get(plot) ?? []), what]); }
+  // A picture that is the same as the one before is painted again for it.
+  shows(plot, what) {
+    this.#shown.set(plot, [...(this.#shown.get(plot) ?? []), what]);
+    Bokeh.index.find_one(this.root(plot))?.schedule_paint();
+  }
 
   #tellDrawn(plot) {
     const shown = this.#shown.get(plot);
@@ -53,6 +57,8 @@ export class Plots {
   }
 
   model(name) { return this.made.get_model_by_name(name); }
+
+  root(name) { return this.made.roots().find((each) => each.name === name); }
 
   // Give a source its columns.
   set(name, columns) { this.model(name).data = columns; }
@@ -75,7 +81,7 @@ export class Plots {
 
   // Show a rectangle in maps that share their ranges, with equal scales, whatever their size.
   frame(names, [width, height]) {
-    const plots = names.map((name) => this.made.roots().find((each) => each.name === name));
+    const plots = names.map((name) => this.root(name));
     const fit = () => {
       const {width: across, height: up} = Bokeh.index.find_one(plots[0])?.frame?.bbox ?? {};
       if (!across || !up) return;
@@ -95,7 +101,7 @@ export class Plots {
   span(name, axis, values, atLeast = [Infinity, -Infinity]) {
     const known = [...values, ...atLeast].filter((value) => Number.isFinite(value) && value > 0);
     if (!known.length) return;
-    const plot = this.made.roots().find((each) => each.name === name);
+    const plot = this.root(name);
     const [low, high] = [Math.min(...known), Math.max(...known)];
     const [start, end] = [low / 1.2, high * 1.2];
     plot[`${axis}_range`].setv({start, end, reset_start: start, reset_end: end});
@@ -127,11 +133,17 @@ export function fillTable(id, header, rows) {
 }
 
 // Draw all plots in the colours of the theme.
-export function recolourAll() { documents.forEach(recolour); }
+export function recolourAll() {
+  known.clear();
+  documents.forEach(recolour);
+}
+
+const known = new Map(); // colours: to ask for one makes the browser style the page again
 
 // A colour of the theme by its name in the style of the page.
 function colour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  if (!known.has(name)) known.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+  return known.get(name);
 }
 
 function recolour(made) {
@@ -139,7 +151,7 @@ function recolour(made) {
   const labels = {axis_label_text_color: text, major_label_text_color: text, axis_line_color: line,
     major_tick_line_color: line, minor_tick_line_color: line, axis_label_text_font_style: "normal"};
   const looks = {
-    Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: null, outline_line_color: line},
+    Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: paper, outline_line_color: line},
     LinearAxis: labels,
     LogAxis: labels,
     Grid: {grid_line_color: grid},
@@ -170,9 +182,11 @@ function takeKeys(root) {
       range.setv({start: from(middle - half), end: from(middle + half)});
     }
   };
+  const canvas = Bokeh.index.find_one(root)?.canvas_view?.events_el;
+  if (canvas) canvas.tabIndex = -1; // one stop of the tab key for each plot
   const moves = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1]};
   element.addEventListener("keydown", (event) => {
-    if (event.target !== element) return;
+    if (![element, canvas].includes(event.composedPath()[0])) return;
     if (event.key === "+" || event.key === "=") zoom(0.8);
     else if (event.key === "-") zoom(1.25);
     else if (event.key in moves) zoom(1, moves[event.key]);

@@ -146,7 +146,7 @@ class Published {
   // Put a sentence at its control. What a link sets wrongly is then left at its default.
   #refuse(sentence, at) {
     const model = MODELS.find((each) => EDGES[each].includes(at));
-    const wrong = at === "" ? Object.keys(this.#linked) : (model ? EDGES[model] : [at]).filter((key) => key in this.#linked);
+    const wrong = at === "v" ? Object.keys(this.#linked) : (model ? EDGES[model] : [at]).filter((key) => key in this.#linked);
     if (wrong.length) {
       const left = Object.entries(this.#controls.said).filter(([key]) => !wrong.includes(key));
       this.#linked = Object.fromEntries(Object.entries(this.#linked).filter(([key]) => !wrong.includes(key)));

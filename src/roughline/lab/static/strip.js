@@ -1,6 +1,6 @@
 // The answer strip: what is true now, in large figures.
 export class Strip {
-  #place; #order; #items = {};
+  #place; #order; #items = new Map();
 
   // The keys of its numbers, in their order.
   constructor(place, order) {
@@ -10,25 +10,40 @@ export class Strip {
 
   // Take numbers in words: key, symbol, value, what stands below, and what it means.
   add(items) {
-    for (const item of items) this.#items[item.key] = item;
-    const shown = this.#order.filter((key) => key in this.#items).map((key) => this.#items[key]);
-    fillStrip(this.#place, shown);
+    for (const item of items) {
+      if (!this.#items.has(item.key)) this.#items.set(item.key, {element: empty(item.key)});
+      write(this.#items.get(item.key), item);
+    }
+    const wanted = this.#order.filter((key) => this.#items.has(key)).map((key) => this.#items.get(key).element);
+    if (wanted.length !== this.#place.children.length || wanted[0] !== this.#place.children[0]) this.#place.replaceChildren(...wanted);
+  }
+
+  // Its numbers in one line, for who hears the page.
+  get spoken() {
+    return [...this.#items.values()].map(({said}) => `${said.symbol} ${said.value}`).join(", ");
   }
 }
 
 // Show numbers in words, and no others.
-export function fillStrip(place, items) { place.replaceChildren(...items.map(number)); }
+export function fillStrip(place, items) {
+  new Strip(place, items.map(({key}) => key)).add(items);
+}
 
-function number({key, symbol, value, below, meaning}) {
-  const item = document.createElement("div");
-  item.title = meaning;
-  item.dataset.answer = key;
-  for (const [kind, text] of [["dt", symbol], ["dd", value], ["dd", below]]) {
-    const part = document.createElement(kind);
-    part.append(...withSubscripts(text));
-    item.append(part);
-  }
-  return item;
+function empty(key) {
+  const element = document.createElement("div");
+  element.dataset.answer = key;
+  element.append(...["dt", "dd", "dd"].map((kind) => document.createElement(kind)));
+  return element;
+}
+
+function write(item, {symbol, value, below, meaning}) {
+  const {element, said} = item;
+  item.said = {symbol, value, below, meaning};
+  element.title = meaning;
+  [symbol, value, below].forEach((text, i) => {
+    if (said && text === [said.symbol, said.value, said.below][i]) return;
+    element.children[i].replaceChildren(...withSubscripts(text));
+  });
 }
 
 // A text whose letter after an underscore is set low.

@@ -2,16 +2,24 @@
 const SILENT = 300; // [ms]
 
 export class Waiting {
-  #bar; #cancel; #text; #timer = null;
+  #bar; #cancel; #text; #timer = null; #works = new Set();
 
+  // cancelled(works) is told the names of what was going on.
   constructor(root, cancelled) {
     this.#bar = root.querySelector("progress");
+    this.#bar.setAttribute("aria-label", "how far it is");
     this.#cancel = root.querySelector(".cancel");
     this.#text = root.querySelector("[data-left]");
-    this.#cancel.addEventListener("click", () => { this.end(); cancelled(); });
+    this.#cancel.addEventListener("click", () => {
+      const works = [...this.#works];
+      for (const work of works) this.end(work);
+      cancelled(works);
+    });
   }
 
-  begin() {
+  // Wait for a work; several may go on, and the last that ends takes the bar away.
+  begin(work = "") {
+    this.#works.add(work);
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
       this.#bar.removeAttribute("value");
@@ -25,7 +33,9 @@ export class Waiting {
     if (this.#text) this.#text.textContent = left === null ? "" : `${done} of ${total}, about ${duration(left)} left`;
   }
 
-  end() {
+  end(work = "") {
+    this.#works.delete(work);
+    if (this.#works.size) return;
     clearTimeout(this.#timer);
     this.#bar.hidden = this.#cancel.hidden = true;
     if (this.#text) this.#text.textContent = "";

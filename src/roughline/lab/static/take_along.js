@@ -1,0 +1,46 @@
+// What can be taken along from Explore: code that repeats it, and files.
+import {copy} from "./clipboard.js";
+
+export class TakeAlong {
+  #root; #link; #asked; #waiting; #refuse;
+
+  // asked() gives the arguments of the state, waiting tells of what runs, refuse writes sentences.
+  constructor(root, link, asked, waiting, refuse) {
+    this.#root = root;
+    this.#link = link;
+    this.#asked = asked;
+    this.#waiting = waiting;
+    this.#refuse = refuse;
+    const find = (selector) => root.querySelector(selector);
+    find("#as-python").addEventListener("click", () => this.#showCode("python"));
+    find("#as-command").addEventListener("click", () => this.#showCode("command"));
+    find("#copy-code").addEventListener("click", ({target}) => copy(find("#code pre").textContent, target));
+    find("#save").addEventListener("click", () => this.#save(find("#saved").value));
+  }
+
+  #showCode(which) {
+    this.#link.ask("explore.code", "code", {...this.#asked(), which}, {
+      answer: ({text}) => {
+        this.#root.querySelector("#code pre").textContent = text;
+        const dialog = this.#root.querySelector("#code");
+        if (!dialog.open) dialog.showModal();
+      },
+      error: (sentence, at) => this.#refuse(sentence, at),
+    });
+  }
+
+  #save(name) {
+    this.#waiting.begin("download");
+    this.#link.ask("explore.download", "download", {...this.#asked(), name}, {
+      answer: ({file}) => {
+        this.#waiting.end("download");
+        const anchor = document.createElement("a");
+        anchor.href = `/results/${this.#link.session}/${file}?save=1`;
+        anchor.download = name;
+        anchor.click();
+      },
+      error: (sentence, at) => { this.#waiting.end("download"); this.#refuse(sentence, at); },
+      progress: (message) => this.#waiting.progress(message),
+    });
+  }
+}

@@ -1,0 +1,76 @@
+"""The view Explore as a test drives it: what is drawn, what is said, what is set."""
+
+import json
+import time
+from urllib.parse import parse_qsl, urlsplit
+
+SMALL = "?view=explore&v=1&D_f=2.4&seed=3&n=64&F=0.2&cutoff=0.0625"
+
+
+def drawn(page, plot="contact", seconds=20, **wanted):
+    """Wait until the picture of a plot is of these numbers (or `points`, `what`) at rest."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        text = page.locator(f"#plot-explore-{plot}").get_attribute("data-shown")
+        said = json.loads(text) if text else {}
+        said |= said.get("numbers", {})
+        if all(said.get(key) == value for key, value in wanted.items()) and said:
+            return said
+        page.wait_for_timeout(20)
+    raise TimeoutError(f"{wanted} is not drawn: {text}")
+
+
+def settled(page, **wanted):
+    """Wait until everything at rest is drawn: contact, curves, nothing that is waited for."""
+    drawn(page, **wanted)
+    page.wait_for_selector("#explore:not(:has(.dimmed))")
+    page.wait_for_selector("#explore .cancel", state="hidden")
+
+
+def strip(page):
+    """Return the answer strip: value and what stands below by key."""
+    return page.evaluate(
+        """() => Object.fromEntries(
+            [...document.querySelectorAll("#explore [data-answer]")].map((item) => [
+                item.dataset.answer,
+                [...item.querySelectorAll("dd")].map((each) => each.textContent),
+            ]))"""
+    )
+
+
+def table(page, plot):
+    """Return the rows of the table under a plot."""
+    return page.evaluate(
+        """(plot) => [...document.querySelectorAll(`[data-table="explore-${plot}"] tbody tr`)].map(
+            (row) => [...row.children].map((cell) => cell.textContent))""",
+        plot,
+    )
+
+
+def image(page, name):
+    """Return the numbers of a map as Bokeh has them."""
+    return page.evaluate(
+        """(name) => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
+            return [...made.get_model_by_name(name).data.image[0]];
+        }""",
+        name,
+    )
+
+
+def typed(page, key, text):
+    """Type a text beside a control, and leave it."""
+    field = page.locator(f'#explore [data-text="{key}"]')
+    field.fill(text)
+    field.press("Tab")
+
+
+def address(page):
+    """Return the parameters of the address, which the page writes rarely."""
+    page.wait_for_timeout(400)
+    return dict(parse_qsl(urlsplit(page.evaluate("() => location.href")).query))
+
+
+def sentence(page, key):
+    """Return what stands in red at a control."""
+    return page.locator(f'#explore [data-error="{key}"]')

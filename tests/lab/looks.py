@@ -1,0 +1,36 @@
+"""What a page looks like to eyes, ears and keys; the questions are in looks.js."""
+
+from pathlib import Path
+
+_QUESTIONS = (Path(__file__).parent / "looks.js").read_text(encoding="utf-8")
+_AA = 4.5  # least contrast of texts
+
+
+def asked(page, question, *arguments):
+    """Ask one of the questions of a page."""
+    return page.evaluate(f"(arguments) => {_QUESTIONS}.{question}(...arguments)", list(arguments))
+
+
+def faint(page):
+    """Return the texts that do not stand out from what is behind them."""
+    found = asked(page, "contrasts")
+    assert found
+    return [(text, contrast) for text, contrast in found if contrast < _AA]
+
+
+def tabbed(page, view):
+    """Go through a view by the tab key: what should stop it, what did, and what was unseen."""
+    wanted = asked(page, "stops", view)
+    page.focus(".skip")  # the first stop of all, which leads past the header
+    reached, unseen = [], []
+    for _ in range(2 * len(wanted)):
+        if len(reached) == len(wanted):
+            break
+        page.keyboard.press("Tab")
+        stop, is_seen = asked(page, "stop")
+        if stop == "passing":  # a long table, which browsers let scroll by keys, or a cancel
+            continue
+        reached.append(stop)
+        if not is_seen:
+            unseen.append(stop)
+    return wanted, reached, unseen

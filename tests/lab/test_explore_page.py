@@ -1,0 +1,292 @@
+"""Explore in a browser, used as a person would, its figures compared with the library's numbers."""
+
+import math
+import re
+import signal
+from urllib.parse import urlencode, urlsplit
+
+import numpy as np
+import pytest
+from matplotlib import image as pictures
+
+import roughline as rl
+from lab.explore_driven import SMALL, address, drawn, image, sentence, settled, strip, table, typed
+from lab_in_browser import Pages, RunningLab
+from roughline.report.values import with_interval
+from roughline.units import decimal
+
+E_STAR, HEIGHT, LENGTH = 110e9, 1e-6, 1e-3
+SCALE = E_STAR * HEIGHT * LENGTH
+
+
+@pytest.fixture(scope="module")
+def small(pages):
+    """Return one page on a small grid, for tests that set what they need."""
+    page = pages.open(SMALL)
+    settled(page, points=64)
+    return page
+
+
+@pytest.fixture
+def fresh(small, pages):
+    """Return the same page as it was opened."""
+    small.goto(pages.address + SMALL)
+    settled(small, points=64)
+    return small
+
+
+def spectrum(dimension=2.4, cutoff=0.0625):
+    q_high = 2 * math.pi / LENGTH / cutoff
+    return rl.SelfAffine(
+        fractal_dimension=dimension, length=LENGTH, rms_height=HEIGHT, q_high=q_high
+    )
+
+
+def box_of(page, selector):
+    place = page.locator(selector)
+    place.scroll_into_view_if_needed()
+    return place.bounding_box()
+
+
+def test_it_opens_on_a_surface_of_512_points_solved(pages):
+    page = pages.open()
+    settled(page, points=512, D_f=2.2, F=0.1)
+    surface = spectrum(2.2, 1 / 256).surface(512, 7)
+    pressed = rl.press(surface, E_star=E_STAR, forces=[0.1 * SCALE], fields=True)
+    assert strip(page)["stiffness_3d"][0] == decimal(float(pressed.stiffness_bar[0]), 3)
+    assert sum(image(page, "contact")) == pressed.fields[0].contact.sum()
+    status = page.locator("#explore [data-status]").inner_text()
+    assert re.fullmatch(r"512², \d+ convolutions, residual \S+ certified, .* s", status)
+    page.context.close()
+
+
+def test_strip_and_tables_say_what_the_library_says(fresh):
+    surface = spectrum().surface(64, 3)
+    pressed = rl.press(surface, E_star=E_STAR, forces=[0.2 * SCALE], fields=True, grid_error=True)
+    said = strip(fresh)
+    k, error = pressed.stiffness[0], pressed.stiffness_error[0]
+    assert said["stiffness_3d"] == [
+        decimal(pressed.stiffness_bar[0], 3),
+        with_interval(k, (k / (1 + error / k), k + error), "N/m"),
+    ]
+    assert said["area"][0] == decimal(100 * pressed.area_fraction_corrected[0], 3) + "%"
+    assert said["force"] == ["22 N", "22 MPa over the nominal area"]
+    assert said["roughness"][0] == "1 µm"
+    under_map = {row[0]: row[1] for row in table(fresh, "contact")}
+    assert under_map["k̄ (3D)"] == said["stiffness_3d"][0]
+    assert under_map["contact"] == said["area"][0]
+    assert all(row[3] for row in table(fresh, "contact") + table(fresh, "topography"))
+    curve = rl.press(surface, E_star=E_STAR, forces=np.geomspace(1e-3, 3, 13) * SCALE)
+    rows = table(fresh, "stiffness")
+    assert [row[0] for row in rows[:13]] == [decimal(x, 3) for x in curve.force_bar]
+    assert [row[1].removesuffix(" *") for row in rows[:13]] == [
+        decimal(x, 3) for x in curve.stiffness_bar
+    ]
+    assert ["*" in row[1] for row in rows[:13]] == [not each for each in curve.resolved]
+    assert [row[1].removesuffix(" *") for row in table(fresh, "area")] == [
+        decimal(x, 3) for x in curve.area_fraction_corrected
+    ]
+    measured = rl.isotropic_spectrum(surface)
+    known = measured.C_2d[measured.C_2d > 0]
+    assert [row[1] for row in table(fresh, "spectrum")] == [
+        decimal(x, 3) for x in known[:: -(-known.size // 40)]
+    ]
+
+
+def test_the_line_is_in_strip_and_table(fresh):
+    lines = [spectrum().line(2**13, seed) for seed in range(3, 23)]
+    stiffness = [
+        rl.press(line, E_star=E_STAR, forces=[0.2 * E_STAR * line.rms_height * LENGTH])
+        for line in lines
+    ]
+    wanted = decimal(float(np.mean([each.stiffness_bar[0] for each in stiffness])), 3)
+    assert strip(fresh)["stiffness_1d"][0] == wanted
+    assert ["0.2", wanted, "1D"] in table(fresh, "stiffness")
+
+
+@pytest.mark.parametrize("shown", ["pressure", "gap", "displacement"])
+def test_the_second_map_shows_what_is_chosen(small, shown):
+    small.select_option('#explore [data-key="shown"]', shown)
+    settled(small, points=64)
+    state = drawn(small)
+    surface = spectrum().surface(64, 3)
+    pressed = rl.press(surface, E_star=E_STAR, forces=[state["F"] * SCALE], fields=True)
+    scale = E_STAR if shown == "pressure" else HEIGHT
+    wanted = getattr(pressed.fields[0], shown).T / scale
+    np.testing.assert_allclose(image(small, "contact"), wanted.ravel(), rtol=1e-5, atol=1e-6)
+    assert address(small)["shown"] == shown
+
+
+def test_a_dragged_slider_is_followed_coarsely_and_sharpens_at_rest(fresh):
+    fresh.check('#explore [data-key="n"][value="256"]')
+    settled(fresh, points=256)
+    box = box_of(fresh, "#explore-D_f")
+    middle = box["y"] + box["height"] / 2
+    fresh.mouse.move(box["x"] + 0.4 * box["width"], middle)
+    fresh.mouse.down()
+    for share in (0.45, 0.5):
+        fresh.mouse.move(box["x"] + share * box["width"], middle)
+        value = float(fresh.input_value('#explore [data-text="D_f"]'))
+        drawn(fresh, points=128, D_f=value)
+        drawn(fresh, "stiffness", what="line", D_f=value)
+        assert "coarse" in fresh.inner_text("#explore [data-status]")
+    fresh.mouse.up()
+    settled(fresh, points=256, D_f=value)
+    assert "coarse" not in fresh.inner_text("#explore [data-status]")
+    assert address(fresh)["D_f"] == f"{value:g}"
+
+
+def test_a_slider_goes_by_keys(fresh):
+    fresh.focus("#explore-D_f")
+    for _ in range(3):
+        fresh.keyboard.press("ArrowRight")
+    settled(fresh, points=64, D_f=2.46)
+    assert fresh.get_attribute("#explore-D_f", "aria-valuetext") == "2.46"
+
+
+def test_numbers_are_typed_with_their_units(fresh):
+    for key, text in (("h", "0.3 um"), ("F", "10 N"), ("D_f", "H = 0.8"), ("L", "2 mm")):
+        typed(fresh, key, text)
+    settled(fresh, points=64, D_f=2.2, h=1.5e-4)
+    said = strip(fresh)
+    assert said["roughness"][0] == "300 nm"
+    assert said["force"][0] == "10 N"
+    assert fresh.input_value("#explore-h-text") == "0.3 um"
+    assert float(fresh.input_value("#explore-D_f")) == pytest.approx(2.2)
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "allowed"),
+    [
+        ("D_f", "5", "from 2 to 3"),
+        ("D_f", "2,2", "from 2 to 3"),
+        ("D_f", "H = 7", "from 0 to 1"),
+        ("h", "thick", "from 1e-06 to 0.1"),
+        ("F", "10 apples", "apples"),
+        ("F", "", "from 0.0001 to 10"),
+        ("cutoff", "0.4 apples", "apples"),
+        ("seed", "1.5", "whole number"),
+        ("L", "3", "unit"),
+        ("E", "-1 GPa", "positive"),
+    ],
+)
+def test_what_cannot_be_used_is_said_there_and_the_page_lives_on(small, key, text, allowed):
+    field = small.locator(f'#explore [data-text="{key}"]')
+    before = field.input_value()
+    typed(small, key, text)
+    sentence(small, key).filter(has_text=allowed).wait_for()
+    assert len(sentence(small, key).inner_text().splitlines()) == 1
+    assert field.get_attribute("aria-invalid") == "true"
+    typed(small, key, before)
+    small.wait_for_selector(f'#explore [data-error="{key}"]:empty', state="attached")
+    assert field.get_attribute("aria-invalid") == "false"
+
+
+def test_a_link_shows_the_same(fresh, pages):
+    for key, text in (("L", "3 um"), ("E", "2 GPa"), ("roll_off", "0.5"), ("seed", "12")):
+        typed(fresh, key, text)
+    fresh.check('#explore [data-key="boundary"][value="periodic"]')
+    fresh.check('#explore [data-theory="persson"]')
+    fresh.select_option('#explore [data-key="shown"]', "gap")
+    settled(fresh, points=64, seed=12, roll_off=0.5)
+    other = pages.open("?" + urlencode(address(fresh)))
+    settled(other, points=64, seed=12)
+    assert strip(other) == strip(fresh)
+    state = """() => [...document.querySelectorAll(
+        '#explore [data-text], #explore select, #explore :is([type="radio"], [type="checkbox"])'
+    )].map((each) => each.matches("[type=radio], [type=checkbox]") ? each.checked : each.value)"""
+    assert other.evaluate(state) == fresh.evaluate(state)
+    assert image(other, "contact") == image(fresh, "contact")
+    assert "Persson" in other.inner_text('[data-caption="theories"]')
+    other.context.close()
+
+
+@pytest.mark.parametrize("query", ["v=9&D_f=2.9&n=64", "v=1&colour=red&L=5+mm&n=64"])
+def test_a_link_that_cannot_be_read_is_refused_in_one_sentence(pages, query):
+    page = pages.open(f"?view=explore&{query}")
+    sentence(page, "").filter(has_text="set the controls by hand").wait_for()
+    settled(page, points=512, D_f=2.2)
+    assert sentence(page, "").is_visible()
+    assert page.input_value("#explore-L-text") == "1 mm"
+    page.check('#explore [data-key="n"][value="64"]')
+    settled(page, points=64)
+    assert not sentence(page, "").is_visible()
+    page.context.close()
+
+
+def test_a_link_by_the_hurst_exponent_leaves_its_slider_alive(small, pages):
+    small.goto(pages.address + "?view=explore&v=1&H=0.5&n=64")
+    settled(small, D_f=2.5)
+    small.focus("#explore-D_f")
+    small.keyboard.press("ArrowRight")
+    settled(small, D_f=2.52)
+
+
+def test_the_line_of_the_load_can_be_dragged(fresh):
+    box = box_of(fresh, "#plot-explore-stiffness")
+    at = fresh.evaluate(
+        """() => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name("stiffness cursor"));
+            const {frame} = Bokeh.index.find_one(made.get_model_by_name("explore-stiffness"));
+            return [0.2, 1].map((force) => frame.x_scale.compute(force)).concat(frame.bbox.vcenter);
+        }"""
+    )
+    fresh.mouse.move(box["x"] + at[0], box["y"] + at[2])
+    fresh.mouse.down()
+    fresh.mouse.move(box["x"] + (at[0] + at[1]) / 2, box["y"] + at[2])
+    fresh.mouse.move(box["x"] + at[1], box["y"] + at[2])
+    fresh.mouse.up()
+    fresh.wait_for_timeout(50)
+    force = float(fresh.input_value('#explore [data-text="F"]'))
+    assert force == pytest.approx(1, rel=0.05)
+    settled(fresh, points=64, F=force)
+
+
+def test_code_is_shown_and_a_file_arrives(fresh, tmp_path):
+    fresh.click("#as-python")
+    code = fresh.locator("#code pre")
+    code.filter(has_text="rl.press").wait_for()
+    assert "fractal_dimension=2.4" in code.inner_text()
+    fresh.keyboard.press("Escape")
+    fresh.select_option("#saved", "contact.png")
+    with fresh.expect_download() as coming:
+        fresh.click("#save")
+    coming.value.save_as(tmp_path / "contact.png")
+    assert coming.value.suggested_filename == "contact.png"
+    assert pictures.imread(tmp_path / "contact.png").size
+
+
+def test_a_press_and_a_save_do_not_stop_each_other(fresh):
+    fresh.check('#explore [data-key="n"][value="512"]')
+    fresh.select_option("#saved", "surface.nc")
+    with fresh.expect_download():
+        fresh.click("#save")
+    settled(fresh, points=512)
+
+
+def test_a_long_press_can_be_cancelled(fresh):
+    fresh.check('#explore [data-key="n"][value="1024"]')
+    fresh.click("#explore .cancel")
+    assert fresh.inner_text("#explore [data-status]") == "stopped: the coarse answer is shown"
+    assert not fresh.is_visible("#explore progress")
+    drawn(fresh, points=128)
+    fresh.check('#explore [data-key="n"][value="64"]')
+    settled(fresh, points=64)
+
+
+def test_a_lost_server_is_said_and_a_new_one_is_found(browser, tmp_path):
+    first = RunningLab(tmp_path / "first")
+    pages = Pages(browser, first.address)
+    page = pages.open(SMALL)
+    settled(page, points=64)
+    first.process.send_signal(signal.SIGKILL)
+    page.locator("#connection").filter(has_text="does not answer").wait_for()
+    first.close()
+    second = RunningLab(tmp_path / "second", "--port", str(urlsplit(first.address).port))
+    page.wait_for_selector("#connection", state="hidden")
+    page.focus("#explore-D_f")
+    page.keyboard.press("ArrowRight")
+    settled(page, points=64, D_f=2.42)
+    assert all("WebSocket" in each or "ERR_" in each for each in pages.complaints)
+    pages.close()
+    assert second.close() == (0, "")

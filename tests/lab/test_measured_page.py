@@ -1,0 +1,150 @@
+"""My surface in a browser: a file or an example, its answers, reports and refusals."""
+
+import pytest
+
+from lab.looks import asked, faint, tabbed
+from lab_in_browser import Pages, RunningLab
+
+FILES = ("al3d-1.al3d", "dektak-1.csv", "di-1.di", "mitutoyo_mock.xlsx", "opd-1.opd", "sur-3.sur")
+EXAMPLE = "[data-example] >> nth=0"
+
+
+@pytest.fixture(scope="module")
+def measured(pages):
+    """Return one page of the view."""
+    page = pages.open("?view=measured")
+    page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")
+    return page
+
+
+@pytest.fixture(scope="module")
+def answered(pages):
+    """Return a page with the answers of the first example."""
+    page = pages.open("?view=measured")
+    page.click(EXAMPLE)
+    page.fill("#measured-loads-text", "2 MPa")
+    page.press("#measured-loads-text", "Tab")
+    page.click("[data-press]:not([disabled])")
+    page.wait_for_selector('[data-table="measured-answers"] tbody tr', timeout=60_000)
+    return page
+
+
+def bring(page, name, content):
+    """Choose a file, by its path or with its content."""
+    file = {"name": name, "mimeType": "application/octet-stream", "buffer": content}
+    page.set_input_files("#measured [data-file]", file)
+
+
+def refused(page, words):
+    """Wait for the sentence at the file, which is one line without a path."""
+    place = page.locator('#measured [data-error="file"]')
+    place.filter(has_text=words).wait_for()
+    said = place.inner_text()
+    assert "\n" not in said
+    assert "/tmp" not in said
+    assert "Traceback" not in said
+    return said
+
+
+def test_an_example_is_answered_for(answered):
+    assert "copper" in answered.input_value("#measured-second-text")
+    text = answered.inner_text('[data-table="measured-answers"]')
+    assert "N/m" in text or "Pa" in text
+    assert answered.is_visible("#plot-measured-contact")
+
+
+def test_the_report_opens_under_the_policy(answered, pages):
+    answered.click("[data-report]")
+    links = answered.locator("[data-links] a")
+    links.first.wait_for(timeout=60_000)
+    for link in links.all():
+        address = answered.evaluate("(link) => link.href", link.element_handle())
+        if ".html" not in address:
+            reply = answered.request.get(address)
+            assert reply.status == 200
+            assert len(reply.body()) > 1000
+            continue
+        report = answered.context.new_page()
+        report.on("console", pages._console)
+        report.goto(address)
+        assert report.locator("h1").count() > 0
+        assert report.evaluate("() => [...document.images].every((each) => each.naturalWidth > 0)")
+        report.close()
+
+
+def test_a_press_can_be_cancelled(pages):
+    page = pages.open("?view=measured")
+    page.click(EXAMPLE)
+    page.fill("#measured-loads-text", "")
+    page.press("#measured-loads-text", "Tab")
+    page.click("[data-press]:not([disabled])")
+    page.click('[data-waiting="answers"] .cancel')
+    page.wait_for_selector('[data-waiting="answers"] .cancel', state="hidden")
+    page.wait_for_selector("[data-press]:not([disabled])")
+    assert not page.is_visible('[data-table="measured-answers"]')
+    page.context.close()
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_format_is_read(measured, topographies, name):
+    measured.set_input_files("#measured [data-file]", topographies / name)
+    measured.locator("#measured [data-name]", has_text=name).wait_for()
+    measured.wait_for_selector('#measured-step-file:not(.dimmed) [data-result="file"]')
+    assert measured.locator('[data-table="measured-roughness"] tr').count() > 3
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("empty.di", b"", "empty.di"),
+        ("noise.opd", bytes(range(256)) * 40, "noise.opd"),
+        ("picture.sur", b"\x89PNG\r\n\x1a\n" + bytes(500), "picture.sur"),
+        ("<b onclick=alert(1)>.txt", b"no numbers here\n", "_b onclick"),
+    ],
+)
+def test_what_is_no_topography_is_refused(measured, name, content, words):
+    bring(measured, name, content)
+    refused(measured, words)
+    assert measured.locator("#measured [data-error] b").count() == 0
+    measured.click(EXAMPLE)
+    measured.wait_for_selector('#measured-step-file:not(.dimmed) [data-result="file"]')
+    measured.wait_for_selector('#measured [data-error="file"]:empty', state="attached")
+
+
+def test_a_damaged_file_is_refused(measured, topographies):
+    measured.set_input_files("#measured [data-file]", topographies / "di_corrupted.di")
+    refused(measured, "di_corrupted.di")
+
+
+def test_a_file_that_is_too_large_is_refused(browser, tmp_path):
+    lab = RunningLab(tmp_path / "log", "--max-upload", "1")
+    pages = Pages(browser, lab.address)
+    page = pages.open("?view=measured")
+    page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")
+    page.wait_for_timeout(300)
+    bring(page, "large.opd", bytes(3_000_000))
+    refused(page, "large")
+    page.click(EXAMPLE)
+    page.wait_for_selector('#measured [data-result="file"]')
+    pages.close()
+    assert lab.close() == (0, "")
+
+
+def test_everything_has_a_name(answered):
+    assert asked(answered, "nameless", "measured") == []
+    assert asked(answered, "undescribed", "measured") == []
+
+
+@pytest.mark.parametrize(("width", "theme"), [(390, "light"), (1600, "dark")])
+def test_it_is_seen_at_any_width_and_in_both_themes(pages, width, theme):
+    page = pages.open("?view=measured", width=width, theme=theme)
+    page.click(EXAMPLE)
+    page.wait_for_selector('#measured [data-result="preparation"]')
+    assert asked(page, "width") == width
+    assert asked(page, "cut", "measured") == []
+    assert faint(page) == []
+    if width == 1600:
+        wanted, reached, unseen = tabbed(page, "measured")
+        assert reached == wanted
+        assert unseen == []
+    page.context.close()
