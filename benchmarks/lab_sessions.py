@@ -12,6 +12,7 @@ import subprocess
 import sys
 import time
 from collections import defaultdict
+from contextlib import suppress
 
 import psutil
 from tornado.httpclient import HTTPRequest
@@ -104,7 +105,10 @@ def row(times, lonely):
 def megabytes(pid):
     """What the server, and all its processes, hold for themselves."""
     server = psutil.Process(pid)
-    own = [each.memory_full_info().uss for each in (server, *server.children(recursive=True))]
+    own = []
+    for each in (server, *server.children(recursive=True)):
+        with suppress(psutil.Error):  # it has ended meanwhile
+            own.append(each.memory_full_info().uss)
     return own[0] / 1e6, sum(own) / 1e6
 
 

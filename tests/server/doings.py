@@ -16,7 +16,7 @@ _serve = process._serve
 
 def place_of(name):
     """Where a task of this file is."""
-    return Place(__name__, name)
+    return Place(__name__, name, reads_files=name == "read")
 
 
 def serve(connection, memory, warm):
@@ -28,6 +28,11 @@ def serve(connection, memory, warm):
 def echo(arguments, progress):
     """Say what was said, by which process."""
     return f"{arguments['say']} {os.getpid()} {arguments['crowded']}".encode()
+
+
+def read(arguments, progress):
+    """Say the same, after reading what a page has brought."""
+    return echo(arguments, progress)
 
 
 def sleep(arguments, progress):

@@ -85,7 +85,7 @@ def run(scenario, *, lasting, limits=LIMITS):
 def test_questions_are_answered(lasting):
     async def scenario(lane, asker):
         for number in range(6):
-            asker.ask("echo", slot=str(number), say=number)
+            asker.ask("echo" if lasting else "read", slot=str(number), say=number)
         said = [(await asker.of(str(number))).answer.split()[:2] for number in range(6)]
         assert [first for first, _ in said] == [str(number).encode() for number in range(6)]
         used = {pid for _, pid in said}
@@ -372,3 +372,19 @@ def test_names_stand_for_paths_in_sentences():
     arguments = {"session": {"names": {"/tmp/lab/abc/0123.txt": "mine.txt"}}}
     said = without_paths("cannot read /tmp/lab/abc/0123.txt: 0123.txt is empty", arguments)
     assert said == "cannot read mine.txt: mine.txt is empty"
+
+
+def test_what_reads_no_file_shares_processes_until_they_are_renewed():
+    async def scenario(lane, asker):
+        used = []
+        for number in range(3):
+            asker.ask("echo", slot=str(number), say=number)
+            used.append((await asker.of(str(number))).answer.split()[1])
+            await becomes(lambda: lane.pids.count(int(used[-1])) == 1)
+        assert len(set(used)) <= LIMITS.count
+        lane.renew()
+        assert not {int(pid) for pid in used} & set(lane.pids)
+        asker.ask("echo", slot="after", say="after")
+        assert (await asker.of("after")).answer.split()[1] not in used
+
+    run(scenario, lasting=False)

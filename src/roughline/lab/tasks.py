@@ -7,9 +7,11 @@ from collections.abc import Mapping
 from roughline.server.tasks import Place
 
 
-def _place(module: str, function: str, *, is_quick: bool = False) -> Place:
+def _place(
+    module: str, function: str, *, is_quick: bool = False, reads_files: bool = False
+) -> Place:
     """The place of a task in this package."""
-    return Place(f"roughline.lab.{module}", function, is_quick)
+    return Place(f"roughline.lab.{module}", function, is_quick, reads_files)
 
 
 TASKS: Mapping[str, Place] = {
@@ -19,13 +21,13 @@ TASKS: Mapping[str, Place] = {
     "explore.curve": _place("explore.pictures", "curve"),
     "explore.code": _place("explore.code", "code", is_quick=True),
     "explore.download": _place("explore.downloads", "download"),
-    "measured.look": _place("measured.file", "look"),
-    "measured.prepare": _place("measured.file", "prepare"),
+    "measured.look": _place("measured.file", "look", reads_files=True),
+    "measured.prepare": _place("measured.file", "prepare", reads_files=True),
     "measured.bodies": _place("measured.bodies", "bodies", is_quick=True),
-    "measured.answer": _place("measured.answers", "answer"),
-    "measured.compare": _place("measured.comparing", "compare"),
-    "measured.report": _place("measured.documents", "report"),
-    "measured.code": _place("measured.documents", "code"),
+    "measured.answer": _place("measured.answers", "answer", reads_files=True),
+    "measured.compare": _place("measured.comparing", "compare", reads_files=True),
+    "measured.report": _place("measured.documents", "report", reads_files=True),
+    "measured.code": _place("measured.documents", "code", reads_files=True),
     "published.curves": _place("published.stiffness", "curves", is_quick=True),
     "published.fits": _place("published.stiffness", "fits", is_quick=True),
     "published.exponents": _place("published.laws", "exponents", is_quick=True),

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import time
 from collections import Counter
 from collections.abc import Coroutine
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
 from roughline.server.process import LOST, LOWEST, Process
 from roughline.server.requests import Limits, Request
-from roughline.server.tasks import Outcome
+from roughline.server.tasks import Outcome, Place
 
 _log = logging.getLogger(__name__)
 _PATIENCE = 1.5  # after which a task lets shorter ones pass [s]
+_SOON = 0.05  # that a request may wait without a crowd [s]
 _CROWD = 2  # requests that wait for each process, from which on answers are coarser
 _MOST_PARTS = 16  # of a page that may wait for something at once
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
@@ -44,8 +46,8 @@ class Lane:
     limits : Limits
         Of the lane, and of one task.
     lasting : bool
-        Whether a process does many tasks. If not, each task has a process of its own; it is stopped
-        when its request is withdrawn or replaced, and its memory is given back at its end.
+        Whether a process ends what it does, wanted or not. If not, it is stopped when its request
+        is withdrawn or replaced.
     """
 
     def __init__(self, limits: Limits, *, lasting: bool) -> None:
@@ -66,7 +68,8 @@ class Lane:
             return request.answer(
                 Outcome(error="too many questions of this page wait: let some end, then ask again")
             )
-        self._waiting[request.key] = request
+        older = self._waiting.get(request.key, request)
+        self._waiting[request.key] = replace(request, since=older.since)
         if not self._lasting:
             self._stop(request.key)
         self._start()
@@ -94,6 +97,16 @@ class Lane:
     async def prepare(self) -> None:
         """Start processes ahead of the first request."""
         await self._begin(self._fill())
+
+    def renew(self) -> None:
+        """Give back the memory of processes that have done something and wait for more."""
+        used = [process for process in self._idle if process.tasks]
+        self._idle = [process for process in self._idle if not process.tasks]
+        for process in used:
+            self._threads.submit(process.end)
+        task = asyncio.create_task(self.prepare())
+        self._work.add(task)
+        task.add_done_callback(self._work.discard)
 
     async def close(self) -> None:
         """Stop everything, and wait until it is gone."""
@@ -139,7 +152,8 @@ class Lane:
             job = _Job(request)
             self._jobs.add(job)
             self._running[request.key] = job
-            crowded = len(self._waiting) >= _CROWD * self._limits.count
+            many = len(self._waiting) >= _CROWD * self._limits.count
+            crowded = many or time.monotonic() - request.since > _SOON
             self._begin(self._do(job, crowded))
 
     def _next(self) -> Request | None:
@@ -175,7 +189,7 @@ class Lane:
                 job.request.answer(outcome)
             self._start()
             if job.process is not None:
-                await self._put_back(job.process)
+                await self._put_back(job.process, job.request.place)
         await self._fill()
 
     async def _outcome(self, job: _Job, crowded: bool) -> Outcome:
@@ -234,10 +248,12 @@ class Lane:
         finally:
             self._starting -= 1
 
-    async def _put_back(self, process: Process) -> None:
-        """Keep a process for the next request, or end it."""
-        is_fresh = process.tasks < (_MOST_TASKS if self._lasting else 1)
-        if is_fresh and process.is_alive and not self._closed:
+    async def _put_back(self, process: Process, did: Place | None = None) -> None:
+        """Keep a process for the next request, or end it; one that has read a file is ended."""
+        has_read = did is not None and did.reads_files
+        is_wanted = self._lasting or len(self._idle) < self._limits.count
+        is_fit = process.is_alive and process.tasks < _MOST_TASKS and not has_read
+        if is_fit and is_wanted and not self._closed:
             self._idle.append(process)
         else:
             await asyncio.get_running_loop().run_in_executor(self._threads, process.end)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from roughline.server.tasks import Outcome, Place
@@ -26,6 +27,8 @@ class Request:
         Told the outcome, unless the request was replaced or withdrawn.
     progress : callable
         Told (steps done, steps in all).
+    since : float
+        When it, or an older one that it replaced, began to wait, on the monotonic clock. [s]
     """
 
     address: str
@@ -35,6 +38,7 @@ class Request:
     arguments: Mapping[str, Any]
     answer: Callable[[Outcome], None]
     progress: Callable[[int, int], None]
+    since: float = field(default_factory=time.monotonic)
 
     @property
     def key(self) -> tuple[str, str]:

@@ -67,6 +67,7 @@ class Server:
         self.visitors = Visitors()
         self.figures = EmptyFigures(site.figures)
         self.quick, self.slow = _lanes(settings)
+        self._is_closing = False
 
     def application(self) -> Application:
         """The handlers, by address."""
@@ -120,6 +121,9 @@ class Server:
         """End a session, and all that it has."""
         self.sessions.pop(session.token, None)
         session.close()
+        if not self.sessions and not self._is_closing:
+            self.quick.renew()
+            self.slow.renew()
 
     async def prepare(self) -> None:
         """Start processes ahead of the first page."""
@@ -129,6 +133,7 @@ class Server:
 
     async def close(self) -> None:
         """End everything."""
+        self._is_closing = True
         self.figures.close()
         for session in list(self.sessions.values()):
             self.close_session(session)

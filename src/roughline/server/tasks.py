@@ -29,11 +29,14 @@ class Place:
     is_quick : bool
         Whether it takes so little that it waits for nothing but other quick ones. The others have a
         process each, with limits of time and memory, and are stopped when they are no more wanted.
+    reads_files : bool
+        Whether it reads what a page has brought. Its process does nothing else before it ends.
     """
 
     module: str
     function: str
     is_quick: bool = False
+    reads_files: bool = False
 
 
 @dataclass(frozen=True)
