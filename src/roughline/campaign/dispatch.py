@@ -21,6 +21,7 @@ from roughline.errors import ClusterError
 _BATCHES_PER_CORE = 4  # that are sent out at a time, so that no core waits for work
 _CHECK_INTERVAL = 5.0  # between two looks at the cluster [s]
 _LONGEST_WITHOUT_WORKERS = 60.0  # [s]
+_GONE = "the Dask scheduler is gone; what is done is kept: start it again, and run the same command"
 
 
 class Dispatch:
@@ -57,6 +58,8 @@ class Dispatch:
 
     def work(self, batches: dict[str, list[Batch]], with_gallery: bool) -> None:
         """Compute and write all batches, and the gallery if it is wanted."""
+        from distributed.comm.core import CommClosedError  # here because it loads slowly
+
         waiting = iter([batch for each in batches.values() for batch in each])
         if with_gallery and self._plan.gallery is not None:
             self._pending[self._submit(partial(evaluate_gallery, self._plan.gallery))] = None
@@ -70,6 +73,8 @@ class Dispatch:
                 for future in self._finished():
                     self._take(future)
                 self._send(waiting)
+        except CommClosedError as error:  # between two looks at the states of the futures
+            raise ClusterError(_GONE) from error
         finally:
             with suppress(Exception):  # a cluster that is gone has nothing to cancel
                 self._cluster.client.cancel(list(self._pending), force=True)
@@ -94,10 +99,7 @@ class Dispatch:
                 wait(list(self._pending), timeout=_CHECK_INTERVAL, return_when="FIRST_COMPLETED")
             finished = [future for future in self._pending if future.status != "pending"]
             if any(future.status in ("cancelled", "lost") for future in finished):
-                raise ClusterError(
-                    "the Dask scheduler is gone; what is done is kept: start it again, and run the "
-                    "same command"
-                )
+                raise ClusterError(_GONE)
             self._check_cluster()
             if finished:
                 return finished

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-from roughline.server.process import LOST, LOWEST, Process
+from roughline.server.process import LOST, LOWEST, NOT_BEGUN, Process
 from roughline.server.requests import Limits, Request
 from roughline.server.tasks import Outcome, Place
 
@@ -22,6 +22,7 @@ _PATIENCE = 1.5  # after which a task lets shorter ones pass [s]
 _SOON = 0.05  # that a request may wait without a crowd [s]
 _CROWD = 2  # requests that wait for each process, from which on answers are coarser
 _MOST_PARTS = 16  # of a page that may wait for something at once
+_MOST_TRIES = 5  # of processes that may be gone before they have their task
 _MOST_TASKS = 500  # of one process, before a fresh one takes its place
 
 
@@ -193,12 +194,22 @@ class Lane:
         await self._fill()
 
     async def _outcome(self, job: _Job, crowded: bool) -> Outcome:
-        """Have a request done by a process."""
+        """Have a request done by a process, or by another if that was gone already."""
+        outcome = NOT_BEGUN
+        for _ in range(_MOST_TRIES):
+            process = job.process = self._spare() or await self._new_process()
+            if not job.is_wanted:
+                return LOST
+            outcome = await self._outcome_of(process, job, crowded)
+            if outcome is not NOT_BEGUN or not job.is_wanted:
+                break
+            self._threads.submit(process.end)
+        return outcome
+
+    async def _outcome_of(self, process: Process, job: _Job, crowded: bool) -> Outcome:
+        """Have a request done by this process."""
         loop = asyncio.get_running_loop()
         request, seconds = job.request, self._limits.seconds
-        process = job.process = self._spare() or await self._new_process()
-        if not job.is_wanted:
-            return LOST
 
         def tell(done: int, total: int) -> None:
             if job.is_wanted:

@@ -31,6 +31,9 @@ LOST = Outcome(
 )
 """The outcome of a task whose process was lost."""
 
+NOT_BEGUN = Outcome(error="no process could begin this: ask again")
+"""The outcome of a task whose process was gone before it had it: another may do it."""
+
 
 class Process:
     """A process that does one task at a time.
@@ -78,15 +81,19 @@ class Process:
     ) -> Outcome:
         """Have a task done; waits for it, so it is called from a thread."""
         self.tasks += 1
+        outcome = NOT_BEGUN
         try:
             self._connection.send((place, arguments))
             while True:
                 said = self._connection.recv()
                 if isinstance(said, Outcome):
                     return said
-                progress(*said)
+                if said is None:  # it has the task
+                    outcome = LOST
+                else:
+                    progress(*said)
         except (EOFError, OSError):  # it was stopped, or died
-            return LOST
+            return outcome
 
     def lower_priority(self, nice: int) -> None:
         """Let other processes of this machine go first."""
@@ -151,6 +158,7 @@ def _serve(connection: Connection, memory: float, warm: str | None) -> None:
     with suppress(EOFError, OSError):  # the server is gone
         while True:
             place, arguments = connection.recv()
+            connection.send(None)
             outcome = outcome_of(place, arguments, lambda *steps: connection.send(steps))
             connection.send(outcome)
 
