@@ -11,21 +11,10 @@ from server.serving import (
     becomes,
     raw,
     run,
-    running_lab,
     upload,
 )
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
-
-
-@pytest.fixture(scope="module")
-def lab(tmp_path_factory):
-    """A lab for this machine alone, with small limits."""
-    temporary = tmp_path_factory.mktemp("open")
-    with running_lab("--max-upload", "1", "--max-points", "256", temporary=temporary) as running:
-        yield running
-    assert running.process.returncode == 0
-    assert not list(temporary.glob("roughline-lab-*"))
 
 
 def test_uploads_lie_under_random_names_and_are_gone_with_the_page(lab):

@@ -16,22 +16,11 @@ from server.serving import (
     busy,
     held,
     run,
-    running_lab,
     upload,
 )
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 SMALL = {"n": "64"}
-
-
-@pytest.fixture(scope="module")
-def lab(tmp_path_factory):
-    """A lab for this machine alone, with small limits."""
-    temporary = tmp_path_factory.mktemp("open")
-    with running_lab("--max-upload", "1", "--max-points", "256", temporary=temporary) as running:
-        yield running
-    assert running.process.returncode == 0
-    assert not list(temporary.glob("roughline-lab-*"))
 
 
 def test_the_page_and_its_parts_come_under_a_strict_policy(lab):
