@@ -82,9 +82,10 @@ class Trial:
             factor = _best_factor(
                 load.depth - problem.separation.flat[nodes], pressure, gap.flat[nodes]
             )
-            if factor * float(pressure.max()) >= most:  # so that none reaches the hardness
-                factor = np.nextafter(most, 0.0) / float(pressure.max())
-            pressure = factor * pressure
+            below = np.nextafter(most, 0.0)
+            if factor * float(pressure.max()) > below:  # so that none reaches the hardness
+                factor = below / float(pressure.max())
+            pressure = np.minimum(factor * pressure, below)  # the product may be rounded up
             gap *= factor
         gap += problem.separation
         depth = load.depth
