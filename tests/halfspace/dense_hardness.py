@@ -91,7 +91,7 @@ class History:
         """Solve the contact under a force, and keep its indentations."""
         before = self.separation + self.indentation
         level = self._level(force)
-        pressure = self._pressures(level)
+        pressure = self._pressures(level) if force > 0 else np.zeros(before.size)
         displacement = self.K @ pressure
         depth = level - self._even * float(pressure.sum())
         plastic = pressure >= (1 - _AT_HARDNESS) * self.hardness
