@@ -25,7 +25,7 @@ _TIGHTER = 1e-3
 _MOST_DEPTHS = 60
 
 
-def contact_under(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
+def solved(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
     """Find the contact under one load; see :func:`~roughline.halfspace.active_set.solve`."""
     contact = solve(problem, load, start, method)
     if contact.outcome is not Outcome.CYCLING:
@@ -58,7 +58,7 @@ class _Search:
         touch, near = self._problem.touch, _NEAR
         low, lack = touch, self._force
         high, excess = float("inf"), 0.0
-        depth = touch + (abs(self._contact.depth - touch) or self._problem.rms_height or 1.0)
+        depth = max(self._contact.depth, 2 * touch - self._contact.depth)
         for _ in range(_MOST_DEPTHS):
             at_depth = self._solved(Load(depth=depth))
             if not at_depth.residuals.worst <= self._method.rtol:

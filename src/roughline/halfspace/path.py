@@ -17,7 +17,7 @@ from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import Residuals, UnilateralContact
 from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.force_search import contact_under
+from roughline.halfspace.force_search import solved as contact_under
 from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.tangent import Response, Tangent, response
