@@ -70,8 +70,6 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
             convolutions += 1
         # 2. The end of the search.
         outcome = stopping.outcome(trial, exchange, spent=spent)
-        if outcome is None and exchange.one_by_one and problem.yields_under(load):
-            outcome = Outcome.CYCLING
         if outcome is not None:
             return trial.contact(problem, outcome, convolutions)
         # 3. Conjugate gradients on the trial nodes.

@@ -14,10 +14,10 @@ from itertools import zip_longest
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.active_set import solve
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import Residuals, UnilateralContact
 from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.force_search import solved as contact_under
 from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.tangent import Response, Tangent, response
@@ -112,13 +112,13 @@ class _Path:
             if pressure > _SURELY * most and problem.conditions is not self._yielding:
                 problem = replace(problem, conditions=self._yielding)
                 start, _ = first_guess(problem, load)
-        contact = contact_under(problem, load, start, self._method)
+        contact = solve(problem, load, start, self._method)
         if contact.pressure.max() > most:
             problem = replace(problem, conditions=self._yielding)
             start = ContactSet(contact.nodes, self._yielding.projected(contact.pressure))
             spent = contact.convolutions
             del contact
-            contact = contact_under(problem, load, start, self._method)
+            contact = solve(problem, load, start, self._method)
             contact = replace(contact, convolutions=contact.convolutions + spent)
         self._yields |= problem.conditions is self._yielding
         return contact

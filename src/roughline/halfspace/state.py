@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import enum
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -16,16 +15,12 @@ from roughline.halfspace.preconditioner import ApproximateInverse
 
 
 class Outcome(enum.Enum):
-    """How the search for the contact set ended.
-
-    One that goes in circles under a given force goes on at given depths.
-    """
+    """How the search for the contact set ended."""
 
     CONVERGED = "converged"
     STALLED = "stalled"
     MAX_ITERATIONS = "max_iterations"
     UNKNOWN_SURFACE = "unknown_surface"
-    CYCLING = "cycling"
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,10 +69,6 @@ class Problem:
     def touch(self) -> float:
         """Depth at which the surfaces touch, as they are now. [length]"""
         return float(self.separation.min())
-
-    def yields_under(self, load: Load) -> bool:
-        """Return whether the force is given, and nodes may reach a hardness."""
-        return load.force is not None and self.conditions.largest_pressure < math.inf
 
     def fewest_nodes(self, load: Load) -> int:
         """Return how many nodes a load needs, so that one of them is below the hardness."""
