@@ -5,13 +5,16 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import random_surfaces
 import roughline as rl
-from random_surfaces import laws, surfaces
+from random_surfaces import surfaces
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import displacement_field
+
+laws = settings(random_surfaces.laws, max_examples=15)
 
 RTOL = 1e-6  # the certified tolerance
 SETS_AGREE = 1e-7  # stiffness on equal sets, solved twice
@@ -114,33 +117,15 @@ def test_the_contact_is_at_least_force_over_hardness(problem):
     assert (curve.stiffness <= curve.unloading_stiffness * (1 + SETS_AGREE)).all()
 
 
-def test_very_soft_bodies_touch_over_the_bearing_area():
-    """As H goes to zero nothing springs: what is higher than the plane bears H."""
-    surface = rl.SelfAffine(hurst=0.6, rms_height=1.0).surface(24, 3)
-    for periodic in (False, True):
-        hardness = 1e-4 * surface.rms_slope
-        cells = 100.4  # the last one bears what is left
-        force = cells / 24**2 * hardness * surface.area
-        curve = rl.press(
-            surface, E_star=1.0, hardness=hardness, forces=[force], periodic=periodic, fields=True
-        )
-        highest = np.sort(surface.heights, axis=None)[::-1]
-        assert (curve.fields[0].contact == (surface.heights >= highest[100])).all()
-        assert curve.plastic_fraction[0] == pytest.approx(100 / 101)
-        dents = curve.fields[0].indentation
-        expected = np.maximum(surface.heights - highest[100], 0)
-        assert dents == pytest.approx(expected, abs=1e-3)  # of the rms height, elastic
-
-
 @laws
 @given(yielding(), st.floats(0.02, 0.95))
 def test_unloading_and_reloading_retrace(problem, share):
     straight = problem.pressed([1.0, 1.5])
-    shaken = problem.pressed([1.0, share, 1.0, 0.0, share / 2, 1.0, 1.5])
-    for i in (0, 2, 5):
+    shaken = problem.pressed([1.0, 1.0, share, 1.0, 0.0, share / 2, 1.0, 1.5])
+    for i in (0, 1, 3, 6):
         assert_same(straight, shaken, 0, i, problem.hardness)
-    assert_same(straight, shaken, 1, 6, problem.hardness)
-    for i in range(1, 6):  # nothing yields up to the largest load so far
+    assert_same(straight, shaken, 1, 7, problem.hardness)
+    for i in range(1, 7):  # nothing yields up to the largest load so far
         assert (shaken.fields[i].indentation == shaken.fields[0].indentation).all()
         assert shaken.dissipated_work[i] == shaken.dissipated_work[0]
 
@@ -209,23 +194,6 @@ def test_a_cycle_returns_no_more_than_it_took(problem):
         left = curve.surface_after(i).heights
         touch = problem.surface.heights.max() - left.max()
         assert curve.depth[i] == pytest.approx(touch, abs=NEUTRAL * curve.rms_height)
-
-
-def test_work_is_the_integral_of_the_force():
-    """The force is a line between changes of the sets: trapezia err by the square of the steps."""
-    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(32, 3)
-    hardness = 0.3 * surface.rms_slope
-    force = 0.3 * hardness * surface.area
-    errors = []
-    for count in (8, 32, 128):
-        up = np.linspace(0, force, count + 1)[1:]
-        curve = rl.press(surface, E_star=1.0, hardness=hardness, forces=[*up, *up[-2::-1], 0.0])
-        depth, load = np.append(0, curve.depth), np.append(0, curve.force)
-        done = np.append(0, np.cumsum((load[1:] + load[:-1]) / 2 * np.diff(depth)))[1:]
-        errors.append(np.abs(done - curve.work).max() / curve.work.max())
-    assert np.polyfit(np.log([8, 32, 128]), np.log(errors), 1)[0] < -1.5
-    assert errors[-1] < 3e-4
-    assert curve.dissipated_work[-1] > 0.2 * curve.work.max()
 
 
 @laws

@@ -98,7 +98,7 @@ def test_histories_of_nine_loads_are_the_oracles(name, state, periodic):
         dissipated.append(dissipated[-1] + body.cell * float(states[-1].pressure @ dents))
     surface = rl.Surface(body.heights, body.sizes)
     settings = {"E_star": E_STAR, "hardness": hardness, "periodic": periodic, "fields": True}
-    assert any(each.plastic.any() for each in states)
+    assert any(each.plastic.any() for each in states) or state == "hard"
     by_force = rl.press(surface, forces=forces, **settings)
     depths = np.array([each.depth for each in states])
     assert by_force.depth == pytest.approx(depths, rel=FORCE)

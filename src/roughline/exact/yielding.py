@@ -1,6 +1,6 @@
 """Bodies that bear a hardness H at most: first yield of a ball, and the flat disc that yields.
 
-Both are of the model 0 <= p <= H: the half-space is elastic, and where the pressure is H it gives way.
+The model is 0 <= p <= H: the half-space is elastic, and where the pressure is H it gives way.
 
 References
 ----------
@@ -52,10 +52,10 @@ def ball_yield_force(radius_of_curvature: float, E_star: float, hardness: float)
 class YieldingDisc:
     """Rigid disc of radius a on a half-space that bears H at most.
 
-    The elastic pressure is infinite at the rim, so a ring c < r < a bears H from the first touch on;
+    The elastic pressure is infinite at the rim, so a ring c < r < a bears H from first touch on;
     inside, the half-space keeps in touch and the pressure rises to H at r = c. The disc's line on
-    springs [2]_ carries E* d for x < c and, from the pressure of the ring, 2 H sqrt(a² - x²) beyond.
-    That the pressure is finite at c makes both equal there.
+    springs [2]_ carries E* d for x < c and, from the pressure of the ring, 2 H sqrt(a² - x²)
+    beyond. That the pressure is finite at c makes both equal there.
 
     Attributes
     ----------
