@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment as Assessment
     from roughline.assessment.line_scan import press_scan as press_scan
     from roughline.assessment.question import Question as Question
-    from roughline.assessment.question import Reading as Reading
+    from roughline.assessment.reading import Reading as Reading
     from roughline.comparison.models import Comparison as Comparison
     from roughline.comparison.models import compare as compare
     from roughline.comparison.trust import trust_map as trust_map
@@ -60,7 +60,7 @@ _HOMES = {
     "assess": "assessment.assess",
     "Assessment": "assessment.assessment",
     "Question": "assessment.question",
-    "Reading": "assessment.question",
+    "Reading": "assessment.reading",
     "facing": "topography.two_bodies",
     "theory": "theories.theory",
     "press_scan": "assessment.line_scan",

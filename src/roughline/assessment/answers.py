@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.larger_surface import stiffness_of_the_piece
-from roughline.assessment.question import has_spectrum
+from roughline.assessment.nominal import has_spectrum
 from roughline.engineering.answer import Answer
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index

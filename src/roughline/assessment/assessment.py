@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from roughline._version import __version__
-from roughline.assessment.question import Question, nominal_area
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.question import Question
 from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve, Fields

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.question import DEFAULT_LOADS, Question, nominal_area
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.question import DEFAULT_LOADS, Question
 from roughline.computing.arrays import Indices
 from roughline.contact.curve import Curve
 from roughline.contact.press import press

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from roughline.assessment.question import Question, nominal_area
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.question import Question
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 

@@ -1,0 +1,54 @@
+"""The nominal area of a body, and of the joint that it is a map of."""
+
+from __future__ import annotations
+
+import math
+
+from roughline.assessment.given import as_si
+from roughline.errors import InputError
+from roughline.topography.body import Body, Line, Surface
+from roughline.units import engineering
+
+
+def nominal_area(body: Body) -> float:
+    """Nominal area of a body; of a line, the square of its length. [m²]"""
+    return body.area if isinstance(body, Surface) else body.length**2
+
+
+def area_of_joint(given: float | str) -> float:
+    """Nominal area of a joint, from a number or a text such as "2 cm^2". [m²]
+
+    Raises
+    ------
+    InputError
+        If it is not positive, or no area.
+    """
+    area = as_si(given, "m^2", "joint area")
+    if not 0 < area < math.inf:
+        raise InputError(f'joint area is "{given}"; give a positive one (joint_area=)')
+    return area
+
+
+def refuse_as_piece_of_a_joint(body: Body, joint: float) -> None:
+    """Refuse a body that cannot stand for a joint of some area [m²].
+
+    Raises
+    ------
+    InputError
+        If it is a line, or larger than the joint.
+    """
+    if isinstance(body, Line):
+        raise InputError(
+            "joint_area= belongs to a surface: a line stands for the square of its length alone, "
+            "and what lies beyond is not known; leave joint_area= out"
+        )
+    if body.area > joint * (1 + 1e-9):  # sides are rounded
+        raise InputError(
+            f"the joint has {engineering(joint, 'm²')}, less than the map, which has "
+            f"{engineering(body.area, 'm²')}: crop the map, or leave joint_area= out"
+        )
+
+
+def has_spectrum(body: Body) -> bool:
+    """Whether it is a surface with enough points and some roughness."""
+    return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
