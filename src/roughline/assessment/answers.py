@@ -10,6 +10,7 @@ from roughline.assessment.nominal import has_spectrum
 from roughline.engineering.answer import Answer
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
+from roughline.engineering.joint import of_joint
 from roughline.engineering.limits import elastic_warnings
 from roughline.spectra.moments import Moments, moments
 from roughline.spectra.roughness import ALIKE, isotropy
@@ -48,6 +49,8 @@ def with_answers(
         stiffness_interval=result.stiffness_interval_as_asked,
         area_interval=result.area_interval_as_asked,
     )
+    if result.question.joint is not None:
+        given = of_joint(given, result.area, result.question.joint)
     return replace(result, answers={each.key: each for each in given})
 
 

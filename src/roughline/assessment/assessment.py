@@ -93,6 +93,11 @@ class Assessment:
         """Nominal area; of a line scan, the square of its length. [m²]"""
         return nominal_area(self.body)
 
+    @property
+    def scale(self) -> float:
+        """How many times the force and stiffness of the curve the joint has; 1 without a joint."""
+        return self.question.scale(self.area)
+
     @cached_property
     def roughness(self) -> Roughness | None:
         """Roughness parameters of the body; None for a reduced line, which is no topography."""

@@ -12,7 +12,7 @@ import numpy as np
 from roughline.engineering.materials import Material, material
 from roughline.errors import InputError
 from roughline.topography.body import Body, Line, Surface
-from roughline.units import in_si, refuse_decimal_comma
+from roughline.units import in_si, load_in_newtons, refuse_decimal_comma
 
 
 def several(given: Any) -> tuple[Any, ...]:
@@ -23,6 +23,11 @@ def several(given: Any) -> tuple[Any, ...]:
 def as_si(given: float | str, unit: str, name: str) -> float:
     """A number in an SI unit, or a text with a unit of its own, as a number in the SI unit."""
     return in_si(given, unit, name) if isinstance(given, str) else float(given)
+
+
+def is_force(load: float | str) -> bool:
+    """Whether a load is a force, which acts on the body as a whole, and no mean pressure."""
+    return not isinstance(load, str) or load_in_newtons(load, 1.0) == load_in_newtons(load, 2.0)
 
 
 def body_or_path(given: Any, name: str) -> Body | Path:

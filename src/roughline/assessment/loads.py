@@ -60,7 +60,10 @@ class LoadCase:
             forces = _forces_of_a_scan(body, question.modulus, n_loads or DEFAULT_LOADS)
             n_loads = None
         depths = sorted({*question.heights()})
-        return cls(question.modulus, forces, depths, n_loads, question.periodic)
+        levelled = question.joint is not None and isinstance(body, Surface) and body.is_cut_out
+        return cls(
+            question.modulus, forces, depths, n_loads, question.is_repeated, levelled=levelled
+        )
 
     @property
     def count(self) -> int:

@@ -6,8 +6,7 @@ import math
 
 from roughline.assessment.given import as_si
 from roughline.errors import InputError
-from roughline.topography.body import Body, Line, Surface
-from roughline.units import engineering
+from roughline.topography.body import Body, Surface
 
 
 def nominal_area(body: Body) -> float:
@@ -27,26 +26,6 @@ def area_of_joint(given: float | str) -> float:
     if not 0 < area < math.inf:
         raise InputError(f'joint area is "{given}"; give a positive one (joint_area=)')
     return area
-
-
-def refuse_as_piece_of_a_joint(body: Body, joint: float) -> None:
-    """Refuse a body that cannot stand for a joint of some area [m²].
-
-    Raises
-    ------
-    InputError
-        If it is a line, or larger than the joint.
-    """
-    if isinstance(body, Line):
-        raise InputError(
-            "joint_area= belongs to a surface: a line stands for the square of its length alone, "
-            "and what lies beyond is not known; leave joint_area= out"
-        )
-    if body.area > joint * (1 + 1e-9):  # sides are rounded
-        raise InputError(
-            f"the joint has {engineering(joint, 'm²')}, less than the map, which has "
-            f"{engineering(body.area, 'm²')}: crop the map, or leave joint_area= out"
-        )
 
 
 def has_spectrum(body: Body) -> bool:

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from roughline.assessment.given import as_si, bodies_or_paths, body_or_path, pair_of, several
-from roughline.assessment.nominal import area_of_joint, has_spectrum, refuse_as_piece_of_a_joint
+from roughline.assessment.misfit import refuse_misfit
+from roughline.assessment.nominal import area_of_joint
 from roughline.assessment.reading import Reading
 from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
@@ -124,7 +125,7 @@ class Question:
                 refuse_unknown(theory)
         for body in (*self.bodies, self.against):
             if isinstance(body, Surface | Line):
-                self.refuse_misfit(body)
+                refuse_misfit(self, body)
 
     @property
     def is_of_several(self) -> bool:
@@ -188,44 +189,28 @@ class Question:
         """Whether what is pressed is repeated: as asked, and because a joint goes on beyond it."""
         return self.periodic or self.joint_area is not None
 
+    def scale(self, area: float) -> float:
+        """How many times larger the joint is than a body of a nominal area [m²]; 1 without one."""
+        return 1.0 if self.joint is None else self.joint / area
+
     def forces(self, area: float) -> list[float]:
         """Total forces on a body of a nominal area, in the order of the loads. [N]
 
         Of a joint the body carries as much as its share of the area.
         """
-        loaded = area if self.joint is None else self.joint
+        scale = self.scale(area)
         forces = [
-            load_in_newtons(load, loaded) if isinstance(load, str) else float(load)
+            load_in_newtons(load, area * scale) if isinstance(load, str) else float(load)
             for load in several(self.loads)
         ]
         for load, force in zip(several(self.loads), forces, strict=True):
             if not 0 < force < math.inf:
                 raise InputError(f'load is "{load}"; give positive ones')
-        return [force * (area / loaded) for force in forces]
+        return [force / scale for force in forces]
 
     def heights(self) -> list[float]:
         """Depths, in their order. [m]"""
         return [as_si(depth, "m", "depth") for depth in several(self.depths)]
-
-    def refuse_misfit(self, body: Body) -> None:
-        """Refuse what does not suit the kind of a body.
-
-        Raises
-        ------
-        InputError
-            If something that belongs to a surface is asked of a line scan, theories of a body
-            that has no spectrum, or a joint that is smaller than its map.
-        """
-        is_scan = isinstance(body, Line) and body.kind == "profile"
-        if is_scan and (self.periodic or self.grid_error or self.depths):
-            raise InputError(
-                "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
-                "loads, through its spectrum"
-            )
-        if self.joint is not None:
-            refuse_as_piece_of_a_joint(body, self.joint)
-        if self.theories and not has_spectrum(body):
-            raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
 
     def _check_joint(self) -> None:
         if self.joint_area is None:

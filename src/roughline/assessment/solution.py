@@ -95,6 +95,17 @@ def interface_of_the_larger_surface(
     return answer, solution.interrupted or periodic.interrupted
 
 
+def of_larger_surface(solution: Solution, stiffness: Answer) -> Solution:
+    """Return a periodic body's solution with the intervals of the larger surface behind it.
+
+    Without the grid's errors there are none: what a piece leaves open is narrower than what is
+    unknown.
+    """
+    if solution.stiffness_interval is None or stiffness.low is None or stiffness.high is None:
+        return solution
+    return replace(solution, stiffness_interval=(stiffness.low, stiffness.high))
+
+
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:
     """Say why the other filling gives the same body."""
     if all(each.measurement is not None for each in topographies if each.is_filled):

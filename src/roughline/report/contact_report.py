@@ -38,10 +38,12 @@ from roughline.units import engineering
 # keys of the answers that the page begins with
 _LEADING = (
     "contact_stiffness",
+    "interface_stiffness",  # of a joint, which has no contact stiffness
     "contact_area_fraction",
     "constriction_resistance",
     "thermal_conductance_per_area",
 )
+_OF_JOINT = ("specific_contact_resistance",)
 _ABREAST = 4  # loads that fit beside each other on a page
 
 ASSUMPTIONS = (
@@ -53,6 +55,17 @@ ASSUMPTIONS = (
     "leaves open; those of k_i, h_c and |R| of a map hold the surface behind it as well. The "
     "scatter of material data, and for all other answers that of other places on the part, comes "
     "on top.",
+)
+ASSUMPTIONS_OF_JOINT = (
+    *ASSUMPTIONS[:2],
+    "The joint is alike everywhere, and evenly loaded: each place carries the mean pressure and is "
+    "rough as the map is. The map is pressed at that pressure in a periodic half-space, and what "
+    "is per area is multiplied by the joint's area. Answers are those of the interface; waviness "
+    "longer than the map, bending, and the constriction of the bodies to the joint's outline are "
+    "left out.",
+    "Intervals, where given, are those of the grid, of filled points and of what one map leaves "
+    "open of the surface around it. The scatter of material data, and that of places which are "
+    "not alike, comes on top.",
 )
 
 
@@ -92,13 +105,23 @@ def _lead(assessment: Assessment) -> str:
     largest = int(np.argmax(assessment.asked))
     answers = assessment.answers
     shown = {key: quantity(each, largest) for key, each in answers.items()}
-    leading = [f"{answers[key].name} {shown[key]}" for key in _LEADING if key in shown]
+    leading = [f"{answers[key].name} {shown[key]}" for key in leading_keys(assessment)]
+    joint = assessment.question.joint
+    over = "the nominal area" if joint is None else f"a joint of {engineering(joint, 'm²')}"
     unsure = curve.converged[largest] and not curve.resolved[largest]
     return _sentence(
         f"{pair.first.name} on {pair.second.name} under {shown['normal_force']}, "
-        f"{shown['mean_pressure']} over the nominal area: {', '.join(leading)}"
+        f"{shown['mean_pressure']} over {over}: {', '.join(leading)}"
         + (f" ({UNRESOLVED})" if unsure else "")
     )
+
+
+def leading_keys(assessment: Assessment) -> list[str]:
+    """Keys of the answers that a page begins with."""
+    of_joint = assessment.question.joint is not None
+    left_out = "contact_stiffness" if of_joint else "interface_stiffness"
+    keys = (*_LEADING, *_OF_JOINT) if of_joint else _LEADING
+    return [key for key in keys if key in assessment.answers and key != left_out]
 
 
 def _overview(assessment: Assessment) -> Figure:
@@ -147,7 +170,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
         Section(
             "Assumptions",
             [
-                *ASSUMPTIONS,
+                *(ASSUMPTIONS if assessment.question.joint is None else ASSUMPTIONS_OF_JOINT),
                 *(f"{theory.name}: {theory.validity}." for theory in assessment.theories),
             ],
         ),
@@ -163,7 +186,7 @@ def _abreast(assessment: Assessment) -> list[slice]:
 def _caption(assessment: Assessment) -> str:
     marked = any(part.filled_region is not None for part in assessment.topographies)
     return (
-        "Heights"
+        ("Heights of the map" if assessment.question.joint is not None else "Heights")
         + (" (red: filled points)" if marked else "")
         + ", spectrum with the nearest self-affine law, stiffness over force (open marks: fewer "
         "than ten points in contact)"

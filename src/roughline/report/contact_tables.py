@@ -19,9 +19,15 @@ UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surfac
 
 
 def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of a curve in SI units; a star marks loads that the grid decides."""
-    curve = assessment.curve_as_asked
-    stiffness = assessment.stiffness_interval_as_asked
+    """Return header and rows of a curve in SI units; a star marks loads that the grid decides.
+
+    Force and stiffness are the joint's, where its area is given.
+    """
+    curve, scale = assessment.curve_as_asked, assessment.scale
+    force, stiffness = curve.force * scale, curve.stiffness * scale
+    ends = assessment.stiffness_interval_as_asked
+    if ends is not None:
+        ends = ends[0] * scale, ends[1] * scale
     area = assessment.area_interval_as_asked
     header = ["load", "depth", "force", "stiffness k"]
     if curve.area_fraction is not None:
@@ -35,8 +41,8 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
         row = [
             heading,
             engineering(curve.depth[i], _SI["depth"]),
-            engineering(curve.force[i], _SI["force"]),
-            with_interval(curve.stiffness[i], _at(stiffness, i), _SI["stiffness"]),
+            engineering(force[i], _SI["force"]),
+            with_interval(stiffness[i], _at(ends, i), _SI["stiffness"]),
         ]
         if curve.area_fraction is not None and curve.area_fraction_corrected is not None:
             corrected = with_interval(curve.area_fraction_corrected[i], _at(area, i), "%")
