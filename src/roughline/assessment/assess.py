@@ -44,13 +44,13 @@ _LARGE = 2**20  # points from which on the cost is told
 _MANY = 1000  # loads from which on the cost is told
 
 
-def assess(
+def assess_body(
     question: Question,
     *,
     announce: Announce | None = None,
     progress: LoadProgress | None = None,
 ) -> Assessment:
-    """Answer a question: read, prepare, press, and work out what follows.
+    """Answer a question of one body: read, prepare, press, and work out what follows.
 
     A load that fails is marked in the curve's status. On Ctrl-C the loads that were solved before
     are kept, and the result says that it was interrupted.

@@ -159,7 +159,7 @@ def press_command(
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.assessment.assess import assess
+    from roughline.assessment.assess import assess_body
     from roughline.assessment.question import Question
     from roughline.computing.fft import set_threads
     from roughline.report.json_output import of_assessment
@@ -194,7 +194,7 @@ def press_command(
     )
     with interruptible("there is no result"), load_progress() as progress:
         make_folders(report, out)  # one that cannot be written is told before the work
-        result = assess(question, announce=announce, progress=progress)
+        result = assess_body(question, announce=announce, progress=progress)
         result = replace(
             result,
             warnings=[in_flags(each) for each in result.warnings],
