@@ -25,6 +25,7 @@ from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
     formula_table,
+    leading_keys,
     material_in_words,
     quantity,
     star_is_shown,
@@ -35,15 +36,6 @@ from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
 
-# keys of the answers that the page begins with
-_LEADING = (
-    "contact_stiffness",
-    "interface_stiffness",  # of a joint, which has no contact stiffness
-    "contact_area_fraction",
-    "constriction_resistance",
-    "thermal_conductance_per_area",
-)
-_OF_JOINT = ("specific_contact_resistance",)
 _ABREAST = 4  # loads that fit beside each other on a page
 
 ASSUMPTIONS = (
@@ -109,19 +101,11 @@ def _lead(assessment: Assessment) -> str:
     joint = assessment.question.joint
     over = "the nominal area" if joint is None else f"a joint of {engineering(joint, 'm²')}"
     unsure = curve.converged[largest] and not curve.resolved[largest]
-    return _sentence(
+    return sentence(
         f"{pair.first.name} on {pair.second.name} under {shown['normal_force']}, "
         f"{shown['mean_pressure']} over {over}: {', '.join(leading)}"
         + (f" ({UNRESOLVED})" if unsure else "")
     )
-
-
-def leading_keys(assessment: Assessment) -> list[str]:
-    """Keys of the answers that a page begins with."""
-    of_joint = assessment.question.joint is not None
-    left_out = "contact_stiffness" if of_joint else "interface_stiffness"
-    keys = (*_LEADING, *_OF_JOINT) if of_joint else _LEADING
-    return [key for key in keys if key in assessment.answers and key != left_out]
 
 
 def _overview(assessment: Assessment) -> Figure:
@@ -155,7 +139,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
         Section(
             "Answers",
             [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."],
-            notes=[*legend, *map(_sentence, assessment.remarks)],
+            notes=[*legend, *map(sentence, assessment.remarks)],
             tables=[
                 Table(header, rows, numbers=range(1, len(header)))
                 for header, rows in map(partial(answer_table, assessment), _abreast(assessment))
@@ -169,13 +153,17 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
         Section("Where the answers are from", tables=[Table(*formula_table(assessment))]),
         Section(
             "Assumptions",
-            [
-                *(ASSUMPTIONS if assessment.question.joint is None else ASSUMPTIONS_OF_JOINT),
-                *(f"{theory.name}: {theory.validity}." for theory in assessment.theories),
-            ],
+            assumptions_of(assessment),
         ),
         Section("To do it again", [how_to_repeat, settings]),
     ]
+
+
+def assumptions_of(assessment: Assessment) -> list[str]:
+    """What the answers rest on."""
+    of_theories = [f"{theory.name}: {theory.validity}." for theory in assessment.theories]
+    joint = assessment.question.joint is not None
+    return [*(ASSUMPTIONS_OF_JOINT if joint else ASSUMPTIONS), *of_theories]
 
 
 def _abreast(assessment: Assessment) -> list[slice]:
@@ -226,7 +214,7 @@ def _surface(assessment: Assessment) -> str:
         low, high = parameters.fit.hurst_interval
         text += f" Hurst exponent {parameters.fit.hurst:.2f} ({low:.2f} to {high:.2f})."
     if parameters is not None and parameters.remarks:
-        text += " " + " ".join(_sentence(remark) for remark in parameters.remarks)
+        text += " " + " ".join(sentence(remark) for remark in parameters.remarks)
     return text
 
 
@@ -248,5 +236,6 @@ def _preparation(body: Body) -> str:
     return ", ".join(done) or "none"
 
 
-def _sentence(text: str) -> str:
+def sentence(text: str) -> str:
+    """A remark as a sentence: with a capital and a full stop."""
     return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")

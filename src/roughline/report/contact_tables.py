@@ -12,6 +12,16 @@ from roughline.units import engineering
 
 _SHARES = ("contact_area_fraction",)  # keys of what is written in per cent
 
+# keys of the answers that the page begins with
+_LEADING = (
+    "contact_stiffness",
+    "interface_stiffness",  # of a joint, which has no contact stiffness
+    "contact_area_fraction",
+    "constriction_resistance",
+    "thermal_conductance_per_area",
+)
+_OF_JOINT = ("specific_contact_resistance",)
+
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
 UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
@@ -70,6 +80,14 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     ]
 
 
+def leading_keys(assessment: Assessment) -> list[str]:
+    """Keys of the answers that a page begins with."""
+    of_joint = assessment.question.joint is not None
+    left_out = "contact_stiffness" if of_joint else "interface_stiffness"
+    keys = (*_LEADING, *_OF_JOINT) if of_joint else _LEADING
+    return [key for key in keys if key in assessment.answers and key != left_out]
+
+
 def star_is_shown(assessment: Assessment) -> bool:
     """Whether the grid decides one of the loads that were asked for."""
     curve = assessment.curve_as_asked
@@ -79,8 +97,12 @@ def star_is_shown(assessment: Assessment) -> bool:
 def quantity(answer: Answer, i: int) -> str:
     """Write one value of an answer, with its interval where that is known."""
     ends = None if answer.low is None or answer.high is None else (answer.low, answer.high)
-    unit = "%" if answer.key in _SHARES else answer.unit
-    return with_interval(float(answer.values[i]), _at(ends, i), unit)
+    return with_interval(float(answer.values[i]), _at(ends, i), unit_shown(answer))
+
+
+def unit_shown(answer: Answer) -> str:
+    """Unit in which an answer is written: its own, or per cent."""
+    return "%" if answer.key in _SHARES else answer.unit
 
 
 def material_in_words(material: Material) -> str:
