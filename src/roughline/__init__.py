@@ -22,10 +22,10 @@ if TYPE_CHECKING:
     from roughline.comparison.trust import trust_map as trust_map
     from roughline.computing.fft import set_threads as set_threads
     from roughline.contact.curve import Curve as Curve
-    from roughline.contact.curve import Fields as Fields
     from roughline.contact.curve import Status as Status
     from roughline.contact.estimates import Estimate as Estimate
     from roughline.contact.estimates import estimate as estimate
+    from roughline.contact.fields import Fields as Fields
     from roughline.contact.press import press as press
     from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
     from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH

@@ -3,7 +3,8 @@
 import numpy as np
 
 from roughline.campaign.layout import VARIABLES
-from roughline.contact.quantities import OVER_LOADS, QUANTITIES
+from roughline.contact.quantities import QUANTITIES
+from roughline.contact.quantity import OVER_LOADS
 
 
 def test_stores_keep_quantities_of_the_curve_by_their_names():

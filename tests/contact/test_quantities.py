@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.contact.quantities import IN_FILES, IN_JSON, OVER_LOADS, QUANTITIES, Quantity
+from roughline.contact.quantities import IN_FILES, IN_JSON, QUANTITIES
+from roughline.contact.quantity import OVER_LOADS, Quantity
 
 GLOSSARY = Path(__file__).parents[2] / "docs" / "conventions.md"
 OVER_THE_LOADS = [each for each in QUANTITIES.values() if each.dims == OVER_LOADS]
@@ -28,6 +29,12 @@ def curve(surface):
 def line_curve():
     line = rl.SelfAffine(hurst=0.8, rms_height=1.0).line(1024, 7)
     return rl.press(line, E_star=1.0, forces=[0.1, 0.3])
+
+
+@pytest.fixture(scope="module")
+def yielding_curve(surface):
+    forces, errors = [0.1, 0.3], {"fields": True, "grid_error": True}
+    return rl.press(surface, E_star=1.0, hardness=5.0, forces=forces, **errors)
 
 
 def row_of(quantity):
@@ -53,7 +60,7 @@ def test_a_curve_has_what_is_declared_and_no_more(curve):
     derived = {"force_bar", "stiffness_bar"}
     assert arrays == {each.name for each in OVER_THE_LOADS} - derived
     assert {each.name for each in dataclasses.fields(rl.Fields)} == {
-        each.name for each in ON_THE_GRID
+        each.of_field for each in ON_THE_GRID
     }
 
 
@@ -67,10 +74,15 @@ def test_values_have_the_declared_type(curve, line_curve, quantity):
     assert (getattr(line_curve, quantity.name) is not None) == quantity.of_lines
 
 
-def test_files_hold_the_declared_variables(curve, line_curve):
-    for one in (curve, line_curve):
+def test_files_hold_the_declared_variables(curve, line_curve, yielding_curve):
+    for one in (curve, line_curve, yielding_curve):
         data = one.to_dataset()
-        expected = [each for each in IN_FILES if one is curve or each.of_lines]
+        expected = [
+            each
+            for each in IN_FILES
+            if (one is not line_curve or each.of_lines)
+            and (one is yielding_curve or not each.of_yielding)
+        ]
         assert list(data.variables) == [each.name for each in expected]
         for each in expected:
             assert data[each.name].dims == ("force", *each.dims[1:])
@@ -97,6 +109,7 @@ def test_columns_of_files_stay_in_their_places(curve, tmp_path):
         ("force", "N", "force"),
         ("pressure", "Pa", "pressure"),
         ("force/length", "N/m", "force/um"),
+        ("energy", "J", "energy"),
         ("1", "1", "1"),
         (None, None, None),
     ],
@@ -115,6 +128,8 @@ def test_an_unknown_dimension_is_refused():
 
 def test_json_gives_results_and_no_fields():
     assert [each.name for each in IN_JSON] == [
-        *("depth", "force", "stiffness", "area_fraction", "area_fraction_corrected"),
-        *("stiffness_error", "area_fraction_error", "residual", "resolved", "status"),
+        *("depth", "force", "stiffness", "unloading_stiffness"),
+        *("area_fraction", "area_fraction_corrected", "stiffness_error", "area_fraction_error"),
+        *("plastic_fraction", "indentation", "work", "dissipated_work"),
+        *("residual", "resolved", "status"),
     ]

@@ -89,7 +89,7 @@ def test_steps_that_are_all_wrong_are_refused(monkeypatch):
 
 
 def test_a_stale_contact_set_is_refused(monkeypatch):
-    monkeypatch.setattr(exchange, "exchanged", lambda contact_set, *wrong: contact_set)
+    monkeypatch.setattr(exchange, "exchanged", lambda problem, contact_set, *wrong: contact_set)
     curve = pressed()
     assert not curve.converged.any()
     assert (curve.residual > 1e-6).all()
@@ -98,8 +98,9 @@ def test_a_stale_contact_set_is_refused(monkeypatch):
 def test_a_contact_set_that_only_grows_is_refused(monkeypatch):
     sound = exchange.exchanged
 
-    def growing(contact_set, leaving, *others):
-        return sound(contact_set, np.zeros_like(leaving), *others)
+    def growing(problem, contact_set, watched, wrong):
+        wrong = dataclasses.replace(wrong, pulling=np.zeros_like(wrong.pulling))
+        return sound(problem, contact_set, watched, wrong)
 
     monkeypatch.setattr(exchange, "exchanged", growing)
     curve = pressed()

@@ -1,24 +1,30 @@
-"""The conditions of unilateral contact: p >= 0, gap >= 0 and p gap = 0."""
-
-import dataclasses
+"""The contact conditions of elastic bodies, and of bodies that yield at a hardness."""
 
 import numpy as np
 import pytest
 
 from roughline.halfspace.active_set import solve
 from roughline.halfspace.cascade import first_guess
-from roughline.halfspace.conditions import UnilateralContact
+from roughline.halfspace.conditions import (
+    UnilateralContact,
+    YieldingContact,
+    out_of_bounds,
+    residuals,
+    violations,
+)
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.kernel import love
 from roughline.halfspace.state import Load, Method, Problem
-from roughline.halfspace.tangent import tangent
+from roughline.halfspace.tangent import response
 
-CONDITIONS = UnilateralContact()
+ELASTIC = UnilateralContact()
+YIELDING = YieldingContact(hardness=4.0)
 
 
 def test_nodes_that_pull_and_nodes_that_overlap_are_wrong():
     pressure, watched = np.array([1.0, -0.5, 0.0]), np.array([2.5, 1.5, 2.0, -1.0])
-    wrong = CONDITIONS.violations(pressure, watched, depth=2.0)
+    every, none = np.ones(3, dtype=bool), np.empty(0)
+    wrong = violations(ELASTIC, every, pressure, watched, none, depth=2.0, slack=0.0)
     assert wrong.pulling.tolist() == [False, True, False]
     assert wrong.overlapping.tolist() == [False, True, False, True]
     assert wrong.pull.tolist() == [-0.5]
@@ -27,64 +33,86 @@ def test_nodes_that_pull_and_nodes_that_overlap_are_wrong():
     assert wrong.squared(diagonal=4.0) == pytest.approx(2.0**2 + 0.5**2 + 3.0**2)
 
 
-def test_projected_pressures_are_the_nearest_that_do_not_pull():
-    pressure = np.array([1.0, -0.5, 0.0])
-    projected = CONDITIONS.projected(pressure)
-    assert projected.tolist() == [1.0, 0.0, 0.0]
-    assert not CONDITIONS.violations(projected, np.empty(0), depth=1.0).count
-    assert CONDITIONS.largest_pull(projected) == 0.0
-    assert CONDITIONS.largest_pull(pressure) == 0.5
+def test_nodes_above_the_hardness_and_nodes_at_it_that_come_apart_are_wrong():
+    elastic = np.array([True, False, True, False, False])
+    held = np.array([2.5, 2.05, 1.0])
+    pressure = np.array([4.5, 3.0])
+    wrong = violations(YIELDING, elastic, pressure, np.empty(0), held, depth=2.0, slack=0.1)
+    assert wrong.yielding.tolist() == [True, False, False, False, False]
+    assert wrong.lifting.tolist() == [False, True, False, False, False]
+    assert wrong.excess.tolist() == [0.5]
+    assert wrong.lift.tolist() == [0.5]
+    assert wrong.count == 2
+    assert wrong.squared(diagonal=4.0) == pytest.approx(2.0**2 + 0.5**2)
 
 
-def test_every_node_in_contact_is_elastic():
-    pressure = np.array([1.0, 0.0, 7.0])
-    assert pressure[CONDITIONS.elastic(pressure)].tolist() == pressure.tolist()
+def test_projected_pressures_are_the_nearest_that_are_allowed():
+    pressure = np.array([1.0, -0.5, 0.0, 5.0])
+    assert ELASTIC.projected(pressure).tolist() == [1.0, 0.0, 0.0, 5.0]
+    assert YIELDING.projected(pressure).tolist() == [1.0, 0.0, 0.0, 4.0]
+    assert out_of_bounds(ELASTIC, pressure) == (0.5, 0.0)
+    assert out_of_bounds(YIELDING, pressure) == (0.5, 1.0)
+    assert out_of_bounds(YIELDING, YIELDING.projected(pressure)) == (0.0, 0.0)
+
+
+def test_nodes_below_the_hardness_are_elastic():
+    pressure = np.array([1.0, 0.0, 4.0])
+    assert ELASTIC.elastic(pressure).tolist() == [True, True, True]
+    assert YIELDING.elastic(pressure).tolist() == [True, True, False]
+
+
+def test_pressures_are_scaled_to_a_total_up_to_the_hardness():
+    pressure = np.array([1.0, 2.0, 3.0])
+    assert ELASTIC.with_total(pressure, 12.0).tolist() == [2.0, 4.0, 6.0]
+    assert YIELDING.with_total(pressure, 9.0).tolist() == pytest.approx([5 / 3, 10 / 3, 4.0])
+    assert YIELDING.with_total(pressure, 11.5).tolist() == pytest.approx([3.5, 4.0, 4.0])
+    assert YIELDING.with_total(pressure, 12.0).tolist() == [4.0, 4.0, 4.0]
+    assert YIELDING.with_total(np.array([0.0, 0.0, 4.0]), 6.0).tolist() == [1.0, 1.0, 4.0]
+    # the nodes at the hardness carry more than there is: all are scaled down
+    assert YIELDING.with_total(np.array([1.0, 4.0]), 2.5).tolist() == [0.5, 2.0]
 
 
 def test_residuals_tell_gap_on_contact_from_overlap_off_it():
     nodes, pressure = np.array([0, 3]), np.array([3.0, 1.0])
     gap = np.array([[1e-3, 0.5], [2.0, -2e-3]])
-    residuals = CONDITIONS.residuals(gap, nodes, pressure, length_scale=0.1, load_error=1e-4)
-    assert residuals.gap == pytest.approx(2e-2)
-    assert residuals.penetration == 0
-    assert residuals.tension == 0
-    assert residuals.worst == residuals.gap
+    found = residuals(ELASTIC, gap, nodes, pressure, length_scale=0.1, load_error=1e-4)
+    assert found.gap == pytest.approx(2e-2)
+    assert found.penetration == 0
+    assert found.tension == found.excess == 0
+    assert found.worst == found.gap
     gap[0, 1] = -0.5
-    residuals = CONDITIONS.residuals(gap, nodes, pressure - 1.5, length_scale=0.1, load_error=9.0)
-    assert residuals.penetration == pytest.approx(5.0)
-    assert residuals.load == residuals.worst == 9.0
+    found = residuals(ELASTIC, gap, nodes, pressure - 1.5, length_scale=0.1, load_error=9.0)
+    assert found.penetration == pytest.approx(5.0)
+    assert found.load == found.worst == 9.0
 
 
-def test_a_pull_is_compared_with_the_mean_pressure():
-    residuals = CONDITIONS.residuals(
-        np.zeros((2, 2)), np.arange(4), np.array([5.0, 5.0, 3.0, -1.0]), 1.0, 0.0
+def test_a_pull_and_an_excess_are_compared_with_the_mean_pressure():
+    found = residuals(
+        YIELDING, np.zeros((2, 2)), np.arange(4), np.array([5.0, 5.0, 3.0, -1.0]), 1.0, 0.0
     )
-    assert residuals.tension == pytest.approx(1 / 3)
+    assert found.tension == pytest.approx(1 / 3)
+    assert found.excess == pytest.approx(1 / 3)
 
 
-@dataclasses.dataclass(frozen=True)
-class LimitedPressure(UnilateralContact):
-    """Nodes at the limit bear no more: their pressures do not follow a change of the load."""
-
-    limit: float
-
-    def elastic(self, pressure):
-        return pressure < self.limit
-
-
-def test_the_stiffness_is_that_of_the_elastic_nodes():
-    n, load, method = 12, Load(depth=1.0), Method(rtol=1e-6, max_iterations=100)
+def test_the_stiffness_on_loading_is_that_of_the_elastic_nodes_and_on_unloading_of_all():
+    n, method = 12, Method(rtol=1e-6, max_iterations=100)
     x, y = np.indices((n, n)) - (n - 1) / 2
     half_space = HalfSpace(1.0)
     operator = half_space.operator((n, n), (1.0, 1.0))
-    problem = Problem.of(half_space, operator, (x**2 + y**2) / 20, 1.0, CONDITIONS)
-    contact = solve(problem, load, first_guess(problem, load), method)
-    conditions = LimitedPressure(float(np.median(contact.pressure)))
-    response = tangent(dataclasses.replace(problem, conditions=conditions), contact, None, method)
-    elastic = contact.pressure < conditions.limit
-    x, y = (axis.flat[contact.nodes[elastic]] for axis in (x, y))
-    pressure = np.linalg.solve(love(x[:, None] - x, y[:, None] - y, 1.0, 1.0), np.ones(x.size))
-    assert response.converged
-    assert response.stiffness == pytest.approx(pressure.sum(), rel=1e-8)
-    assert (response.pressure_per_force[~elastic] == 0).all()
-    assert response.pressure_per_force.sum() == pytest.approx(1.0)
+    problem = Problem.of(
+        half_space, operator, (x**2 + y**2) / 20, 1.0, YieldingContact(hardness=0.1)
+    )
+    load = Load(depth=1.0)
+    contact = solve(problem, load, first_guess(problem, load)[0], method)
+    assert 0 < contact.plastic.sum() < contact.nodes.size
+    answer = response(problem, contact, None, method)
+    assert answer.converged
+    for tangent, follow in (
+        (answer.loading, ~contact.plastic),
+        (answer.unloading, np.ones_like(contact.plastic)),
+    ):
+        i, j = (axis.flat[contact.nodes[follow]] for axis in (x, y))
+        pressure = np.linalg.solve(love(i[:, None] - i, j[:, None] - j, 1.0, 1.0), np.ones(i.size))
+        assert tangent.stiffness == pytest.approx(pressure.sum(), rel=1e-8)
+        assert (tangent.pressure_per_force[~follow] == 0).all()
+        assert tangent.pressure_per_force.sum() == pytest.approx(1.0)

@@ -14,7 +14,8 @@ from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
-from roughline.contact.curve import Curve, Fields
+from roughline.contact.curve import Curve
+from roughline.contact.fields import Fields
 from roughline.engineering.answer import Answer, Ends
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve

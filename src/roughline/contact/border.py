@@ -16,6 +16,8 @@ BORDER_SHARE = 0.05
 
 def border_share(contact: Contact) -> float:
     """Share of the force that the outer frame carries. [1]"""
+    if not contact.nodes.size:
+        return 0.0
     nx, ny = contact.gap.shape
     x, y = np.divmod(contact.nodes, ny)
     within = np.minimum(np.minimum(x, nx - 1 - x) / nx, np.minimum(y, ny - 1 - y) / ny)
@@ -37,7 +39,7 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
     beyond = np.flatnonzero(shares > BORDER_SHARE)
     if not surface.is_cut_out or not beyond.size:
         return ()
-    ends = [f"{force[i]:.3g}" for i in (beyond[0], beyond[-1])]
+    ends = [f"{end:.3g}" for end in (force[beyond].min(), force[beyond].max())]
     unit = " N" if surface.unit == "m" else ""
     at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
     return (

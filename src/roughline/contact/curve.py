@@ -13,8 +13,11 @@ from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
-from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
+from roughline.contact.fields import Fields, Indentation
+from roughline.contact.quantities import IN_FILES
+from roughline.contact.quantity import OVER_LOADS, Quantity, unit_of
 from roughline.errors import InputError, StoreError
+from roughline.topography.body import Surface, with_heights
 
 if TYPE_CHECKING:
     import xarray
@@ -28,6 +31,7 @@ class Status(enum.IntEnum):
     MAX_ITERATIONS = 2
     NO_TANGENT = 3
     INTERRUPTED = 4
+    UNKNOWN_SURFACE = 5
 
     @property
     def reason(self) -> str:
@@ -38,6 +42,8 @@ class Status(enum.IntEnum):
             Status.MAX_ITERATIONS: "max_iterations reached above the tolerance",
             Status.NO_TANGENT: "the stiffness equations did not converge",
             Status.INTERRUPTED: "not solved: interrupted before",
+            Status.UNKNOWN_SURFACE: "not solved: what a larger load before them left of the "
+            "surface is not known",
         }[self]
 
 
@@ -45,28 +51,6 @@ _STATUS_FLAGS: dict[str, Any] = {
     "flag_values": [int(status) for status in Status],
     "flag_meanings": " ".join(status.name.lower() for status in Status),
 }
-
-
-@dataclass(frozen=True, eq=False)
-class Fields:
-    """Fields of one load on the grid.
-
-    Attributes
-    ----------
-    pressure : ndarray, shape (nx, ny)
-        Contact pressure, compression positive. [pressure]
-    displacement : ndarray, shape (nx, ny)
-        Normal displacement of the half-space's surface. [length]
-    gap : ndarray, shape (nx, ny)
-        Distance of the two bodies. [length]
-    contact : ndarray of bool, shape (nx, ny)
-        Where they touch.
-    """
-
-    pressure: Real
-    displacement: Real
-    gap: Real
-    contact: Mask
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +64,7 @@ class Curve:
     force : ndarray, shape (loads,)
         Total force, compression positive. [force]
     stiffness : ndarray, shape (loads,)
-        Exact k = dF/dd. [force / length]
+        Exact k = dF/dd on further loading: points at the hardness bear no more. [force / length]
     area_fraction : ndarray, shape (loads,), or None
         Real over nominal contact area. None for a line: the contact area of the reduced model does
         not predict that of the surface.
@@ -113,10 +97,26 @@ class Curve:
     stiffness_error, area_fraction_error : ndarray, shape (loads,), or None
         Estimated discretisation errors of `stiffness` and `area_fraction_corrected`, if asked
         for; a value v with error e lies between v / (1 + e / v) and v + e.
+    unloading_stiffness : ndarray, shape (loads,), or None
+        Exact k = dF/dd on unloading, when all of the contact springs back elastically; without
+        a hardness it is `stiffness`. This and the next four are None for a line.
+        [force / length]
+    plastic_fraction : ndarray, shape (loads,), or None
+        Share of the contact that is at the hardness. [1]
+    indentation : ndarray, shape (loads,), or None
+        Largest permanent indentation of the surface so far. [length]
+    work, dissipated_work : ndarray, shape (loads,), or None
+        What the load has done since first touch, less what unloading gave back; and what of it
+        the indentations took, the hardness times their volume. [energy]
     warnings : sequence of str
         What a user of the numbers has to know; empty if there is nothing to say.
     fields : sequence of Fields
         One for each load if asked for, else empty; None for a load that did not converge.
+    surface : Surface or None
+        The untouched surface; None for a line.
+    dents : sequence of Indentation
+        Of each load, for :meth:`surface_after`; None where the surface is not indented. Empty
+        without a hardness.
     """
 
     depth: Real
@@ -136,8 +136,21 @@ class Curve:
     area_fraction_most: Real | None = None
     stiffness_error: Real | None = None
     area_fraction_error: Real | None = None
+    unloading_stiffness: Real | None = None
+    plastic_fraction: Real | None = None
+    indentation: Real | None = None
+    work: Real | None = None
+    dissipated_work: Real | None = None
     warnings: Sequence[str] = ()
     fields: Sequence[Fields | None] = field(default=(), repr=False)
+    surface: Surface | None = field(default=None, repr=False)
+    dents: Sequence[Indentation | None] = field(default=(), repr=False)
+
+    @property
+    def hardness(self) -> float | None:
+        """The most that a point of the surface bears; None if it is elastic. [pressure]"""
+        hardness = self.settings.get("hardness")
+        return None if hardness is None else float(hardness)
 
     @property
     def force_bar(self) -> Real:
@@ -165,6 +178,36 @@ class Curve:
     def converged(self) -> Mask:
         """Whether each load was solved to the tolerance."""
         return self.status == Status.CONVERGED
+
+    def surface_after(self, load: int) -> Surface:
+        """Return the surface with the permanent indentations that a load left.
+
+        Parameters
+        ----------
+        load : int
+            Number of the load, from 0; negative ones count from the last.
+
+        Raises
+        ------
+        InputError
+            If there is no such load, it was not solved, or the body is a line.
+        """
+        if self.surface is None:
+            raise InputError("this curve has no surface: the reduced model of a line has no yield")
+        count = self.status.size
+        if not -count <= load < count:
+            raise InputError(f"load is {load}; the curve has loads 0 to {count - 1}")
+        if not self.converged[load]:
+            raise InputError(
+                f"load {load} was not solved ({Status(self.status[load]).reason}), so the surface "
+                "after it is not known"
+            )
+        dents = self.dents[load] if self.dents else None
+        if dents is None:
+            return self.surface
+        heights = self.surface.heights.copy()
+        heights.flat[dents.nodes] -= dents.depth
+        return with_heights(self.surface, heights, indented_by_force=float(self.force[load]))
 
     def to_dataset(self) -> xarray.Dataset:
         """Return the curve as an xarray Dataset over the loads, units in attrs.
@@ -197,6 +240,8 @@ class Curve:
 
     def _values(self, quantity: Quantity) -> NDArray[Any] | None:
         """Return a quantity as files hold it, or None if this curve does not have it."""
+        if quantity.of_yielding and self.hardness is None:
+            return None
         if quantity.dims == OVER_LOADS:
             values: NDArray[Any] | None = getattr(self, quantity.name)
             if values is not None and values.dtype == bool:
@@ -206,7 +251,8 @@ class Curve:
         if not kept:
             return None
         missing = np.full(kept[0].gap.shape, np.nan)
-        stack = [getattr(fields, quantity.name) if fields else missing for fields in self.fields]
+        name = quantity.of_field
+        stack = [getattr(fields, name) if fields else missing for fields in self.fields]
         return np.array(stack, float)
 
     def write(self, path: str | Path) -> None:

@@ -14,7 +14,8 @@ import numpy as np
 # [bytes per point]
 _BYTES = 96
 _BYTES_PERIODIC = 170
-_BYTES_OF_FIELDS = 25
+_BYTES_OF_FIELDS = 34
+_BYTES_OF_YIELD = 24  # more where a surface is indented
 # A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
 # path. It does some 35, most of them in single precision and on a part of the rows.
 _CONVOLUTIONS = 20
@@ -84,9 +85,12 @@ def estimate(
     )
 
 
-def memory_for(shape: tuple[int, int], periodic: bool, kept_fields: int) -> int:
+def memory_for(
+    shape: tuple[int, int], periodic: bool, kept_fields: int, *, yielding: bool = False
+) -> int:
     """Return the memory that pressing a surface takes, beside the surface. [bytes]"""
     bytes_ = _BYTES_PERIODIC if periodic else _BYTES
+    bytes_ += _BYTES_OF_YIELD if yielding else 0
     return shape[0] * shape[1] * (bytes_ + _BYTES_OF_FIELDS * kept_fields)
 
 

@@ -2,28 +2,23 @@
 
 from __future__ import annotations
 
-import dataclasses
-import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence, Set
+from dataclasses import replace
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from roughline._version import __version__
-from roughline.computing.arrays import Real
-from roughline.contact.border import border_share, border_warnings
-from roughline.contact.curve import Curve, Fields, Status
+from roughline.contact.border import border_warnings
+from roughline.contact.curve import Curve, Status
 from roughline.contact.loads import Loads
-from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
+from roughline.contact.scaled_surface import ScaledSurface
+from roughline.contact.solution import Solution, columns
 from roughline.errors import Interrupted
-from roughline.halfspace.conditions import UnilateralContact
+from roughline.halfspace.conditions import ContactConditions, UnilateralContact, YieldingContact
 from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.outline import overstated_cells
 from roughline.halfspace.path import solve_path
-from roughline.halfspace.state import Contact, Load, Method, Problem
-from roughline.halfspace.tangent import Tangent
+from roughline.halfspace.state import Load, Method, Problem
 from roughline.topography.body import Surface
 from roughline.topography.preparation import tilt_warnings
 
@@ -35,6 +30,7 @@ def press_surface(
     method: Method,
     *,
     periodic: bool,
+    hardness: float | None,
     kept: frozenset[int],
     progress: Callable[[int, int], None] | None,
 ) -> Curve:
@@ -52,7 +48,7 @@ def press_surface(
         Tolerance, bound on the convolutions and precision.
     kept : frozenset of int
         Numbers of the loads whose fields are kept.
-    periodic, progress
+    hardness, periodic, progress
         As for :func:`roughline.press`.
 
     Raises
@@ -60,99 +56,67 @@ def press_surface(
     Interrupted
         On Ctrl-C.
     """
-    scaled = _Scaled.of(surface, E_star, loads)
-    half_space = HalfSpace(E_star, periodic).scaled(scaled.E_star, scaled.length)
-    solutions: list[_Solution] = []
+    # elastic bodies forget: their loads are solved as they rise, each once, in whatever order
+    values, places = loads.values, np.arange(loads.values.size)
+    if hardness is None:
+        values, places = np.unique(loads.values, return_inverse=True)
+    solutions: list[Solution] = []
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
         with threadpool_limits(limits=1, user_api="blas"):
-            path = _path(half_space, scaled, surface.rms_height, loads, method)
-            for i, (contact, tangent) in enumerate(path):
-                solutions.append(_solution(contact, tangent, scaled, periodic, i in kept))
-                del contact, tangent  # so that the next load finds their memory free
+            path, kept_there = replace(loads, values=values), {int(places[i]) for i in kept}
+            for solution in _solutions(
+                surface, E_star, path, method, hardness, periodic, kept_there
+            ):
+                solutions.append(solution)
                 if progress is not None:
-                    progress(i + 1, loads.values.size)
+                    progress(len(solutions), values.size)
     except KeyboardInterrupt:
         interrupted = True
-    solutions += [_Solution()] * (loads.values.size - len(solutions))
-    curve = _curve(surface, E_star, loads, method, periodic, solutions)
+    solutions += [Solution()] * (values.size - len(solutions))
+    solutions = [solutions[i] for i in places]
+    curve = _curve(surface, E_star, loads, method, solutions, hardness, periodic)
     if kept:
-        curve = replace(curve, fields=tuple(solution.fields for solution in solutions))
+        fields = [each.fields if i in kept else None for i, each in enumerate(solutions)]
+        curve = replace(curve, fields=tuple(fields))
     if interrupted:
         raise Interrupted(curve)
     return curve
 
 
-def _path(
-    half_space: HalfSpace, scaled: _Scaled, rms_height: float, loads: Loads, method: Method
-) -> Iterator[tuple[Contact, Tangent | None]]:
-    """Solve the contact under each load in turn, in the units of `scaled`."""
-    operator = half_space.operator(scaled.separation.shape, scaled.spacing)
-    problem = Problem.of(
-        half_space, operator, scaled.separation, rms_height / scaled.height, UnilateralContact()
-    )
-    values = loads.values / (scaled.force if loads.control == "forces" else scaled.height)
-    return solve_path(problem, [Load.of(loads.control, value) for value in values.tolist()], method)
-
-
-@dataclass(frozen=True, eq=False)
-class _Solution:
-    """What the model gives under one load: quantities of the curve by their names, and more.
-
-    The defaults are those of a load that was not solved.
-
-    Attributes
-    ----------
-    border_share : float
-        Share of the force that the border carries. [1]
-    fields : Fields or None
-        Fields on the grid, if they are kept.
-    """
-
-    status: Status = Status.INTERRUPTED
-    residual: float = math.nan
-    convolutions: int = 0
-    resolved: bool = False
-    depth: float = math.nan
-    force: float = math.nan
-    stiffness: float = math.nan
-    area_fraction: float = math.nan
-    area_fraction_corrected: float = math.nan
-    area_fraction_most: float = math.nan
-    border_share: float = math.nan
-    fields: Fields | None = None
-
-
-def _solution(
-    contact: Contact,
-    tangent: Tangent | None,
-    scaled: _Scaled,
+def _solutions(
+    surface: Surface,
+    E_star: float,
+    loads: Loads,
+    method: Method,
+    hardness: float | None,
     periodic: bool,
-    with_fields: bool,
-) -> _Solution:
-    """Return what one load gives, in the units of the surface."""
-    if tangent is None:
-        status = Status[contact.outcome.name]
-        return _Solution(status, contact.residuals.worst, contact.convolutions)
-    convolutions = contact.convolutions + tangent.convolutions
-    if not tangent.converged:
-        return _Solution(Status.NO_TANGENT, contact.residuals.worst, convolutions)
-    cells, nodes = int(np.count_nonzero(contact.pressure > 0)), contact.gap.size
-    most, overstated = overstated_cells(contact, scaled.spacing, periodic)
-    return _Solution(
-        status=Status.CONVERGED,
-        residual=contact.residuals.worst,
-        convolutions=convolutions,
-        resolved=cells >= RESOLVED_FROM,
-        depth=contact.depth * scaled.height,
-        force=contact.force * scaled.force,
-        stiffness=tangent.stiffness * scaled.force / scaled.height,
-        area_fraction=cells / nodes,
-        area_fraction_corrected=cells / nodes - overstated / nodes,
-        area_fraction_most=(cells + most - overstated) / nodes,
-        border_share=border_share(contact),
-        fields=_fields(contact, scaled) if with_fields else None,
+    with_fields: Set[int],
+) -> Iterator[Solution]:
+    """Solve the contact under each load in turn."""
+    scaled = ScaledSurface.of(surface, E_star, loads)
+    half_space = HalfSpace(E_star, periodic).scaled(scaled.E_star, scaled.length)
+    problem = _problem(half_space, scaled, surface.rms_height, hardness)
+    unit = scaled.force if loads.control == "forces" else scaled.height
+    path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
+    for i, (contact, response) in enumerate(solve_path(problem, path, method)):
+        yield Solution.of(
+            contact, response, scaled, hardness, periodic=periodic, with_fields=i in with_fields
+        )
+        del contact, response  # so that the next load finds their memory free
+
+
+def _problem(
+    half_space: HalfSpace, scaled: ScaledSurface, rms_height: float, hardness: float | None
+) -> Problem:
+    """Return the untouched bodies, in the units of `scaled`."""
+    operator = half_space.operator(scaled.separation.shape, scaled.spacing)
+    conditions: ContactConditions = UnilateralContact()
+    if hardness is not None:
+        conditions = YieldingContact(hardness / scaled.pressure)
+    return Problem.of(
+        half_space, operator, scaled.separation, rms_height / scaled.height, conditions
     )
 
 
@@ -161,18 +125,19 @@ def _curve(
     E_star: float,
     loads: Loads,
     method: Method,
+    solutions: Sequence[Solution],
+    hardness: float | None,
     periodic: bool,
-    solutions: Sequence[_Solution],
 ) -> Curve:
     """Put the solutions of all loads together, without fields."""
-    columns = _columns(solutions)
+    values = columns(solutions)
     # what was prescribed is given back as it came; the residual holds what the pressures miss of it
-    prescribed = columns[loads.control.removesuffix("s")]
-    np.copyto(prescribed, loads.values, where=columns["status"] == Status.CONVERGED)
+    prescribed = values[loads.control.removesuffix("s")]
+    np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
     shares = np.array([solution.border_share for solution in solutions])
-    at_the_border = () if periodic else border_warnings(surface, columns["force"], shares)
+    at_the_border = () if periodic else border_warnings(surface, values["force"], shares)
     return Curve(
-        **columns,
+        **values,
         E_star=E_star,
         rms_height=surface.rms_height,
         length=surface.length,
@@ -185,81 +150,10 @@ def _curve(
             "rtol": method.rtol,
             "max_iterations": method.max_iterations,
             "precision": method.precision,
+            **({} if hardness is None else {"hardness": hardness}),
             **surface.settings_as_body(),
         },
         warnings=(*tilt_warnings(surface), *at_the_border),
-    )
-
-
-def _columns(solutions: Sequence[_Solution]) -> dict[str, Any]:
-    """Return each quantity of the solutions as an array over the loads, by its name."""
-    return {
-        each.name: np.array(
-            [getattr(solution, each.name) for solution in solutions], QUANTITIES[each.name].dtype
-        )
-        for each in dataclasses.fields(_Solution)
-        if each.name in QUANTITIES
-    }
-
-
-@dataclass(frozen=True, eq=False)
-class _Scaled:
-    """A surface in units in which E* is 1, a cell has unit area and the roughness unit rms.
-
-    The problem is solved in these, so that no scale is too small or too large for it.
-
-    Attributes
-    ----------
-    height, length : float
-        Units of lengths across and along the surface. [length]
-    E_star : float
-        Unit of pressures where both lengths are equal. [pressure]
-    separation : ndarray, shape (nx, ny)
-        Distance of the bodies at first touch over `height`. [1]
-    spacing : tuple of float
-        Sides of a cell over `length`. [1]
-    """
-
-    height: float
-    length: float
-    E_star: float
-    separation: Real
-    spacing: tuple[float, float]
-
-    @classmethod
-    def of(cls, surface: Surface, E_star: float, loads: Loads) -> _Scaled:
-        """Choose the units."""
-        height = surface.rms_height
-        if height == 0:  # a flat punch: its depth, or about so, is the only height there is
-            height = float(loads.values[-1])
-            if loads.control == "forces":
-                height /= E_star * surface.length
-        dx, dy = surface.spacing
-        length = float(np.sqrt(dx) * np.sqrt(dy))
-        separation = np.subtract(surface.heights.max(), surface.heights, order="C")
-        separation /= height
-        return cls(height, length, E_star, separation, (dx / length, dy / length))
-
-    @property
-    def force(self) -> float:
-        """Unit of forces. [force]"""
-        return self.E_star * self.height * self.length
-
-    @property
-    def pressure(self) -> float:
-        """Unit of pressures. [pressure]"""
-        return self.E_star * self.height / self.length
-
-
-def _fields(contact: Contact, scaled: _Scaled) -> Fields:
-    pressure = np.zeros(contact.gap.shape)
-    pressure.flat[contact.nodes] = contact.pressure * scaled.pressure
-    displacement = contact.gap - contact.separation
-    displacement += contact.depth
-    displacement *= scaled.height
-    return Fields(
-        pressure=pressure,
-        displacement=displacement,
-        gap=contact.gap * scaled.height,
-        contact=pressure > 0,
+        surface=surface,
+        dents=() if hardness is None else tuple(solution.dents for solution in solutions),
     )

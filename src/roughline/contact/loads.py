@@ -21,6 +21,7 @@ _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fra
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
 _SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
+_HARDEST = 0.5  # of the force under which all of the area yields
 _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few points touch early
 
 
@@ -33,7 +34,8 @@ class Loads:
     control : {"depths", "forces"}
         What is prescribed.
     values : ndarray, shape (loads,)
-        Rising and positive. [length] or [force]
+        In the order in which they are applied; not negative, the first one positive.
+        [length] or [force]
     """
 
     control: Control
@@ -69,11 +71,19 @@ def line_loads(line: Line, springs: Springs, given: GivenLoads) -> Loads:
 
 
 def surface_loads(
-    surface: Surface, E_star: float, given: GivenLoads, periodic: bool, rtol: float, *, single: bool
+    surface: Surface,
+    E_star: float,
+    given: GivenLoads,
+    periodic: bool,
+    rtol: float,
+    *,
+    single: bool,
+    hardness: float | None,
 ) -> Loads:
     """Return the loads of a surface; spaced ones run from about ten cells to saturation.
 
-    Loads are refused for which a gap cannot be told to `rtol`, in `single` precision or in double.
+    Loads are refused for which a gap cannot be told to `rtol`, in `single` precision or in double,
+    and those that a body of this `hardness` does not bear.
     """
     if single and rtol < _GAP_ROUNDING_SINGLE:
         raise InputError(
@@ -82,8 +92,10 @@ def surface_loads(
         )
     if given.n_loads is None:
         loads = _checked_loads(given)
-        if periodic and loads.control == "depths":
-            _refuse_beyond_full_contact(surface, loads.values[-1])
+        if hardness is not None and loads.control == "forces":
+            _refuse_beyond_hardness(surface, loads, hardness)
+        elif hardness is None and periodic and loads.control == "depths":
+            _refuse_beyond_full_contact(surface, float(loads.values.max()))
         _refuse_beyond_precision(surface, E_star, loads, rtol, single)
         return loads
     _refuse_constant(surface, given)
@@ -92,6 +104,8 @@ def surface_loads(
         highest = E_star * surface.rms_slope * surface.area
     else:
         highest = _SATURATED_FORCE_BAR * E_star * surface.rms_height * surface.length
+    if hardness is not None:
+        highest = min(highest, _HARDEST * hardness * surface.area)
     separation = np.sort(surface.heights.max() - surface.heights, axis=None)
     few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
     lowest = highest
@@ -116,28 +130,18 @@ def _checked_loads(given: GivenLoads) -> Loads:
         raise InputError(f"{control} are not numbers ({error})") from error
     if values.ndim != 1 or values.size == 0:
         raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")
+    before_touch = np.maximum.accumulate(np.nan_to_num(values)) <= 0
     for wrong, what in (
         (~np.isfinite(values), "not finite"),
         (values < 0, "negative: compression counts positive"),
-        (values == 0, "zero: it touches nothing"),
+        ((values == 0) & before_touch, "zero: it touches nothing"),
     ):
         if wrong.any():
             raise InputError(
-                f"{control}[{wrong.argmax()}] is {values[wrong][0]}, {what}; give positive, "
-                "rising numbers"
+                f"{control}[{wrong.argmax()}] is {values[wrong][0]}, {what}; give positive "
+                "numbers, and zero only to unload"
             )
-    _refuse_falling(control, values)
     return Loads(control, values)
-
-
-def _refuse_falling(control: Control, values: Real) -> None:
-    falling = np.diff(values) <= 0
-    if falling.any():
-        i = int(falling.argmax())
-        raise InputError(
-            f"{control}[{i + 1}] = {values[i + 1]:g} does not exceed {control}[{i}] = "
-            f"{values[i]:g}; sort them and give each once"
-        )
 
 
 def _spaced_loads(given: GivenLoads, lowest: float, highest: float) -> Loads:
@@ -167,6 +171,16 @@ def _refuse_beyond_full_contact(surface: Surface, depth: float) -> None:
         )
 
 
+def _refuse_beyond_hardness(surface: Surface, loads: Loads, hardness: float) -> None:
+    most, largest = hardness * surface.area, int(loads.values.argmax())
+    if not loads.values[largest] < most:
+        raise InputError(
+            f"forces[{largest}] is {loads.values[largest]:g}; a body of hardness {hardness:g} and "
+            f"nominal area {surface.area:g} bears less than H A_0 = {most:g}: give smaller forces, "
+            "or a larger hardness"
+        )
+
+
 def _refuse_beyond_precision(
     surface: Surface, E_star: float, loads: Loads, rtol: float, single: bool
 ) -> None:
@@ -179,15 +193,16 @@ def _refuse_beyond_precision(
         unit *= E_star * surface.length
         name = "E* h L"
     reach = loads.values / unit
+    most, least = int(reach.argmax()), int(np.where(reach > 0, reach, np.inf).argmin())
     rounding = _GAP_ROUNDING_SINGLE if single else _GAP_ROUNDING
-    if reach[-1] * rounding > rtol:
+    if reach[most] * rounding > rtol:
         raise InputError(
-            f"{loads.control}[{reach.size - 1}] is {reach[-1]:.1g} {name}: so deep, "
+            f"{loads.control}[{most}] is {reach[most]:.1g} {name}: so deep, "
             f"{'single' if single else 'double'} precision cannot tell gaps to rtol = {rtol:g}; "
             f"give at most {rtol / rounding:.0g} {name}, or a larger rtol"
         )
-    if reach[0] < _SMALLEST_REACH:
+    if reach[least] < _SMALLEST_REACH:
         raise InputError(
-            f"{loads.control}[0] is {reach[0]:.1g} {name}, too small to be told from none; give "
-            f"at least {_SMALLEST_REACH:g} {name}"
+            f"{loads.control}[{least}] is {reach[least]:.1g} {name}, too small to be told from "
+            f"none; give at least {_SMALLEST_REACH:g} {name}"
         )

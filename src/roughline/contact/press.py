@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -22,6 +23,7 @@ def press(
     body: Body,
     *,
     E_star: float,
+    hardness: float | None = None,
     depths: ArrayLike | None = None,
     forces: ArrayLike | None = None,
     n_loads: int | None = None,
@@ -46,22 +48,27 @@ def press(
         The rough body. [length]
     E_star : float
         Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [pressure]
+    hardness : float, optional
+        The most that a point bears, the indentation hardness of the softer body; what goes beyond
+        indents the surface for good. Default, and infinite: both bodies are elastic. [pressure]
     depths, forces : array_like, shape (loads,), optional
-        Rising, positive depths since first touch [length] or total forces [force].
+        Depths since first touch of the untouched surface [length] or total forces [force]. They may
+        rise and fall: each load finds the surface as the last one left it. Elastic bodies forget,
+        so there the order does not matter. A zero after other loads unloads.
     n_loads : int, optional
         Number of forces, log-spaced from about ten springs or cells in contact to saturation.
     periodic : bool, optional
         Repeat the surface periodically. Depths then count the approach of the mean planes, k is
         the stiffness of the interface alone and is infinite in full contact.
     fields : bool or sequence of int, optional
-        Keep pressure, displacement, gap and contact of every load, or of loads with these numbers
-        (from 0).
+        Keep pressure, displacement, gap, contact, plastic points and indentation of every load,
+        or of loads with these numbers (from 0).
     grid_error : bool, optional
         Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
     rtol : float, optional
         Bound on every residual of what is returned: gap on contact and overlap off it over the
         rms height (or over the depth, where that is smaller), tension over the mean contact
-        pressure, error of the force over the force.
+        pressure, as a pressure above the hardness is, error of the force over the force.
     max_iterations : int, optional
         Bound on the convolutions of one load.
     precision : {"mixed", "float64", "float32"}, optional
@@ -76,12 +83,13 @@ def press(
     Returns
     -------
     Curve
-        Depth, force, exact stiffness and real contact area for each load.
+        Depth, force, exact stiffness on loading and on unloading, and real contact area for each
+        load; with a hardness also how much yields, the indentation and the work.
 
     Raises
     ------
     InputError
-        If the body, the modulus or the loads cannot be used.
+        If the body, the modulus, the hardness or the loads cannot be used.
     ConvergenceError
         With `throw`, if a load was not solved; it carries the curve.
     Interrupted
@@ -89,6 +97,9 @@ def press(
         of the loads before.
     """
     _check_number("E_star", E_star, 0, np.inf, "a positive, finite contact modulus")
+    if hardness is not None:
+        _check_hardness(hardness, body)
+        hardness = None if hardness == np.inf else float(hardness)
     _check_number("rtol", rtol, 1e-12, 1e-1, "a tolerance from 1e-12 to 0.1")
     _check_number("max_iterations", max_iterations, 0, np.inf, "a positive number")
     if precision not in ("mixed", "float64", "float32"):
@@ -115,10 +126,11 @@ def press(
         periodic,
         rtol,
         single=precision == "float32",
+        hardness=hardness,
     )
     kept = _kept_loads(fields, loads.values.size)
     refuse_beyond_memory(
-        memory_for(body.shape, periodic, len(kept)),
+        memory_for(body.shape, periodic, len(kept), yielding=hardness is not None),
         f"pressing {body.shape[0]} x {body.shape[1]} points"
         + (f" and keeping the fields of {len(kept)} loads" if kept else ""),
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
@@ -130,23 +142,19 @@ def press(
     from roughline.halfspace.state import Method
 
     method = Method(rtol, int(max_iterations), precision)
-    curve = press_surface(
-        body, E_star, loads, method, periodic=periodic, kept=kept, progress=progress
+    pressed = partial(
+        press_surface,
+        E_star=E_star,
+        loads=loads,
+        method=method,
+        periodic=periodic,
+        hardness=hardness,
     )
+    curve = pressed(body, kept=kept, progress=progress)
     if grid_error:
         try:
             curve = with_grid_error(
-                curve,
-                body,
-                lambda coarse: press_surface(
-                    coarse,
-                    E_star,
-                    loads,
-                    method,
-                    periodic=periodic,
-                    kept=frozenset(),
-                    progress=None,
-                ),
+                curve, body, lambda coarse: pressed(coarse, kept=frozenset(), progress=None)
             )
         except KeyboardInterrupt:
             raise Interrupted(curve) from None
@@ -173,6 +181,23 @@ def _check_number(name: str, value: float, low: float, high: float, allowed: str
         usable = False
     if not usable:
         raise InputError(f"{name} is {value!r}; {allowed} is needed")
+
+
+def _check_hardness(hardness: float, body: Body) -> None:
+    try:
+        usable = hardness > 0
+    except TypeError:
+        usable = False
+    if not usable:
+        raise InputError(
+            f"hardness is {hardness!r}; a positive pressure is needed, or none for elastic bodies"
+        )
+    if isinstance(body, Line) and hardness < np.inf:
+        raise InputError(
+            "hardness belongs to the full model; the reduced model of a Line has no yield: leave "
+            "it out, and trust the line only while mean contact pressures stay below some 0.4 of "
+            "the hardness (rms slopes below 0.8 H / E*), or press a Surface"
+        )
 
 
 def _failure_message(curve: Curve) -> str:

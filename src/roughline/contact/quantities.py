@@ -7,110 +7,17 @@ read what is declared here.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import partial
 from operator import attrgetter
 from types import MappingProxyType
 
+from roughline.contact.quantity import ON_THE_GRID, OVER_LOADS, Quantity
+
 RESOLVED_FROM = 10
 """Springs or cells in contact from which on a stiffness is physics rather than grid."""
 
-OVER_LOADS = ("load",)
-ON_THE_GRID = ("load", "x", "y")
-
-_SI = {"length": "m", "force": "N", "pressure": "Pa", "1": "1"}
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """One output quantity.
-
-    Attributes
-    ----------
-    name : str
-        Name of the attribute of a curve, and of the variable in files.
-    symbol : str
-        What formulas call it, in LaTeX; empty where they do not name it.
-    dimension : str or None
-        Its unit in any coherent units: "1", "length", "force", "pressure" or a quotient of two of
-        them; None for a flag, which has no unit.
-    meaning : str
-        What it is, for the glossary.
-    long_name : str
-        What it is in a few words, for the attributes of files; empty where they do without.
-    column : int or None
-        Its place among the variables of a file; None for what files do not hold. Tables are read
-        by position too, so a new quantity takes the next number.
-    dims : tuple of str
-        What it extends over: the loads, or the loads and the grid.
-    dtype : str
-        NumPy's name of the type of its values.
-    of_lines : bool
-        Whether the reduced model gives it.
-
-    Raises
-    ------
-    ValueError
-        If the dimension is not known.
-    """
-
-    name: str
-    symbol: str
-    dimension: str | None
-    meaning: str
-    long_name: str = ""
-    column: int | None = None
-    dims: tuple[str, ...] = OVER_LOADS
-    dtype: str = "f8"
-    of_lines: bool = True
-
-    def __post_init__(self) -> None:
-        self.unit_in("m")
-
-    def unit_in(self, length_unit: str | None) -> str | None:
-        """Return the unit where lengths have this one; None for a flag.
-
-        Parameters
-        ----------
-        length_unit : str or None
-            Unit of lengths; "m" gives SI units, None the dimension itself.
-        """
-        return None if self.dimension is None else unit_of(self.dimension, length_unit)
-
-    def attributes(self, length_unit: str | None) -> dict[str, str]:
-        """Return what files say of it: ``units`` and ``long_name``, as far as it has them."""
-        unit = self.unit_in(length_unit)
-        attributes = {} if unit is None else {"units": unit}
-        return attributes | ({"long_name": self.long_name} if self.long_name else {})
-
-
-def unit_of(dimension: str, length_unit: str | None) -> str:
-    """Return the unit of a dimension where lengths have a given unit.
-
-    Parameters
-    ----------
-    dimension : str
-        "1", "length", "force", "pressure" or a quotient of two of them.
-    length_unit : str or None
-        Unit of lengths; "m" gives SI units, None the dimension itself. Of any other unit, forces
-        are not known.
-
-    Raises
-    ------
-    ValueError
-        If the dimension is not one of these.
-    """
-    parts = dimension.split("/")
-    for part in parts:
-        if part not in _SI:
-            raise ValueError(f"dimension is {dimension!r}; known are {', '.join(_SI)}")
-    if length_unit == "m":
-        return "/".join(_SI[part] for part in parts)
-    lengths = {"length": length_unit or "length"}
-    return "/".join(lengths.get(part, part) for part in parts)
-
-
 _of_surfaces = partial(Quantity, of_lines=False)
+_of_yielding = partial(Quantity, of_lines=False, of_yielding=True)
 _on_the_grid = partial(Quantity, of_lines=False, dims=ON_THE_GRID)
 
 _DECLARED = (
@@ -137,6 +44,14 @@ _DECLARED = (
         "contact stiffness, the exact $dF/dd$",
         long_name="normal contact stiffness dF/dd",
         column=2,
+    ),
+    _of_yielding(
+        "unloading_stiffness",
+        "k_u",
+        "force/length",
+        "stiffness on unloading, when all of the contact springs back",
+        long_name="contact stiffness on unloading",
+        column=15,
     ),
     _of_surfaces(
         "area_fraction",
@@ -170,6 +85,38 @@ _DECLARED = (
         "estimated discretisation error of `area_fraction_corrected`",
         long_name="discretisation error of area_fraction_corrected",
         column=10,
+    ),
+    _of_yielding(
+        "plastic_fraction",
+        "",
+        "1",
+        "share of the contact that is at the hardness",
+        long_name="share of the contact at the hardness",
+        column=16,
+    ),
+    _of_yielding(
+        "indentation",
+        "",
+        "length",
+        "largest permanent indentation so far",
+        long_name="largest permanent indentation",
+        column=17,
+    ),
+    _of_yielding(
+        "work",
+        "W",
+        "energy",
+        "what the load has done since first touch, less what unloading gave back",
+        long_name="work done by the load",
+        column=18,
+    ),
+    _of_yielding(
+        "dissipated_work",
+        "",
+        "energy",
+        "what of the work the indentations took",
+        long_name="work dissipated by indentation",
+        column=19,
     ),
     Quantity(
         "residual",
@@ -217,6 +164,24 @@ _DECLARED = (
     ),
     _on_the_grid("gap", "g", "length", "distance of the two bodies", column=13),
     _on_the_grid("contact", "", "1", "1 where the bodies touch, else 0", column=14, dtype="?"),
+    _on_the_grid(
+        "plastic",
+        "",
+        "1",
+        "1 where the pressure is at the hardness, else 0",
+        column=20,
+        dtype="?",
+        of_yielding=True,
+    ),
+    _on_the_grid(
+        "indentation_field",
+        "",
+        "length",
+        "how much lower the surface is for good than it was untouched",
+        column=21,
+        of_yielding=True,
+        attribute="indentation",
+    ),
 )
 
 QUANTITIES: Mapping[str, Quantity] = MappingProxyType({each.name: each for each in _DECLARED})

@@ -6,8 +6,9 @@ Each round has four steps.
 2. The search ends where the residuals are within the tolerance, or where they fall no more.
 3. Conjugate gradients lead the pressures towards those that close the gap on the trial nodes,
    until what is wrong with the set of nodes outweighs what is wrong with the pressures [3]_.
-4. Nodes that pull are dropped and nodes that overlap are added, both chosen from the same
-   pressures [1]_.
+4. Nodes that pull are dropped and nodes that overlap are added, all chosen from the same
+   pressures [1]_. Where the bodies yield, nodes above the hardness are set to it, and nodes at it
+   that come apart are elastic again.
 
 Polonsky and Keer's method [2]_ corrects the set after every step of conjugate gradients; here as
 many steps are done as pay. The residuals of what is returned are recomputed from it, in double
@@ -29,7 +30,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.exchange import ExchangeRule, watched_nodes
+from roughline.halfspace.exchange import ExchangeRule, able_to_carry, watched_nodes
 from roughline.halfspace.relaxation import relaxed
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.stopping import StoppingRule
@@ -46,7 +47,7 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
     load : Load
         What is prescribed.
     start : ContactSet
-        Where to start from: one node or more, with pressures of which none is negative.
+        Where to start from, with pressures of which none is negative.
     method : Method
         Tolerance, bound on the convolutions and precision.
     """
@@ -55,6 +56,8 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
     convolutions = 0
     while True:
         # 1. The gap that the pressures leave, and the residuals.
+        near = gap if convolutions and contact_set.nodes.size else problem.separation
+        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), near)
         trial = Trial.of(
             problem, load, contact_set, stopping.residuals, gap, rescale=not convolutions
         )
@@ -87,7 +90,5 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         convolutions += relaxation.steps
         stopping.choose_precision(relaxation, trial.length_scale)
         # 4. The exchange of wrong nodes.
-        contact_set = exchange.applied(
-            contact_set, watched, relaxation.violations, problem.separation
-        )
+        contact_set = exchange.applied(problem, contact_set, watched, relaxation.violations)
         del trial, relaxation, watched  # the next gap needs their memory

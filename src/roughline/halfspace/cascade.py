@@ -14,7 +14,7 @@ _COARSEST = 256  # points along the longer side of the grid that starts from the
 _ROUGH = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
-def first_guess(problem: Problem, load: Load) -> ContactSet:
+def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     """Guess which nodes come into contact, and the pressures on them.
 
     The coarse grid sees the mean separation of two by two nodes. Its pressures, the same on all
@@ -26,13 +26,20 @@ def first_guess(problem: Problem, load: Load) -> ContactSet:
         The body and the half-space.
     load : Load
         What is prescribed.
+
+    Returns
+    -------
+    start : ContactSet
+        The nodes, and pressures on them up to a factor.
+    pressure : float
+        Largest pressure on the next coarser grid; zero if none was solved. [pressure]
     """
     operator, separation = problem.operator, problem.separation
     if max(separation.shape) <= _COARSEST:
-        return _rigid_guess(problem, load)
+        return _rigid_guess(problem, load), 0.0
     coarse_separation = _halved(separation)
     if load.depth is not None and load.depth <= coarse_separation.min():
-        return _rigid_guess(problem, load)
+        return _rigid_guess(problem, load), 0.0
     coarse = Problem.of(
         problem.half_space,
         problem.half_space.coarser_operator(operator),
@@ -40,7 +47,8 @@ def first_guess(problem: Problem, load: Load) -> ContactSet:
         problem.rms_height,
         problem.conditions,
     )
-    contact = solve(coarse, load, first_guess(coarse, load), _ROUGH)
+    contact = solve(coarse, load, first_guess(coarse, load)[0], _ROUGH)
+    largest = float(contact.pressure.max())
     pressure = np.zeros(coarse_separation.shape)
     pressure.flat[contact.nodes] = contact.pressure
     for axis, n in enumerate(separation.shape):
@@ -58,8 +66,8 @@ def first_guess(problem: Problem, load: Load) -> ContactSet:
     pressure = problem.conditions.projected(pressure)
     nodes = np.flatnonzero(pressure > 0)
     if nodes.size:
-        return ContactSet(nodes, pressure.flat[nodes])
-    return ContactSet(loaded, np.ones(loaded.size))
+        return ContactSet(nodes, pressure.flat[nodes]), largest
+    return ContactSet(loaded, np.ones(loaded.size)), largest
 
 
 def _halved(field: Real) -> Real:
@@ -92,5 +100,7 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
         depths = load.force / stiffness + np.cumsum(separations) / count
         reached = depths <= np.append(separations[1:], np.inf)
         depth = float(depths[reached.argmax()])
+        needed = min(problem.fewest_nodes(load), separations.size)
+        depth = max(depth, float(separations[needed - 1]))
     nodes = np.flatnonzero(separation < depth)
     return ContactSet(nodes, depth - separation.flat[nodes])

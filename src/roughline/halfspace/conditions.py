@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -17,8 +19,8 @@ class Residuals:
     ----------
     gap, penetration : float
         Largest gap on contact nodes and overlap off them, over the length scale.
-    tension : float
-        Largest pull, over the mean contact pressure.
+    tension, excess : float
+        Largest pull, and largest pressure above the hardness, over the mean contact pressure.
     load : float
         Error of the force, over the force; zero under depth control.
     """
@@ -26,116 +28,252 @@ class Residuals:
     gap: float
     penetration: float
     tension: float
+    excess: float
     load: float
 
     @property
     def worst(self) -> float:
-        """The largest of the four."""
-        return max(self.gap, self.penetration, self.tension, self.load)
+        """The largest of them."""
+        return max(self.gap, self.penetration, self.tension, self.excess, self.load)
 
 
 @dataclass(frozen=True, eq=False)
 class Violations:
-    """Nodes that are on the wrong side of the contact set.
+    """Nodes that are on the wrong side of a set: of the contact, or of the nodes at the hardness.
 
     Attributes
     ----------
-    pulling : ndarray of bool, shape (nodes,)
-        Nodes in contact on which the pressure is negative.
-    pull : ndarray
-        Pressures on them. [pressure]
+    pulling, yielding : ndarray of bool, shape (nodes,)
+        Elastic nodes in contact whose pressure is negative, or above the hardness.
+    lifting : ndarray of bool, shape (nodes,)
+        Nodes at the hardness at which the bodies come apart.
     overlapping : ndarray of bool, shape (watched,)
         Nodes off the contact at which the bodies overlap.
-    overlap : ndarray
-        Gaps there. [length]
+    pull, excess : ndarray
+        How far the pressures of the first two leave their bounds. [pressure]
+    lift, overlap : ndarray
+        Gaps at the last two. [length]
     """
 
     pulling: Mask
-    pull: Real
+    yielding: Mask
+    lifting: Mask
     overlapping: Mask
+    pull: Real
+    excess: Real
+    lift: Real
     overlap: Real
 
     @property
     def count(self) -> int:
         """Number of wrong nodes."""
-        return self.pull.size + self.overlap.size
+        return self.pull.size + self.excess.size + self.lift.size + self.overlap.size
 
     def squared(self, diagonal: float) -> float:
         """Sum of the squared violations. [length²]
 
-        A pull counts as the displacement that it causes at its own node, by the diagonal of the
-        operator. [length / pressure]
+        A pressure out of its bounds counts as the displacement that it causes at its own node, by
+        the diagonal of the operator. [length / pressure]
         """
-        pull = diagonal * self.pull
-        return float(pull @ pull + self.overlap @ self.overlap)
+        pull, excess = diagonal * self.pull, diagonal * self.excess
+        return float(
+            pull @ pull + excess @ excess + self.lift @ self.lift + self.overlap @ self.overlap
+        )
+
+
+class ContactConditions(Protocol):
+    """What pressures and gaps obey.
+
+    All that the solver knows of the conditions is here, so that bodies with other conditions need
+    another such class and not another solver.
+    """
+
+    @property
+    def largest_pressure(self) -> float:
+        """The most that a node bears. [pressure]"""
+
+    def elastic(self, pressure: Real) -> Mask:
+        """Return which nodes in contact are displaced with the other body.
+
+        Their pressures follow a change of the load.
+        """
+
+    def projected(self, pressure: Real) -> Real:
+        """Return the nearest pressures that the conditions allow."""
+
+    def with_total(self, pressure: Real, total: float) -> Real:
+        """Return pressures of a given sum, scaled as far as they are not bounded. [pressure]"""
 
 
 @dataclass(frozen=True)
 class UnilateralContact:
-    """Bodies that neither stick to each other nor overlap: p >= 0, gap >= 0 and p gap = 0.
+    """Bodies that neither stick to each other nor overlap: p >= 0, gap >= 0 and p gap = 0."""
 
-    All that the solver knows of the conditions is here, so that bodies with other conditions, such
-    as a largest pressure that they bear, need another such class and not another solver.
-    """
+    @property
+    def largest_pressure(self) -> float:
+        """Elastic bodies bear any pressure."""
+        return math.inf
+
+    def elastic(self, pressure: Real) -> Mask:
+        """Return that every node in contact follows a change of the load."""
+        return np.ones(pressure.size, dtype=bool)
 
     def projected(self, pressure: Real) -> Real:
-        """Return the nearest pressures that the conditions allow."""
+        """Return the nearest pressures that do not pull."""
         return np.maximum(pressure, 0.0)
 
-    def elastic(self, pressure: Real) -> Mask | slice:
-        """Return which nodes in contact are displaced with the other body: here all of them.
+    def with_total(self, pressure: Real, total: float) -> Real:
+        """Scale the pressures to a total; spread it evenly where there is nothing to scale."""
+        now = float(pressure.sum())
+        if now > 0:
+            return pressure * (total / now)
+        return np.full_like(pressure, total / pressure.size)
 
-        Their pressures follow a change of the load.
+
+@dataclass(frozen=True)
+class YieldingContact:
+    """Elastic, perfectly plastic bodies: 0 <= p <= H, where p = H dents the surface for good [1]_.
+
+    Where p = 0 the gap is not negative, and where 0 < p < H it is zero. Where p = H the bodies
+    overlap by what the load indents, and the surface is lower by that ever after. A node is at the
+    hardness if its pressure is H exactly.
+
+    Attributes
+    ----------
+    hardness : float
+        The most that a node bears, H. [pressure]
+
+    References
+    ----------
+    .. [1] A. Almqvist, F. Sahlin, R. Larsson and S. Glavatskih, "On the dry elasto-plastic contact
+       of nominally flat surfaces", Tribol. Int. 40, 574-579 (2007).
+    """
+
+    hardness: float
+
+    @property
+    def largest_pressure(self) -> float:
+        """The hardness."""
+        return self.hardness
+
+    def elastic(self, pressure: Real) -> Mask:
+        """Return which nodes are below the hardness; those at it bear no more."""
+        return pressure < self.hardness
+
+    def projected(self, pressure: Real) -> Real:
+        """Return the nearest pressures from zero to the hardness."""
+        return np.clip(pressure, 0.0, self.hardness)
+
+    def with_total(self, pressure: Real, total: float) -> Real:
+        """Scale the pressures below the hardness to what is missing of a total.
+
+        Those that reach the hardness stay there, and the others are scaled again. Where the nodes
+        at the hardness alone would carry too much, all are scaled down.
         """
-        return slice(None)
+        pressure = np.minimum(pressure, self.hardness)
+        while True:
+            elastic = pressure < self.hardness
+            count = int(np.count_nonzero(elastic))
+            rest = total - self.hardness * (pressure.size - count)
+            if rest < 0:
+                return pressure * (total / float(pressure.sum()))
+            if not count:
+                return pressure
+            scaled = UnilateralContact().with_total(pressure[elastic], rest)
+            pressure[elastic] = np.minimum(scaled, self.hardness)
+            if not (scaled > self.hardness).any():
+                return pressure
 
-    def largest_pull(self, pressure: Real) -> float:
-        """Return how far the pressures leave their bounds, at most. [pressure]"""
-        return max(0.0, -float(pressure.min()))
 
-    def violations(self, pressure: Real, watched: Real, depth: float) -> Violations:
-        """Find the nodes that are on the wrong side of the contact set.
+def violations(
+    conditions: ContactConditions,
+    elastic: Mask,
+    pressure: Real,
+    watched: Real,
+    held: Real,
+    depth: float,
+    slack: float,
+) -> Violations:
+    """Find the nodes that are on the wrong side of a set.
 
-        Parameters
-        ----------
-        pressure : ndarray, shape (nodes,)
-            Pressures on the nodes in contact. [pressure]
-        watched : ndarray, shape (watched,)
-            Gap plus depth at the watched nodes off the contact. [length]
-        depth : float
-            Approach since first touch. [length]
-        """
-        pulling = pressure < 0
-        overlapping = watched < depth
-        return Violations(pulling, pressure[pulling], overlapping, watched[overlapping] - depth)
+    Parameters
+    ----------
+    conditions : ContactConditions
+        What pressures and gaps obey.
+    elastic : ndarray of bool, shape (nodes,)
+        Which nodes in contact are elastic.
+    pressure : ndarray, shape (elastic nodes,)
+        Pressures on these. [pressure]
+    watched : ndarray, shape (watched,)
+        Gap plus depth at the watched nodes off the contact. [length]
+    held : ndarray, shape (nodes that are not elastic,)
+        Gap plus depth at the nodes at the hardness, negative gaps being overlaps. [length]
+    depth : float
+        Approach since first touch. [length]
+    slack : float
+        Gap up to which a node stays at the hardness. [length]
+    """
+    most = conditions.largest_pressure
+    negative, over, overlapping = pressure < 0, pressure > most, watched < depth
+    apart = held > depth + slack
+    pulling, yielding, lifting = np.zeros((3, elastic.size), dtype=bool)
+    pulling[elastic], yielding[elastic], lifting[~elastic] = negative, over, apart
+    return Violations(
+        pulling,
+        yielding,
+        lifting,
+        overlapping,
+        pull=pressure[negative],
+        excess=pressure[over] - most,
+        lift=held[apart] - depth,
+        overlap=watched[overlapping] - depth,
+    )
 
-    def residuals(
-        self, gap: Real, nodes: Indices, pressure: Real, length_scale: float, load_error: float
-    ) -> Residuals:
-        """Compute the residuals of a contact.
 
-        Parameters
-        ----------
-        gap : ndarray, shape (nx, ny)
-            On the whole grid. [length]
-        nodes : ndarray of int
-            Nodes in contact.
-        pressure : ndarray, shape (nodes,)
-            Pressures on them. [pressure]
-        length_scale : float
-            Gaps are compared with this. [length]
-        load_error : float
-            Error of the force, over the force.
-        """
-        on_contact = gap.flat[nodes]
-        # gaps on contact count as such whatever their sign, so they may stay in the minimum
-        overlap_everywhere = max(0.0, -float(gap.min()))
-        overlap_on_contact = max(0.0, -float(on_contact.min()))
-        penetration = overlap_everywhere if overlap_everywhere > overlap_on_contact else 0.0
-        pull = self.largest_pull(pressure)
-        return Residuals(
-            gap=float(np.abs(on_contact).max()) / length_scale,
-            penetration=penetration / length_scale,
-            tension=pull / abs(float(pressure.mean())) if pull else 0.0,
-            load=load_error,
-        )
+def out_of_bounds(conditions: ContactConditions, pressure: Real) -> tuple[float, float]:
+    """Return the largest pull, and the largest pressure above the hardness. [pressure]"""
+    if not pressure.size:
+        return 0.0, 0.0
+    over = float(pressure.max()) - conditions.largest_pressure
+    return max(0.0, -float(pressure.min())), max(0.0, over)
+
+
+def residuals(
+    conditions: ContactConditions,
+    gap: Real,
+    nodes: Indices,
+    pressure: Real,
+    length_scale: float,
+    load_error: float,
+) -> Residuals:
+    """Compute the residuals of a contact.
+
+    Parameters
+    ----------
+    conditions : ContactConditions
+        What pressures and gaps obey.
+    gap : ndarray, shape (nx, ny)
+        On the whole grid, on the surface as it is indented. [length]
+    nodes : ndarray of int
+        Nodes in contact.
+    pressure : ndarray, shape (nodes,)
+        Pressures on them. [pressure]
+    length_scale : float
+        Gaps are compared with this. [length]
+    load_error : float
+        Error of the force, over the force.
+    """
+    on_contact = gap.flat[nodes]
+    # gaps on contact count as such whatever their sign, so they may stay in the minimum
+    overlap_everywhere = max(0.0, -float(gap.min()))
+    overlap_on_contact = max(0.0, -float(on_contact.min()))
+    penetration = overlap_everywhere if overlap_everywhere > overlap_on_contact else 0.0
+    pull, excess = out_of_bounds(conditions, pressure)
+    scale = abs(float(pressure.mean()))
+    return Residuals(
+        gap=float(np.abs(on_contact).max()) / length_scale,
+        penetration=penetration / length_scale,
+        tension=pull / scale if pull else 0.0,
+        excess=excess / scale if excess else 0.0,
+        load=load_error,
+    )

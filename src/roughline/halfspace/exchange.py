@@ -8,11 +8,14 @@ References
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.conditions import Violations
 from roughline.halfspace.contact_set import ContactSet
+from roughline.halfspace.state import Problem
 
 # After more rounds than this without a new minimum of wrong nodes, the equations are solved to the
 # tolerance before nodes are exchanged. After twice as many, nodes are exchanged one by one.
@@ -54,50 +57,75 @@ class ExchangeRule:
         return self._rounds > 2 * _PATIENCE
 
     def applied(
-        self, contact_set: ContactSet, watched: Indices, wrong: Violations, separation: Real
+        self, problem: Problem, contact_set: ContactSet, watched: Indices, wrong: Violations
     ) -> ContactSet:
         """Return the contact set after the exchange of wrong nodes.
 
         Parameters
         ----------
+        problem : Problem
+            The bodies; nodes that yield are set to the most that they bear.
         contact_set : ContactSet
             Nodes and pressures before.
         watched : ndarray of int
             Nodes off the contact at which overlap was looked for.
         wrong : Violations
-            Nodes of the set that pull, and watched nodes that overlap.
-        separation : ndarray, shape (nx, ny)
-            Distance of the bodies at first touch, zero at the highest point. [length]
+            Nodes of the set that pull, yield or lift, and watched nodes that overlap.
         """
-        leaving, joining = wrong.pulling, wrong.overlapping
-        if self.one_by_one:
-            leaving, joining = _last_alone(contact_set.nodes, leaving, watched, joining)
         self.wrong = wrong.count
+        if self.one_by_one:
+            wrong = _last_alone(contact_set.nodes, watched, wrong)
         self._rounds = 0 if self.wrong < self._fewest else self._rounds + 1
         self._fewest = min(self.wrong, self._fewest)
-        return exchanged(contact_set, leaving, watched[joining], separation)
+        return exchanged(problem, contact_set, watched, wrong)
 
 
 def exchanged(
-    contact_set: ContactSet, leaving: Mask, joining: Indices, separation: Real
+    problem: Problem, contact_set: ContactSet, watched: Indices, wrong: Violations
 ) -> ContactSet:
-    """Return a contact set without some of its nodes and with others.
+    """Return a contact set after wrong nodes have changed sides; see :class:`ExchangeRule`."""
+    if wrong.yielding.any() or wrong.lifting.any():
+        most = problem.conditions.largest_pressure
+        pressure = np.where(wrong.yielding, most, contact_set.pressure)
+        # a node that lifts is relieved of the pressure that its own gap takes to close
+        relieved = most - wrong.lift / problem.inverse.diagonal
+        pressure[wrong.lifting] = np.maximum(relieved, 0.0)
+        contact_set = ContactSet(contact_set.nodes, pressure)
+    return contact_set.without(wrong.pulling).joined_by(watched[wrong.overlapping])
 
-    The highest point of the body remains in contact if no other node does.
+
+def able_to_carry(contact_set: ContactSet, fewest: int, gap: Real) -> ContactSet:
+    """Return a contact set, joined by the nodes of smallest gap if it has fewer than are needed.
+
+    Parameters
+    ----------
+    contact_set : ContactSet
+        Nodes and pressures.
+    fewest : int
+        Nodes that the load needs.
+    gap : ndarray, shape (nx, ny)
+        Gap on the whole grid, from any datum. [length]
     """
-    contact_set = contact_set.without(leaving).joined_by(joining)
-    if contact_set.nodes.size:
+    lacking = min(fewest, gap.size) - contact_set.nodes.size
+    if lacking <= 0:
         return contact_set
-    return ContactSet(np.array([separation.argmin()]), np.zeros(1))
+    gaps = gap.flatten()
+    gaps[contact_set.nodes] = np.inf
+    return contact_set.joined_by(np.sort(np.argpartition(gaps, lacking - 1)[:lacking]))
 
 
-def _last_alone(nodes: Indices, leaving: Mask, others: Indices, joining: Mask) -> tuple[Mask, Mask]:
+def _last_alone(nodes: Indices, others: Indices, wrong: Violations) -> Violations:
     """Leave only the wrong node of highest index, among those in contact and others."""
-    last_leaving = nodes[leaving].max(initial=-1)
-    last_joining = others[joining].max(initial=-1)
-    return (
-        leaving & (nodes == last_leaving) & (last_leaving > last_joining),
-        joining & (others == last_joining) & (last_joining > last_leaving),
+    in_contact = wrong.pulling | wrong.yielding | wrong.lifting
+    last = max(nodes[in_contact].max(initial=-1), others[wrong.overlapping].max(initial=-1))
+    alone = nodes == last
+    return replace(
+        wrong,
+        pulling=wrong.pulling & alone,
+        yielding=wrong.yielding & alone,
+        lifting=wrong.lifting & alone,
+        lift=wrong.lift[alone[wrong.lifting]],
+        overlapping=wrong.overlapping & (others == last),
     )
 
 

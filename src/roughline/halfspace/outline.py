@@ -52,6 +52,7 @@ def overstated_cells(
     """
     loaded = contact.pressure > 0
     nodes, pressure = contact.nodes[loaded], contact.pressure[loaded]
+    plastic = contact.plastic[loaded]
     touching = np.zeros(contact.gap.size, dtype=bool)
     touching[nodes] = True
     pairs, summits = 0, 0.0
@@ -65,6 +66,7 @@ def overstated_cells(
             rising = np.zeros(edge.size, dtype=bool)
             inner = np.searchsorted(nodes, within[loaded_too])
             rising[loaded_too] = edge[loaded_too] > pressure[inner]
+            rising |= plastic[outer]  # the body is cut off there, as at the edge of a plateau
             smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP, _STEEP_ALONE)
             steep = (rising | ~loaded_too) & (gap > smooth)
             pairs += edge.size

@@ -1,9 +1,14 @@
-"""A path of rising loads: each contact starts from the one before, led by its tangent."""
+"""A path of loads: each contact starts from one before, led by its tangent.
+
+Loads may rise and fall. Under less than the largest load so far the bodies are elastic: all nodes
+spring back, and on the way up again the contact retraces what it was. So a load beyond the largest
+goes on from the contact under that, as if there had been no unloading.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import zip_longest
 
 import numpy as np
@@ -11,92 +16,242 @@ import numpy as np
 from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.active_set import solve
 from roughline.halfspace.cascade import first_guess
+from roughline.halfspace.conditions import Residuals, UnilateralContact
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
-from roughline.halfspace.tangent import Tangent, tangent
+from roughline.halfspace.tangent import Response, Tangent, response
 
 # New contact relieves its surroundings, which the tangent does not take into account. Nodes that it
 # would overlap after this part of the rise are taken to come into contact.
 _PART_OF_RISE = 0.5
-# Where the force rises by more than this, over the force so far, coarser grids guess better than
+# Where the force changes by more than this, over the force so far, coarser grids guess better than
 # the tangent.
-_LARGEST_RISE = 1.0
+_LARGEST_CHANGE = 1.0
+# A guess whose pressures exceed the hardness so many times leaves no doubt that nodes yield.
+_SURELY = 3.0
 
 
 def solve_path(
     problem: Problem, loads: Sequence[Load], method: Method
-) -> Iterator[tuple[Contact, Tangent | None]]:
-    """Solve the contact under each load in turn.
+) -> Iterator[tuple[Contact, Response | None]]:
+    """Solve the contact under each load in turn; each meets the surfaces that the last one left.
 
     Parameters
     ----------
     problem : Problem
-        The body and the half-space.
+        The untouched bodies and the half-space.
     loads : sequence of Load
-        Rising loads.
+        Loads, all by force or all by depth. A load of zero leaves the bodies just apart.
     method : Method
         Tolerance, bound on the convolutions and precision.
 
     Yields
     ------
-    tuple of Contact and Tangent
-        For each load; without a tangent where the contact was not certified.
+    tuple of Contact and Response
+        For each load; without a response where the contact was not certified.
     """
-    start: ContactSet | None = None
-    last: tuple[Indices, Real] | None = None  # nodes of the last tangent, and dp/dF on them
+    path = _Path(problem, method)
     for load, next_load in zip_longest(loads, loads[1:]):
-        if start is None:
-            start = first_guess(problem, load)
-        contact = solve(problem, load, start, method)
-        start = None
+        yield path.under(load, next_load)
+
+
+class _Path:
+    """The contact along a path of loads.
+
+    Parameters
+    ----------
+    problem, method
+        As for :func:`solve_path`.
+    """
+
+    def __init__(self, problem: Problem, method: Method) -> None:
+        self._yielding = problem.conditions
+        # as long as no node reaches the hardness, the contact is the elastic one to the last bit
+        self._yields = False
+        self._problem = replace(problem, conditions=UnilateralContact())
+        self._method = method
+        self._start: ContactSet | None = None
+        self._last: _Tangents | None = None
+        self._furthest: _Solved | None = None  # under the largest load, while smaller ones follow
+        self._unknown_below = 0.0  # the largest load that was not solved
+
+    def under(self, load: Load, next_load: Load | None) -> tuple[Contact, Response | None]:
+        """Return the contact under a load, and prepare the next."""
+        if load.value < self._unknown_below:
+            return apart(self._problem, load, Outcome.UNKNOWN_SURFACE), None
+        furthest = self._furthest
+        if furthest is not None and load == furthest.load:
+            self._prepare(next_load, furthest)
+            return furthest.contact, furthest.response
+        if load.value == 0 or (load.depth is not None and load.depth <= self._problem.touch):
+            self._prepare(next_load, None)
+            return apart(self._problem, load, Outcome.CONVERGED), _NONE
+        contact = self._contact(load)
         if contact.outcome is not Outcome.CONVERGED:
-            last = None
-            yield contact, None
-            continue
-        # each load meets the surfaces that the last one left
-        problem = replace(problem, separation=contact.separation)
-        guess = None if last is None else _transferred(*last, contact.nodes)
-        response = tangent(problem, contact, guess, method)
-        last = None
-        if response.converged and next_load is not None:
-            last = contact.nodes, response.pressure_per_force
-            rise = _rise(contact, response, next_load)
-            if rise < _LARGEST_RISE * contact.force:
-                start = _predicted(problem, rise, contact, response)
-        yield contact, response
-        del contact, response  # the fields of one load are enough to hold
+            self._last = None
+            if self._yielding.largest_pressure < np.inf:
+                self._unknown_below = load.value
+            return contact, None
+        if contact.separation is not self._problem.separation:
+            self._problem = replace(self._problem, separation=contact.separation)
+            self._furthest = None
+        start = None if self._last is None else self._last.on(contact.nodes)
+        solved = _Solved(load, contact, response(self._problem, contact, start, self._method))
+        self._prepare(next_load, solved)
+        return contact, solved.response
+
+    def _contact(self, load: Load) -> Contact:
+        """Solve the contact under a load; elastic until a node exceeds the hardness."""
+        if self._furthest is not None and load.value > self._furthest.load.value:
+            self._furthest = None
+        start, self._start = self._start, None
+        problem, most = self._elastic_or_yielding(load), self._yielding.largest_pressure
+        if start is None:
+            start, pressure = first_guess(problem, load)
+            if pressure > _SURELY * most and problem.conditions is not self._yielding:
+                problem = replace(problem, conditions=self._yielding)
+                start, _ = first_guess(problem, load)
+        contact = solve(problem, load, start, self._method)
+        if contact.pressure.max() > most:
+            problem = replace(problem, conditions=self._yielding)
+            start = ContactSet(contact.nodes, self._yielding.projected(contact.pressure))
+            spent = contact.convolutions
+            del contact
+            contact = solve(problem, load, start, self._method)
+            contact = replace(contact, convolutions=contact.convolutions + spent)
+        self._yields |= problem.conditions is self._yielding
+        return contact
+
+    def _elastic_or_yielding(self, load: Load) -> Problem:
+        """Return the bodies as the last load left them, elastic if they may be under this one.
+
+        They are until a node reaches the hardness, and under less than the largest load so far.
+        """
+        beyond_full_contact = (
+            load.depth is not None
+            and self._problem.operator.zero_mean
+            and load.depth >= float(self._problem.separation.mean())
+        )
+        if (self._yields or beyond_full_contact) and self._furthest is None:
+            return replace(self._problem, conditions=self._yielding)
+        return self._problem
+
+    def _prepare(self, load: Load | None, solved: _Solved | None) -> None:
+        """Choose the contact from which the next load starts, and follow its tangent.
+
+        Parameters
+        ----------
+        load : Load or None
+            The next load; None if there is none.
+        solved : _Solved or None
+            The last load; None where it left the bodies apart.
+        """
+        self._start, self._last = None, None
+        if load is None:
+            return
+        if solved is not None and load.value < solved.load.value and self._furthest is None:
+            self._furthest = solved
+        if self._furthest is not None and load.value > self._furthest.load.value:
+            solved = self._furthest
+        if solved is None or not solved.response.converged:
+            return
+        contact, answer = solved.contact, solved.response
+        self._last = _Tangents.of(solved)
+        rises = load.value > solved.load.value
+        tangent = answer.loading if rises else answer.unloading
+        change = _change(contact, tangent, load)
+        if tangent.stiffness > 0 and abs(change) < _LARGEST_CHANGE * contact.force:
+            self._start = _predicted(self._problem, change, contact, tangent)
 
 
-def _rise(contact: Contact, response: Tangent, load: Load) -> float:
-    """Return the rise of the force to a load; along the tangent, where the depth is given."""
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """A load, the contact under it, and how that answers a change of load."""
+
+    load: Load
+    contact: Contact
+    response: Response
+
+
+@dataclass(frozen=True, eq=False)
+class _Tangents:
+    """Tangents of a contact, on its nodes, from which those of the next are sought.
+
+    Attributes
+    ----------
+    nodes : ndarray of int
+        Nodes in contact.
+    loading, unloading : ndarray, shape (nodes,)
+        dp/dF of both. [1 / area]
+    """
+
+    nodes: Indices
+    loading: Real
+    unloading: Real
+
+    @classmethod
+    def of(cls, solved: _Solved) -> _Tangents:
+        """Take what is needed of a solved load."""
+        answer = solved.response
+        return cls(
+            solved.contact.nodes,
+            answer.loading.pressure_per_force,
+            answer.unloading.pressure_per_force,
+        )
+
+    def on(self, nodes: Indices) -> tuple[Real, Real]:
+        """Return both on other nodes, zero on those that had none."""
+        where = np.searchsorted(self.nodes, nodes)
+        where[where == self.nodes.size] = 0
+        known = self.nodes[where] == nodes
+        transferred = np.zeros((2, nodes.size))
+        for values, before in zip(transferred, (self.loading, self.unloading), strict=True):
+            values[known] = before[where[known]]
+        return transferred[0], transferred[1]
+
+
+_APART = Tangent(0.0, np.empty(0), 0, converged=True)
+_NONE = Response(_APART, _APART)
+
+
+def apart(problem: Problem, load: Load, outcome: Outcome) -> Contact:
+    """Return bodies that do not touch, or just touch, as a contact without nodes."""
+    depth = problem.touch if load.depth is None else load.depth
+    none = np.empty(0)
+    return Contact(
+        depth=depth,
+        force=0.0,
+        nodes=np.empty(0, dtype=np.intp),
+        pressure=none,
+        plastic=np.empty(0, dtype=bool),
+        gap=problem.separation - depth,
+        separation=problem.separation,
+        residuals=Residuals(0.0, 0.0, 0.0, 0.0, 0.0),
+        outcome=outcome,
+        convolutions=0,
+    )
+
+
+def _change(contact: Contact, tangent: Tangent, load: Load) -> float:
+    """Return the change of force to a load; along the tangent, where the depth is given."""
     if load.force is not None:
         return load.force - contact.force
     assert load.depth is not None
-    return response.stiffness * (load.depth - contact.depth)
+    return tangent.stiffness * (load.depth - contact.depth)
 
 
-def _predicted(problem: Problem, rise: float, contact: Contact, response: Tangent) -> ContactSet:
+def _predicted(problem: Problem, change: float, contact: Contact, tangent: Tangent) -> ContactSet:
     """Follow the tangent to p + dF dp/dF, and find the nodes that are in contact then."""
     operator = problem.operator
     sources = GridNodes.of(contact.nodes, operator.shape)
-    gap = operator.displacement(response.pressure_per_force, sources, None, "float32")
-    gap -= 1 / response.stiffness
-    gap *= _PART_OF_RISE * rise
+    gap = operator.displacement(tangent.pressure_per_force, sources, None, "float32")
+    gap -= 1 / tangent.stiffness
+    gap *= _PART_OF_RISE * change
     gap += contact.gap
     gap.flat[contact.nodes] = 0.0
     overlapping = np.flatnonzero(gap < 0)
-    pressure = contact.pressure + rise * response.pressure_per_force
+    pressure = contact.pressure + change * tangent.pressure_per_force
     pressure = problem.conditions.projected(pressure)
     loaded = pressure > 0
     return ContactSet(contact.nodes[loaded], pressure[loaded]).joined_by(overlapping)
-
-
-def _transferred(nodes: Indices, values: Real, new_nodes: Indices) -> Real:
-    """Return the values on new nodes, zero on those that had none before."""
-    transferred = np.zeros(new_nodes.size)
-    where = np.searchsorted(nodes, new_nodes)
-    where[where == nodes.size] = 0
-    known = nodes[where] == new_nodes
-    transferred[known] = values[where[known]]
-    return transferred

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
-from roughline.halfspace.conditions import Violations
+from roughline.halfspace.conditions import (
+    ContactConditions,
+    Violations,
+    out_of_bounds,
+    violations,
+)
+from roughline.halfspace.contact_set import merged
 from roughline.halfspace.operator import Precision
 from roughline.halfspace.patch import ConjugateGradients, Patch
 from roughline.halfspace.state import Load, Problem
@@ -26,12 +32,12 @@ class Relaxation:
     Attributes
     ----------
     violations : Violations
-        Nodes of the set that pull, and watched nodes that overlap.
+        Nodes of the set that pull, yield or lift, and watched nodes that overlap.
     level : float
         Depth that goes with the pressures. [length]
     largest_error : float
-        Largest displacement that is missing on the set; a pull counts as the displacement that it
-        causes at its own node. [length]
+        Largest displacement that is missing on the elastic nodes; a pressure out of its bounds
+        counts as the displacement that it causes at its own node. [length]
     steps : int
         Steps done; each takes one convolution.
     """
@@ -79,39 +85,86 @@ def relaxed(
     """
     conditions, diagonal = problem.conditions, problem.inverse.diagonal
     tolerance, most_steps = _AIM * rtol * trial.length_scale, min(most_steps, _STEPS)
-    elastic, gradients = _equations(problem, load, trial, watched, precision)
+    pressure = trial.contact_set.pressure
+    elastic = conditions.elastic(pressure)
+    if not elastic.any():  # under a given depth, all may be at the hardness
+        off, held = trial.gap.flat[watched], trial.gap.flat[trial.contact_set.nodes] - trial.overlap
+        wrong = violations(conditions, elastic, pressure[:0], off, held, 0.0, tolerance)
+        return Relaxation(wrong, trial.depth, 0.0, 0)
+    equations = _Equations.of(problem, load, trial, watched, elastic, precision)
+    gradients = equations.gradients
     while True:
         level = trial.depth if load.force is None else gradients.level
-        error = float(np.abs(gradients.error).max())
-        violations = conditions.violations(gradients.pressure, gradients.watched, level)
+        error = float(np.abs(gradients.error).max(initial=0.0))
+        wrong = equations.violations(conditions, level, tolerance)
         if error <= tolerance or gradients.steps >= most_steps:
             break
-        outweighed = violations.squared(diagonal) > gradients.error @ gradients.error
+        outweighed = wrong.squared(diagonal) > gradients.error @ gradients.error
         if outweighed and gradients.steps and not to_tolerance:
             break
         if not gradients.advance():
             break
-    trial.contact_set.pressure[elastic] = gradients.pressure
-    pulling = np.zeros(trial.contact_set.nodes.size, dtype=bool)
-    pulling[elastic] = violations.pulling
-    largest_error = max(error, conditions.largest_pull(gradients.pressure) * diagonal)
-    return Relaxation(replace(violations, pulling=pulling), level, largest_error, gradients.steps)
+    pressure[elastic] = gradients.pressure
+    largest_error = max(error, max(out_of_bounds(conditions, gradients.pressure)) * diagonal)
+    return Relaxation(wrong, level, largest_error, gradients.steps)
 
 
-def _equations(
-    problem: Problem, load: Load, trial: Trial, watched: Indices, precision: Precision
-) -> tuple[Mask | slice, ConjugateGradients]:
-    """Set up the equations of the elastic nodes of a trial; also return which these are."""
-    nodes, pressure = trial.contact_set.nodes, trial.contact_set.pressure
-    elastic = problem.conditions.elastic(pressure)
-    nodes = nodes[elastic]
-    fixed_total = load.force is not None
-    gradients = ConjugateGradients(
-        Patch(problem.operator, problem.inverse, nodes, watched),
-        pressure[elastic],
-        -trial.gap.flat[nodes] - (trial.depth if fixed_total else 0.0),
-        trial.gap.flat[watched] + trial.depth,
-        fixed_total=fixed_total,
-        precision=precision,
-    )
-    return elastic, gradients
+@dataclass(frozen=True, eq=False)
+class _Equations:
+    """The equations of the elastic nodes of a trial, and what is looked at beside them.
+
+    Attributes
+    ----------
+    gradients : ConjugateGradients
+        Steps towards their solution.
+    elastic : ndarray of bool, shape (nodes,)
+        Which nodes in contact are elastic.
+    off_contact : ndarray of bool
+        Which of the nodes whose displacement is followed are off the contact; the others are at
+        the hardness.
+    """
+
+    gradients: ConjugateGradients
+    elastic: Mask
+    off_contact: Mask
+
+    @classmethod
+    def of(
+        cls,
+        problem: Problem,
+        load: Load,
+        trial: Trial,
+        watched: Indices,
+        elastic: Mask,
+        precision: Precision,
+    ) -> _Equations:
+        """Set up the equations."""
+        nodes, pressure = trial.contact_set.nodes, trial.contact_set.pressure
+        held = nodes[~elastic]
+        followed, order = merged(watched, held)
+        gaps = np.concatenate([trial.gap.flat[watched], trial.gap.flat[held] - trial.overlap])
+        fixed_total = load.force is not None
+        gradients = ConjugateGradients(
+            Patch(problem.operator, problem.inverse, nodes[elastic], followed),
+            pressure[elastic],
+            -trial.gap.flat[nodes[elastic]] - (trial.depth if fixed_total else 0.0),
+            gaps[order] + trial.depth,
+            fixed_total=fixed_total,
+            precision=precision,
+        )
+        return cls(gradients, elastic, order < watched.size)
+
+    def violations(
+        self, conditions: ContactConditions, level: float, tolerance: float
+    ) -> Violations:
+        """Return the nodes that are on the wrong side after the steps so far."""
+        followed = self.gradients.watched
+        return violations(
+            conditions,
+            self.elastic,
+            self.gradients.pressure,
+            followed[self.off_contact],
+            followed[~self.off_contact],
+            level,
+            tolerance,
+        )

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
-from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.conditions import Residuals, UnilateralContact
+from roughline.computing.arrays import Indices, Mask, Real
+from roughline.halfspace.conditions import ContactConditions, Residuals
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse
@@ -19,11 +20,12 @@ class Outcome(enum.Enum):
     CONVERGED = "converged"
     STALLED = "stalled"
     MAX_ITERATIONS = "max_iterations"
+    UNKNOWN_SURFACE = "unknown_surface"
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A rough body over a half-space on a grid, before any load.
+    """A rough body over a half-space on a grid, as the loads so far have left their surfaces.
 
     Attributes
     ----------
@@ -34,11 +36,12 @@ class Problem:
     inverse : ApproximateInverse
         Approximate inverse of the operator.
     separation : ndarray, shape (nx, ny)
-        Distance of the bodies at first touch, zero at the highest point. [length]
+        Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
+        until that is indented. [length]
     rms_height : float
         Gaps are compared with this, or with the depth where that is smaller; zero for a flat
         punch, where it is the depth. [length]
-    conditions : UnilateralContact
+    conditions : ContactConditions
         What pressures and gaps obey.
     """
 
@@ -47,7 +50,7 @@ class Problem:
     inverse: ApproximateInverse
     separation: Real
     rms_height: float
-    conditions: UnilateralContact
+    conditions: ContactConditions
 
     @classmethod
     def of(
@@ -56,11 +59,23 @@ class Problem:
         operator: Operator,
         separation: Real,
         rms_height: float,
-        conditions: UnilateralContact,
+        conditions: ContactConditions,
     ) -> Problem:
         """Put a rough body over a half-space; the operator is one that the half-space made."""
         inverse = ApproximateInverse.of(operator)
         return cls(half_space, operator, inverse, separation, rms_height, conditions)
+
+    @cached_property
+    def touch(self) -> float:
+        """Depth at which the surfaces touch, as they are now. [length]"""
+        return float(self.separation.min())
+
+    def fewest_nodes(self, load: Load) -> int:
+        """Return how many nodes a load needs, so that one of them is below the hardness."""
+        if load.force is None:
+            return 1
+        most = self.conditions.largest_pressure * self.operator.cell_area
+        return 1 + int(load.force / most)
 
 
 @dataclass(frozen=True)
@@ -107,6 +122,13 @@ class Load:
     depth: float | None = None
     force: float | None = None
 
+    @property
+    def value(self) -> float:
+        """What is prescribed. [length] or [force]"""
+        value = self.depth if self.force is None else self.force
+        assert value is not None
+        return value
+
     @classmethod
     def of(cls, control: Literal["depths", "forces"], value: float) -> Load:
         """Prescribe one value of the quantity under control."""
@@ -129,10 +151,13 @@ class Contact:
         Nodes in contact, ascending flat indices.
     pressure : ndarray, shape (nodes,)
         Pressures on them. [pressure]
+    plastic : ndarray of bool, shape (nodes,)
+        Which of them are at the hardness.
     gap : ndarray, shape (nx, ny)
         Gap on the whole grid. [length]
     separation : ndarray, shape (nx, ny)
-        Distance of the bodies at first touch, as this load leaves their surfaces. [length]
+        Distance of the bodies at first touch, as this load leaves their surfaces: the problem's
+        own array if it leaves them as they were. [length]
     residuals : Residuals
         Violations of the contact conditions by the fields above.
     outcome : Outcome
@@ -145,6 +170,7 @@ class Contact:
     force: float
     nodes: Indices
     pressure: Real
+    plastic: Mask
     gap: Real
     separation: Real
     residuals: Residuals

@@ -1,7 +1,8 @@
 """The exact stiffness dF/dd, and how the pressures follow the load while the contact set stays.
 
-On a fixed contact set C a change of force displaces all elastic nodes alike. So w = dp/dF solves
-K_CC w = c, where the forces of w sum to one; c is the compliance, and k = 1 / c.
+On a fixed set E of elastic nodes a change of force displaces all of them alike. So w = dp/dF solves
+K_EE w = c, where the forces of w sum to one; c is the compliance, and k = 1 / c. Under more load, E
+is the contact without the nodes at the hardness; under less, it is all of the contact.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.halfspace.patch import ConjugateGradients, Patch
 from roughline.halfspace.state import Contact, Method, Problem
 
@@ -28,7 +29,8 @@ class Tangent:
     Attributes
     ----------
     stiffness : float
-        k = dF/dd; infinite in full contact of the periodic half-space. [force / length]
+        k = dF/dd; infinite in full contact of the periodic half-space, zero where no node is
+        elastic. [force / length]
     pressure_per_force : ndarray, shape (nodes,)
         dp/dF on the contact nodes; zero on nodes that are not elastic. [1 / area]
     convolutions : int
@@ -43,13 +45,62 @@ class Tangent:
     converged: bool
 
 
+@dataclass(frozen=True, eq=False)
+class Response:
+    """How a contact answers a change of load, further up and back down.
+
+    Attributes
+    ----------
+    loading : Tangent
+        Under more load; nodes at the hardness bear no more.
+    unloading : Tangent
+        Under less load: all nodes spring back. Without yield that is the same.
+    """
+
+    loading: Tangent
+    unloading: Tangent
+
+    @property
+    def convolutions(self) -> int:
+        """Convolutions spent on both."""
+        again = 0 if self.unloading is self.loading else self.unloading.convolutions
+        return self.loading.convolutions + again
+
+    @property
+    def converged(self) -> bool:
+        """Whether both were solved."""
+        return self.loading.converged and self.unloading.converged
+
+
+def response(
+    problem: Problem, contact: Contact, start: tuple[Real, Real] | None, method: Method
+) -> Response:
+    """Solve for the exact stiffness of a contact, on further loading and on unloading.
+
+    Parameters
+    ----------
+    problem, contact, method
+        As for :func:`tangent`.
+    start : tuple of ndarray, shape (nodes,), or None
+        Guesses of dp/dF on loading and on unloading, such as those of the load before; None: the
+        pressures themselves. [1 / area]
+    """
+    loading, unloading = start or (None, None)
+    elastic, every = ~contact.plastic, np.ones_like(contact.plastic)
+    back = tangent(problem, contact, every, unloading, method)
+    if elastic.all():
+        return Response(back, back)
+    return Response(tangent(problem, contact, elastic, loading, method), back)
+
+
 def tangent(
     problem: Problem,
     contact: Contact,
+    elastic: Mask,
     start: Real | None,
     method: Method,
 ) -> Tangent:
-    """Solve for the exact stiffness of a contact.
+    """Solve for the exact stiffness of a contact of which some nodes follow a change of the load.
 
     The stiffness is the energy form 1 / (w K w), so it errs upwards, by the square of the
     residual.
@@ -60,6 +111,8 @@ def tangent(
         The body and the half-space.
     contact : Contact
         The contact, whose set of nodes is held fixed.
+    elastic : ndarray of bool, shape (nodes,)
+        Which of its nodes follow; if none does, the stiffness is zero.
     start : ndarray, shape (nodes,), or None
         Guess of dp/dF, such as that of the load before; None: the pressures themselves.
         [1 / area]
@@ -68,15 +121,14 @@ def tangent(
     """
     operator = problem.operator
     cell_area = operator.cell_area
-    elastic = problem.conditions.elastic(contact.pressure)
     nodes = contact.nodes[elastic]
+    if not nodes.size:
+        return Tangent(0.0, np.zeros(contact.nodes.size), 0, converged=True)
     if operator.zero_mean and nodes.size == contact.gap.size:  # full contact is rigid
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
     patch = Patch(operator, problem.inverse, nodes)
-    if start is None or not start.sum() > 0:
-        start = contact.pressure
-    pressure = start[elastic] / (start[elastic].sum() * cell_area)
+    pressure = _unit_force(elastic, cell_area, start, contact.pressure)
     convolutions, accuracy = 0, _ENERGY_MARGIN * method.rtol
     for _ in range(_ROUNDS):
         displacement, watched = patch.displacement(pressure, method.certificate)
@@ -99,3 +151,13 @@ def tangent(
     pressure_per_force[elastic] = pressure
     stiffness = 1 / compliance if compliance > 0 else np.nan
     return Tangent(stiffness, pressure_per_force, convolutions, converged and compliance > 0)
+
+
+def _unit_force(elastic: Mask, cell_area: float, start: Real | None, pressure: Real) -> Real:
+    """Scale a guess on the elastic nodes to unit force: the first that is not zero there.
+
+    On nodes that have just come into contact there is no pressure yet.
+    """
+    guesses = [pressure] if start is None else [start, pressure]
+    guess = next((each for each in guesses if each[elastic].sum() > 0), np.ones(elastic.size))
+    return guess[elastic] / (guess[elastic].sum() * cell_area)

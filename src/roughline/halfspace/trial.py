@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Real
-from roughline.halfspace.conditions import Residuals
+from roughline.computing.arrays import Mask, Real
+from roughline.halfspace.conditions import Residuals, residuals
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.operator import GridNodes, Precision
 from roughline.halfspace.state import Contact, Load, Outcome, Problem
@@ -24,7 +24,9 @@ class Trial:
     depth, force : float
         Approach since first touch [length] and total force [force].
     gap : ndarray, shape (nx, ny)
-        Gap on the whole grid. [length]
+        Gap on the whole grid, on the surface as the load indents it. [length]
+    overlap : ndarray, shape (nodes at the hardness,)
+        By how much it indents these nodes. [length]
     length_scale : float
         Gaps are compared with this. [length]
     residuals : Residuals
@@ -35,6 +37,7 @@ class Trial:
     depth: float
     force: float
     gap: Real
+    overlap: Real
     length_scale: float
     residuals: Residuals
 
@@ -64,40 +67,53 @@ class Trial:
         rescale : bool
             Whether to scale the pressures under a given depth, too, to those of least energy.
         """
-        operator, nodes, pressure = problem.operator, contact_set.nodes, contact_set.pressure
+        operator, conditions = problem.operator, problem.conditions
+        nodes, pressure = contact_set.nodes, contact_set.pressure
         cell_area = operator.cell_area
-        if load.force is not None:
-            pressure = _with_total(pressure, load.force / cell_area)
+        most = conditions.largest_pressure
+        if load.force is None:
+            pressure = np.minimum(pressure, most)
+        else:
+            pressure = conditions.with_total(pressure, load.force / cell_area)
+        elastic = conditions.elastic(pressure)
         sources = GridNodes.of(nodes, operator.shape)
         gap = operator.displacement(pressure, sources, None, precision, out=out)
-        if load.depth is not None and rescale:
+        if load.depth is not None and rescale and elastic.all():
             factor = _best_factor(
                 load.depth - problem.separation.flat[nodes], pressure, gap.flat[nodes]
             )
+            if factor * float(pressure.max()) >= most:  # so that none reaches the hardness
+                factor = np.nextafter(most, 0.0) / float(pressure.max())
             pressure = factor * pressure
             gap *= factor
         gap += problem.separation
-        total = float(pressure.sum())
         depth = load.depth
-        if depth is None:  # the work of the pressures
-            depth = float(pressure @ gap.flat[nodes]) / total
+        if depth is None:
+            depth = _level(gap.flat[nodes], pressure, elastic)
         gap -= depth
-        force = cell_area * total
+        held = nodes[~elastic]
+        overlap = np.maximum(-gap.flat[held], 0.0)
+        gap.flat[held] += overlap
+        force = cell_area * float(pressure.sum())
         length_scale = _length_scale(problem, depth)
-        residuals = problem.conditions.residuals(
-            gap, nodes, pressure, length_scale, load.error(force)
-        )
-        return cls(ContactSet(nodes, pressure), depth, force, gap, length_scale, residuals)
+        violated = residuals(conditions, gap, nodes, pressure, length_scale, load.error(force))
+        return cls(ContactSet(nodes, pressure), depth, force, gap, overlap, length_scale, violated)
 
     def contact(self, problem: Problem, outcome: Outcome, convolutions: int) -> Contact:
         """Return the trial as the contact with which a search ended."""
+        nodes, pressure = self.contact_set.nodes, self.contact_set.pressure
+        plastic, separation = ~problem.conditions.elastic(pressure), problem.separation
+        if self.overlap.any():
+            separation = separation.copy()
+            separation.flat[nodes[plastic]] += self.overlap
         return Contact(
             depth=self.depth,
             force=self.force,
-            nodes=self.contact_set.nodes,
-            pressure=self.contact_set.pressure,
+            nodes=nodes,
+            pressure=pressure,
+            plastic=plastic,
             gap=self.gap,
-            separation=problem.separation,
+            separation=separation,
             residuals=self.residuals,
             outcome=outcome,
             convolutions=convolutions,
@@ -106,19 +122,20 @@ class Trial:
 
 def _length_scale(problem: Problem, depth: float) -> float:
     """Return the length with which gaps are compared."""
-    if problem.rms_height:
-        return min(problem.rms_height, abs(depth))
-    if problem.operator.zero_mean:  # even pressure on a flat surface moves nothing
-        return 1.0
-    return abs(depth)
+    if problem.operator.zero_mean and not problem.rms_height:
+        return 1.0  # even pressure on a flat surface moves nothing
+    approach = abs(depth - problem.touch)
+    return min(problem.rms_height, approach) if problem.rms_height else approach
 
 
-def _with_total(pressure: Real, total: float) -> Real:
-    """Scale the pressures to a total; spread it evenly where there is nothing to scale."""
-    now = float(pressure.sum())
-    if now > 0:
-        return pressure * (total / now)
-    return np.full_like(pressure, total / pressure.size)
+def _level(displaced: Real, pressure: Real, elastic: Mask) -> float:
+    """Return the depth that goes with pressures, from where they put the nodes under them."""
+    weights = pressure[elastic]
+    total = float(weights.sum())
+    if total > 0:  # the work of the pressures
+        return float(weights @ displaced[elastic]) / total
+    # nodes that have just come into contact, or else all of them overlap
+    return float(displaced[elastic].mean() if elastic.any() else displaced.max())
 
 
 def _best_factor(target: Real, pressure: Real, displacement: Real) -> float:

@@ -38,7 +38,11 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "joint_area": question.joint,
         "loads": assessment.headings,
         "curve": {
-            **{quantity.name: getattr(curve, quantity.name) for quantity in IN_JSON},
+            **{
+                quantity.name: getattr(curve, quantity.name)
+                for quantity in IN_JSON
+                if curve.hardness is not None or not quantity.of_yielding
+            },
             "status": [Status(value).name.lower() for value in curve.status],
         },
         "stiffness_interval": assessment.stiffness_interval_as_asked,

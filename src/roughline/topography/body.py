@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -24,6 +23,7 @@ from roughline.topography.settings import (
     as_body,
     checked_cut_out,
     checked_trend,
+    read_only,
 )
 from roughline.topography.surfacetopography import fields_of_topography
 from roughline.topography.trend import Trend, without_trend
@@ -288,5 +288,4 @@ def _set(body: Body, **fields: Any) -> None:
 def _freeze(body: Body, **fields: Any) -> None:
     """Set checked fields at birth; the settings become read-only."""
     removed_trend = checked_trend(body.removed_trend, body.settings)
-    settings = MappingProxyType(dict(body.settings))
-    _set(body, **fields, removed_trend=removed_trend, settings=settings)
+    _set(body, **fields, removed_trend=removed_trend, settings=read_only(body.settings))

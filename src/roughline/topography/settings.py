@@ -6,13 +6,24 @@ follow from the record where they are not given.
 
 from __future__ import annotations
 
+import copyreg
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, get_args
 
 from roughline.errors import InputError
 from roughline.topography.trend import Trend, refuse_unknown_trend
 
 Settings = Mapping[str, str | int | float]
+
+
+def read_only(settings: Settings) -> MappingProxyType[str, str | int | float]:
+    """Return a copy of the settings that cannot be changed."""
+    return MappingProxyType(dict(settings))
+
+
+# so that bodies, and curves with them, travel between processes
+copyreg.pickle(MappingProxyType, lambda settings: (read_only, (dict(settings),)))
 
 AS_RECORDED: Any = None
 """Default of a typed field: it follows from the settings."""

@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-import copyreg
 import os
 import pickle
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, TypeVar
 
 Value = TypeVar("Value")
 
 _MOST = {"assessment": 1, "body": 3, "measurement": 3}
 """How many are kept of each kind."""
-
-
-def _read_only(settings: dict[str, Any]) -> MappingProxyType[str, Any]:
-    return MappingProxyType(settings)
-
-
-copyreg.pickle(MappingProxyType, lambda settings: (_read_only, (dict(settings),)))
 
 
 def kept(session: Mapping[str, Any], kind: str, asked: object, make: Callable[[], Value]) -> Value:

@@ -1,0 +1,51 @@
+"""Fields of one load on the grid, and what the load leaves of the surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roughline.computing.arrays import Indices, Mask, Real
+
+
+@dataclass(frozen=True, eq=False)
+class Fields:
+    """Fields of one load on the grid.
+
+    Attributes
+    ----------
+    pressure : ndarray, shape (nx, ny)
+        Contact pressure, compression positive. [pressure]
+    displacement : ndarray, shape (nx, ny)
+        Normal displacement of the half-space's surface. [length]
+    gap : ndarray, shape (nx, ny)
+        Distance of the two bodies. [length]
+    contact : ndarray of bool, shape (nx, ny)
+        Where they touch.
+    plastic : ndarray of bool, shape (nx, ny)
+        Where the pressure is at the hardness.
+    indentation : ndarray, shape (nx, ny)
+        How much lower the surface is for good than it was untouched. [length]
+    """
+
+    pressure: Real
+    displacement: Real
+    gap: Real
+    contact: Mask
+    plastic: Mask
+    indentation: Real
+
+
+@dataclass(frozen=True, eq=False)
+class Indentation:
+    """Where a surface is lower than it was untouched, and by how much.
+
+    Attributes
+    ----------
+    nodes : ndarray of int
+        Flat indices in the grid, ascending.
+    depth : ndarray, shape (nodes,)
+        How much lower it is there. [length]
+    """
+
+    nodes: Indices
+    depth: Real

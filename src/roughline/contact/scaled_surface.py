@@ -1,0 +1,65 @@
+"""A surface in the units in which its contact is solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.contact.loads import Loads
+from roughline.topography.body import Surface
+
+
+@dataclass(frozen=True, eq=False)
+class ScaledSurface:
+    """A surface in units in which E* is 1, a cell has unit area and the roughness unit rms.
+
+    The problem is solved in these, so that no scale is too small or too large for it.
+
+    Attributes
+    ----------
+    height, length : float
+        Units of lengths across and along the surface. [length]
+    E_star : float
+        Unit of pressures where both lengths are equal. [pressure]
+    separation : ndarray, shape (nx, ny)
+        Distance of the bodies at first touch over `height`. [1]
+    spacing : tuple of float
+        Sides of a cell over `length`. [1]
+    """
+
+    height: float
+    length: float
+    E_star: float
+    separation: Real
+    spacing: tuple[float, float]
+
+    @classmethod
+    def of(cls, surface: Surface, E_star: float, loads: Loads) -> ScaledSurface:
+        """Choose the units."""
+        height = surface.rms_height
+        if height == 0:  # a flat punch: its depth, or about so, is the only height there is
+            height = float(loads.values.max())
+            if loads.control == "forces":
+                height /= E_star * surface.length
+        dx, dy = surface.spacing
+        length = float(np.sqrt(dx) * np.sqrt(dy))
+        separation = np.subtract(surface.heights.max(), surface.heights, order="C")
+        separation /= height
+        return cls(height, length, E_star, separation, (dx / length, dy / length))
+
+    @property
+    def force(self) -> float:
+        """Unit of forces. [force]"""
+        return self.E_star * self.height * self.length
+
+    @property
+    def pressure(self) -> float:
+        """Unit of pressures. [pressure]"""
+        return self.E_star * self.height / self.length
+
+    @property
+    def cell_area(self) -> float:
+        """Area of one cell. [length²]"""
+        return self.spacing[0] * self.spacing[1] * self.length**2

@@ -1,0 +1,167 @@
+"""What the full model gives under one load, in the units of the surface."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.contact.border import border_share
+from roughline.contact.curve import Status
+from roughline.contact.fields import Fields, Indentation
+from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
+from roughline.contact.quantity import OVER_LOADS
+from roughline.contact.scaled_surface import ScaledSurface
+from roughline.halfspace.outline import overstated_cells
+from roughline.halfspace.state import Contact
+from roughline.halfspace.tangent import Response
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Quantities of the curve by their names, and more.
+
+    The defaults are those of a load that was not solved.
+
+    Attributes
+    ----------
+    border_share : float
+        Share of the force that the border carries. [1]
+    fields : Fields or None
+        Fields on the grid, if they are kept.
+    dents : Indentation or None
+        Where the surface is indented; None if it is not.
+    """
+
+    status: Status = Status.INTERRUPTED
+    residual: float = math.nan
+    convolutions: int = 0
+    resolved: bool = False
+    depth: float = math.nan
+    force: float = math.nan
+    stiffness: float = math.nan
+    unloading_stiffness: float = math.nan
+    area_fraction: float = math.nan
+    area_fraction_corrected: float = math.nan
+    area_fraction_most: float = math.nan
+    plastic_fraction: float = math.nan
+    indentation: float = math.nan
+    work: float = math.nan
+    dissipated_work: float = math.nan
+    border_share: float = math.nan
+    fields: Fields | None = None
+    dents: Indentation | None = None
+
+    @classmethod
+    def of(
+        cls,
+        contact: Contact,
+        response: Response | None,
+        scaled: ScaledSurface,
+        hardness: float | None,
+        *,
+        periodic: bool,
+        with_fields: bool,
+    ) -> Solution:
+        """Return what one load gives.
+
+        Parameters
+        ----------
+        contact : Contact
+            The contact under the load, in the units of `scaled`.
+        response : Response or None
+            How it answers a change of the load; None if the contact was not certified.
+        scaled : ScaledSurface
+            The untouched surface.
+        hardness : float or None
+            The most that a node bears. [pressure]
+        periodic, with_fields : bool
+            Whether the half-space is periodic, and whether the fields are kept.
+        """
+        if response is None:
+            status = Status[contact.outcome.name]
+            return cls(status, contact.residuals.worst, contact.convolutions)
+        convolutions = contact.convolutions + response.convolutions
+        if not response.converged:
+            return cls(Status.NO_TANGENT, contact.residuals.worst, convolutions)
+        cells, nodes = int(np.count_nonzero(contact.pressure > 0)), contact.gap.size
+        most, overstated = overstated_cells(contact, scaled.spacing, periodic)
+        dents = _dents(contact, scaled)
+        indented = dents.depth if dents is not None else np.zeros(1)
+        dissipated = (hardness or 0.0) * scaled.cell_area * float(indented.sum())
+        k = scaled.force / scaled.height
+        return cls(
+            status=Status.CONVERGED,
+            residual=contact.residuals.worst,
+            convolutions=convolutions,
+            resolved=cells >= RESOLVED_FROM,
+            depth=contact.depth * scaled.height,
+            force=contact.force * scaled.force,
+            stiffness=response.loading.stiffness * k,
+            unloading_stiffness=response.unloading.stiffness * k,
+            area_fraction=cells / nodes,
+            area_fraction_corrected=cells / nodes - overstated / nodes,
+            area_fraction_most=(cells + most - overstated) / nodes,
+            plastic_fraction=float(contact.plastic.mean()) if cells else 0.0,
+            indentation=float(indented.max()),
+            work=_elastic_energy(contact) * scaled.force * scaled.height + dissipated,
+            dissipated_work=dissipated,
+            border_share=border_share(contact),
+            fields=_fields(contact, scaled, dents) if with_fields else None,
+            dents=dents,
+        )
+
+
+def columns(solutions: Sequence[Solution]) -> dict[str, Any]:
+    """Return each quantity of the solutions as an array over the loads, by its name."""
+    return {
+        each.name: np.array(
+            [getattr(solution, each.name) for solution in solutions], QUANTITIES[each.name].dtype
+        )
+        for each in dataclasses.fields(Solution)
+        if each.name in QUANTITIES and QUANTITIES[each.name].dims == OVER_LOADS
+    }
+
+
+def _elastic_energy(contact: Contact) -> float:
+    """Work that the half-space gives back on unloading, in the units of the contact."""
+    separation = contact.separation.flat[contact.nodes]
+    displacement = contact.gap.flat[contact.nodes] - separation + contact.depth
+    total = float(contact.pressure.sum())
+    cell_area = contact.force / total if total > 0 else 0.0
+    return 0.5 * cell_area * float(contact.pressure @ displacement)
+
+
+def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:
+    """Return where the surface is lower than it was untouched."""
+    if contact.separation is scaled.separation:
+        return None
+    depth = (contact.separation - scaled.separation).ravel()
+    nodes = np.flatnonzero(depth)
+    return Indentation(nodes, depth[nodes] * scaled.height)
+
+
+def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) -> Fields:
+    shape = contact.gap.shape
+    pressure, plastic = np.zeros(shape), np.zeros(shape, dtype=bool)
+    pressure.flat[contact.nodes] = contact.pressure * scaled.pressure
+    plastic.flat[contact.nodes] = contact.plastic
+    displacement = contact.gap - contact.separation
+    displacement += contact.depth
+    displacement *= scaled.height
+    indentation: Real = np.zeros(shape)
+    if dents is not None:
+        indentation.flat[dents.nodes] = dents.depth
+    return Fields(
+        pressure=pressure,
+        displacement=displacement,
+        gap=contact.gap * scaled.height,
+        contact=pressure > 0,
+        plastic=plastic,
+        indentation=indentation,
+    )
