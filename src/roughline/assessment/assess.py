@@ -13,6 +13,7 @@ from roughline.assessment.answers import (
 )
 from roughline.assessment.assessment import Assessment, PartialSlip
 from roughline.assessment.grid import grid_error_is_estimated, why_without_grid_error
+from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads, load_with_fields
 from roughline.assessment.misfit import refuse_misfit
@@ -29,7 +30,6 @@ from roughline.assessment.uncertainty import Solution
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import estimate, memory_for
-from roughline.engineering.answer import Answer
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
@@ -145,7 +145,7 @@ def _solved_body(
     parts: Sequence[Topography],
     case: LoadCase,
     progress: LoadProgress | None,
-) -> tuple[Solution, Answer | None]:
+) -> tuple[Solution, LargerSurface | None]:
     """Press a body, filled in both ways, and periodically where a larger surface is behind it."""
     kept = [load_with_fields(question, body, case)] if question.fields else []
     solution = solved(case, body, kept, progress)

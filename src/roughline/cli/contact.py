@@ -163,7 +163,8 @@ def press_command(
     hardness, resistivity, conductivity, density.
 
     Exit codes: 0; 1 if a load was not solved to the tolerance, or one of several maps was refused,
-    which is said and shown as missing; 2 for input that cannot be used; 130 after Ctrl-C, with the loads or maps done until then.
+    which is said and shown as missing; 2 for input that cannot be used; 130 after Ctrl-C, with the
+    loads or maps done until then.
 
     Examples
     --------
