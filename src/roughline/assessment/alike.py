@@ -106,7 +106,7 @@ def _once(said: Mapping[str, Sequence[str]]) -> list[str]:
     found = []
     for of_maps in remarks.values():
         first, *others = of_maps
-        of = "" if len(of_maps) == len(said) else f"{', '.join(of_maps)}: "
+        of = "" if len(of_maps) == len(said) else f"of {', '.join(of_maps)}: "
         if others and len(set(of_maps.values())) > 1:
             of += f"(numbers of {first}) "
         found.append(f"{of}{of_maps[first]}")

@@ -69,13 +69,15 @@ STIFFNESS_OF_ONE = Share(
 )
 """Stiffness per area, beside that of a single piece."""
 
-STIFFNESS_OF_MANY = Share(Halves(0.05, (0.1, 0.1), (0.0, 0.3)), STIFFNESS_OF_ONE.unseen)
+STIFFNESS_OF_MANY = Share(
+    Halves(0.05, (0.1, 0.05), (0.0, 0.3)), Halves(0.02, (1.8, 0.1), (0.0, 0.2))
+)
 """Stiffness per area, beside the mean over many pieces: what more of them do not mend."""
 
 AREA_OF_ONE = Share(Halves(0.13, (0.2, 0.55)), Halves(0.02, (0.15, 0.45)), bounded=True)
 """Contact area fraction, beside that of a single piece."""
 
-AREA_OF_MANY = Share(Halves(0.03, (0.1, 0.35)), AREA_OF_ONE.unseen, bounded=True)
+AREA_OF_MANY = Share(Halves(0.03, (0.1, 0.35)), Halves(0.02, (0.05, 0.2)), bounded=True)
 """Contact area fraction, beside the mean over many pieces."""
 
 

@@ -43,7 +43,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     if curve.area_fraction is not None:
         header += ["raw area", "corrected A/A_0"]
     rows = []
-    for i, heading in enumerate(_starred(assessment)):
+    for i, heading in enumerate(starred(assessment)):
         if not curve.converged[i]:
             reason = Status(curve.status[i]).reason
             rows.append([heading, "-", "-", reason, "-", "-"][: len(header)])
@@ -63,7 +63,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the answers at some of the loads that were asked for."""
-    header = ["", *_starred(assessment)[loads]]
+    header = ["", *starred(assessment)[loads]]
     rows = [
         [f"{each.name} {each.symbol}", *(quantity(each, i) for i in _numbers(assessment, loads))]
         for each in assessment.answers.values()
@@ -113,7 +113,7 @@ def material_in_words(material: Material) -> str:
     return f"{material.name} ({', '.join(parts)}; {material.source})"
 
 
-def _starred(assessment: Assessment) -> list[str]:
+def starred(assessment: Assessment) -> list[str]:
     """What each load is called, with a star where the grid decides."""
     curve = assessment.curve_as_asked
     stars = curve.converged & ~curve.resolved
