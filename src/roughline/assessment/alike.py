@@ -69,8 +69,8 @@ def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
         f"mean: geometric, over {count} maps, taken to be of places chosen at random; scatter: the "
         "factor within which two of three places lie about it",
         "interval of the part: 95 % for the mean over all its places, Student's t on logarithms "
-        f"({student:.3g} standard errors for {count} maps), widened by the maps' own intervals, "
-        "which may err all in one way and do not average out",
+        f"({student:.3g} standard errors for {count} maps), widened by what maps may all miss "
+        "alike, such as the grid's error and waves longer than a map, which does not average out",
     ]
     if count < _FEW:
         more = float(stdtrit(_FEW - 1, 0.975))

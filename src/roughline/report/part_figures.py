@@ -7,8 +7,10 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.engineering.answer import Answer
 from roughline.report.contact_tables import leading_keys, unit_shown
 from roughline.report.pixels import thinned
 from roughline.report.style import PAGE, new_figure
@@ -17,6 +19,7 @@ from roughline.topography.body import Surface
 from roughline.units import prefix
 
 _ABREAST = 5  # maps of heights in a row
+_LOG_FROM = 5.0  # largest over smallest from which on an axis is logarithmic
 _LONGEST = 14  # letters of a name under an axis
 _MOST_HEIGHTS = 20  # maps whose heights are drawn
 
@@ -40,7 +43,7 @@ def heights_figure(part: PartAssessment) -> Figure:
     """Heights of the maps, each about its mean, in the same colours; of scans, lines."""
     bodies = [each.body for each in part.assessments[:_MOST_HEIGHTS]]
     rows = math.ceil(len(bodies) / _ABREAST)
-    figure = new_figure(PAGE, 1.85 * rows + 0.8)
+    figure = new_figure(PAGE, 1.8 * rows + 0.75)
     panels = np.atleast_1d(figure.subplots(rows, _ABREAST)).ravel()
     spread = 4 * max(body.rms_height for body in bodies)
     factor, unit = prefix(spread, "m", 3)
@@ -82,20 +85,29 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     values = np.array([each.values[load] for each in answer.of_maps])
     factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer.of_maps[0]))
     places = np.arange(1, values.size + 1)
-    for place, each in zip(places, answer.of_maps, strict=True):
-        if each.low is not None and each.high is not None:
-            ends = [each.low[load] * factor, each.high[load] * factor]
-            axes.plot([place, place], ends, color="0.35", linewidth=1.0)
+    ends = np.array([_ends(each, load) for each in answer.of_maps]) * factor
+    axes.vlines(places, ends[:, 0], ends[:, 1], color="0.35", linewidth=1.0)
     axes.plot(places, values * factor, "o", color="k")
     if np.isfinite(answer.mean[load]):
         axes.axhline(answer.mean[load] * factor, color="tab:red", linewidth=1.0)
-    low, high = answer.low[load] * factor, answer.high[load] * factor
-    if np.isfinite([low, high]).all():
-        axes.axhspan(low, high, color="tab:red", alpha=0.12, linewidth=0)
-    axes.set_yscale("log")
+    interval = np.array([answer.low[load], answer.high[load]]) * factor
+    if np.isfinite(interval).all():
+        axes.axhspan(*interval, color="tab:red", alpha=0.12, linewidth=0)
+    known = np.concatenate([ends.ravel(), interval])
+    known = known[np.isfinite(known) & (known > 0)]
+    if known.size and known.max() > _LOG_FROM * known.min():
+        axes.set_yscale("log")
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_xticks(places, list(map(_short, part.names)), rotation=30, ha="right", fontsize=6)
     axes.set_xlim(0.5, values.size + 0.5)
     axes.set_ylabel(answer.name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=7)
+
+
+def _ends(answer: Answer, load: int) -> tuple[float, float]:
+    """Both ends of the interval of one map; the value where there is none."""
+    low, high = answer.ends or (answer.values, answer.values)
+    return float(low[load]), float(high[load])
 
 
 def _short(name: str) -> str:
