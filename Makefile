@@ -74,7 +74,7 @@ lab-sessions: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_sessions.py
 
 fuzz: $(VENV)/installed
-	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py
+	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py tests/halfspace/test_hardness_robustness.py
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
