@@ -13,11 +13,15 @@ from roughline.assessment.answers import (
 )
 from roughline.assessment.assessment import Assessment, PartialSlip
 from roughline.assessment.grid import grid_error_is_estimated, why_without_grid_error
+from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads, load_with_fields
+from roughline.assessment.misfit import refuse_misfit
+from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.assessment.solution import (
     interface_of_the_larger_surface,
+    of_larger_surface,
     solved,
     with_other_filling,
 )
@@ -26,7 +30,6 @@ from roughline.assessment.uncertainty import Solution
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import estimate, memory_for
-from roughline.engineering.answer import Answer
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
@@ -41,13 +44,13 @@ _LARGE = 2**20  # points from which on the cost is told
 _MANY = 1000  # loads from which on the cost is told
 
 
-def assess(
+def assess_body(
     question: Question,
     *,
     announce: Announce | None = None,
     progress: LoadProgress | None = None,
 ) -> Assessment:
-    """Answer a question: read, prepare, press, and work out what follows.
+    """Answer a question of one body: read, prepare, press, and work out what follows.
 
     A load that fails is marked in the curve's status. On Ctrl-C the loads that were solved before
     are kept, and the result says that it was interrupted.
@@ -73,7 +76,7 @@ def assess(
     """
     parts = topographies(question)
     body = pressed_body([each.body for each in parts])
-    question.refuse_misfit(body)
+    refuse_misfit(question, body)
     case = LoadCase.of(question, body)
     case = replace(case, grid_error=grid_error_is_estimated(question, body, case))
     if isinstance(body, Line) and body.kind == "profile":
@@ -91,7 +94,7 @@ def assess(
         solution.area_interval,
         solution.interrupted,
         theories=_theories(question, body, solution.curve),
-        partial_slip=_partial_slip(question, solution.curve),
+        partial_slip=_partial_slip(question, solution.curve, nominal_area(body)),
     )
     spectrum = surface_moments(body) if question.materials is not None else None
     result = with_answers(result, larger, spectrum)
@@ -104,7 +107,9 @@ def assess(
 
 def _needs_larger_surface(question: Question, body: Body) -> bool:
     """Whether answers are about the larger surface that a body was cut out of."""
-    return question.materials is not None and isinstance(body, Surface) and body.is_cut_out
+    if question.materials is None or not isinstance(body, Surface):
+        return False
+    return body.is_cut_out or question.joint is not None
 
 
 def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announce | None) -> None:
@@ -140,7 +145,7 @@ def _solved_body(
     parts: Sequence[Topography],
     case: LoadCase,
     progress: LoadProgress | None,
-) -> tuple[Solution, Answer | None]:
+) -> tuple[Solution, LargerSurface | None]:
     """Press a body, filled in both ways, and periodically where a larger surface is behind it."""
     kept = [load_with_fields(question, body, case)] if question.fields else []
     solution = solved(case, body, kept, progress)
@@ -152,7 +157,8 @@ def _solved_body(
     if not _needs_larger_surface(question, body):
         return solution, None
     larger, interrupted = interface_of_the_larger_surface(solution, case, body, filled, progress)
-    return replace(solution, interrupted=interrupted), larger
+    solution = replace(solution, interrupted=interrupted)
+    return (solution if question.joint is None else of_larger_surface(solution, larger)), larger
 
 
 def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]:
@@ -165,12 +171,22 @@ def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]
     return [theory(name, body, curve.E_star, pressures) for name in question.theories]
 
 
-def _partial_slip(question: Question, curve: Curve) -> PartialSlip | None:
-    """Partial slip at the largest load, if it was solved and friction is known."""
+def _partial_slip(question: Question, curve: Curve, area: float) -> PartialSlip | None:
+    """Partial slip at the largest load, if it was solved and friction is known.
+
+    Parameters
+    ----------
+    question : Question
+        With friction and the joint, if there is one.
+    curve : Curve
+        Of the body.
+    area : float
+        Nominal area of the body. [m²]
+    """
     pair, friction, solved_loads = question.pair, question.friction, curve.converged
     if pair is None or friction is None or not solved_loads[-1]:
         return None
-    depth, force = curve.depth[solved_loads], curve.force[solved_loads]
+    depth, force = curve.depth[solved_loads], curve.force[solved_loads] * question.scale(area)
     return PartialSlip(friction, *partial_slip(depth, force, pair.E_star, pair.G_star, friction))
 
 
@@ -184,6 +200,7 @@ def _warnings(
         *broken_assumptions(result, spectrum),
         *curve.warnings,
     ]
+    warnings += say.of_joint_and_borders(result, grave=True)
     if isinstance(body, Surface) and curve.stiffness_error is None:
         warnings.append(why_without_grid_error(result.question, body, grid_error_was_tried))
     return warnings
@@ -200,4 +217,5 @@ def _notes(result: Assessment, of_filling: str) -> list[str]:
             notes.append("no contact area: the reduced model of a line does not predict it")
     notes += say.of_each(bodies, say.filled_points_and_spikes)
     notes += [of_filling] if of_filling else []
-    return notes + say.meaning_of_loads(question, body) + say.cropping_and_resampling(body)
+    notes += say.meaning_of_loads(question, body)
+    return notes + say.of_joint_and_borders(result, grave=False) + say.cropping_and_resampling(body)

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from roughline._version import __version__
-from roughline.assessment.question import Question, nominal_area
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.question import Question
 from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
-from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answer import Answer, Ends, ends_at
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
@@ -93,6 +94,11 @@ class Assessment:
         """Nominal area; of a line scan, the square of its length. [m²]"""
         return nominal_area(self.body)
 
+    @property
+    def scale(self) -> float:
+        """How many times the force and stiffness of the curve the joint has; 1 without a joint."""
+        return self.question.scale(self.area)
+
     @cached_property
     def roughness(self) -> Roughness | None:
         """Roughness parameters of the body; None for a reduced line, which is no topography."""
@@ -143,8 +149,3 @@ class Assessment:
             "E_star": self.curve.E_star,
             **self.curve.settings,
         }
-
-
-def ends_at(ends: Ends | None, loads: Indices) -> Ends | None:
-    """Both ends of an interval at some of the loads, by their numbers."""
-    return None if ends is None else (ends[0][loads], ends[1][loads])

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.question import DEFAULT_LOADS, Question, nominal_area
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.question import DEFAULT_LOADS, Question
 from roughline.computing.arrays import Indices
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
@@ -59,7 +60,10 @@ class LoadCase:
             forces = _forces_of_a_scan(body, question.modulus, n_loads or DEFAULT_LOADS)
             n_loads = None
         depths = sorted({*question.heights()})
-        return cls(question.modulus, forces, depths, n_loads, question.periodic)
+        levelled = question.joint is not None and isinstance(body, Surface) and body.is_cut_out
+        return cls(
+            question.modulus, forces, depths, n_loads, question.is_repeated, levelled=levelled
+        )
 
     @property
     def count(self) -> int:

@@ -11,6 +11,7 @@ _FLAGS = {
     "materials": "--materials",
     "loads": "--load",
     "depths": "--depth",
+    "joint_area": "--joint-area",
     "n_loads": "--loads",
     "grid_error": "--grid-error",
     "unit": "--unit",

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from roughline.assessment.assessment import Assessment, PartialSlip
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
 from roughline.report.folder import make_folder
 from roughline.report.pixels import any_marked, thinned
 from roughline.report.style import PAGE, new_figure, save, styled
@@ -60,9 +59,11 @@ def curve_figure(assessment: Assessment) -> Figure:
     left, right = figure.subplots(1, 2)
     curve = assessment.curve
     depth_unit, depth = _prefixed(curve.depth, "m")
-    force_unit, force = _prefixed(curve.force, "N")
+    force_unit, force = _prefixed(curve.force, "N", assessment.scale)
     _draw_loads(left, curve.depth * depth, curve.force * force, curve.resolved)
-    left.set(xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=f"force $F$ [{force_unit}]")
+    left.set(
+        xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=_force_label(assessment, force_unit)
+    )
     draw_stiffness(right, assessment)
     return figure
 
@@ -73,7 +74,7 @@ def contact_figure(surface: Surface, assessment: Assessment) -> Figure:
     left, right = figure.subplots(1, 2)
     draw_heights(left, surface)
     draw_filled(left, assessment)
-    draw_contact(right, surface, assessment.curve)
+    draw_contact(right, surface, assessment)
     return figure
 
 
@@ -87,10 +88,10 @@ def roughness_figure(body: Body, parameters: Roughness) -> Figure:
 
 
 def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
-    """Stiffness over force with its interval, and theories beside it."""
-    curve, area = assessment.curve, assessment.area
-    force_unit, force = _prefixed(curve.force, "N")
-    unit, stiffness = _prefixed(curve.stiffness, "N/m")
+    """Stiffness over force with its interval, and theories beside it; of the joint, if given."""
+    curve, area, scale = assessment.curve, assessment.area, assessment.scale
+    force_unit, force = _prefixed(curve.force, "N", scale)
+    unit, stiffness = _prefixed(curve.stiffness, "N/m", scale)
     _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve.resolved)
     if assessment.stiffness_interval is not None:
         low, high = (end * stiffness for end in assessment.stiffness_interval)
@@ -104,21 +105,22 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
                 label=theory.name,
             )
             axes.legend()
-    axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel=f"stiffness $k$ [{unit}]")
+    symbol = "k" if assessment.question.joint is None else "k_i"
+    axes.set(xlabel=_force_label(assessment, force_unit), ylabel=f"stiffness ${symbol}$ [{unit}]")
 
 
 def draw_area(axes: Axes, assessment: Assessment) -> None:
     """Contact area over force with its interval, and theories beside it."""
     curve, area = assessment.curve, assessment.area
     assert curve.area_fraction_corrected is not None
-    force_unit, force = _prefixed(curve.force, "N")
+    force_unit, force = _prefixed(curve.force, "N", assessment.scale)
     _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve.resolved)
     if assessment.area_interval is not None:
         axes.fill_between(curve.force * force, *assessment.area_interval, color="0.85", zorder=-5)
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
         axes.legend()
-    axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel="contact area $A/A_0$")
+    axes.set(xlabel=_force_label(assessment, force_unit), ylabel="contact area $A/A_0$")
 
 
 def draw_partial_slip(axes: Axes, slip: PartialSlip | None) -> None:
@@ -170,8 +172,9 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
     axes.axis(bounds)
 
 
-def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
-    """Real contact area at the last load whose fields are there."""
+def draw_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
+    """Real contact area at the last load whose fields are there; the load is the joint's."""
+    curve = assessment.curve
     _label_sides(axes, surface)
     for i in range(len(curve.fields) - 1, -1, -1):
         fields = curve.fields[i]
@@ -186,7 +189,7 @@ def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
         )
         assert curve.area_fraction_corrected is not None
         share = decimal(100 * curve.area_fraction_corrected[i], 4)
-        force = engineering(curve.force[i], "N")
+        force = engineering(curve.force[i] * assessment.scale, "N")
         axes.set_title(f"corrected area {share}% at {force}", fontsize=8)
         return
 
@@ -225,7 +228,15 @@ def _label_sides(axes: Axes, surface: Surface) -> None:
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
 
 
-def _prefixed(values: Real, unit: str) -> tuple[str, float]:
-    """Choose a prefix for values in an SI unit; return the unit, and the factor to it."""
-    factor, prefixed = prefix(float(np.nanmax(np.abs(values), initial=0.0)), unit)
-    return prefixed, factor
+def _force_label(assessment: Assessment, unit: str) -> str:
+    on = "" if assessment.question.joint is None else " on the joint"
+    return f"force $F${on} [{unit}]"
+
+
+def _prefixed(values: Real, unit: str, scale: float = 1.0) -> tuple[str, float]:
+    """Choose a prefix for values times a scale; return the unit, and the factor to it.
+
+    The values are in an SI unit, and the factor holds the scale.
+    """
+    factor, prefixed = prefix(scale * float(np.nanmax(np.abs(values), initial=0.0)), unit)
+    return prefixed, factor * scale

@@ -12,6 +12,16 @@ from roughline.units import engineering
 
 _SHARES = ("contact_area_fraction",)  # keys of what is written in per cent
 
+# keys of the answers that the page begins with
+_LEADING = (
+    "contact_stiffness",
+    "interface_stiffness",  # of a joint, which has no contact stiffness
+    "contact_area_fraction",
+    "constriction_resistance",
+    "thermal_conductance_per_area",
+)
+_OF_JOINT = ("specific_contact_resistance",)
+
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
 UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
@@ -19,15 +29,21 @@ UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surfac
 
 
 def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of a curve in SI units; a star marks loads that the grid decides."""
-    curve = assessment.curve_as_asked
-    stiffness = assessment.stiffness_interval_as_asked
+    """Return header and rows of a curve in SI units; a star marks loads that the grid decides.
+
+    Force and stiffness are the joint's, where its area is given.
+    """
+    curve, scale = assessment.curve_as_asked, assessment.scale
+    force, stiffness = curve.force * scale, curve.stiffness * scale
+    ends = assessment.stiffness_interval_as_asked
+    if ends is not None:
+        ends = ends[0] * scale, ends[1] * scale
     area = assessment.area_interval_as_asked
     header = ["load", "depth", "force", "stiffness k"]
     if curve.area_fraction is not None:
         header += ["raw area", "corrected A/A_0"]
     rows = []
-    for i, heading in enumerate(_starred(assessment)):
+    for i, heading in enumerate(starred(assessment)):
         if not curve.converged[i]:
             reason = Status(curve.status[i]).reason
             rows.append([heading, "-", "-", reason, "-", "-"][: len(header)])
@@ -35,8 +51,8 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
         row = [
             heading,
             engineering(curve.depth[i], _SI["depth"]),
-            engineering(curve.force[i], _SI["force"]),
-            with_interval(curve.stiffness[i], _at(stiffness, i), _SI["stiffness"]),
+            engineering(force[i], _SI["force"]),
+            with_interval(stiffness[i], _at(ends, i), _SI["stiffness"]),
         ]
         if curve.area_fraction is not None and curve.area_fraction_corrected is not None:
             corrected = with_interval(curve.area_fraction_corrected[i], _at(area, i), "%")
@@ -47,7 +63,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the answers at some of the loads that were asked for."""
-    header = ["", *_starred(assessment)[loads]]
+    header = ["", *starred(assessment)[loads]]
     rows = [
         [f"{each.name} {each.symbol}", *(quantity(each, i) for i in _numbers(assessment, loads))]
         for each in assessment.answers.values()
@@ -64,6 +80,14 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     ]
 
 
+def leading_keys(assessment: Assessment) -> list[str]:
+    """Keys of the answers that a page begins with."""
+    of_joint = assessment.question.joint is not None
+    left_out = "contact_stiffness" if of_joint else "interface_stiffness"
+    keys = (*_LEADING, *_OF_JOINT) if of_joint else _LEADING
+    return [key for key in keys if key in assessment.answers and key != left_out]
+
+
 def star_is_shown(assessment: Assessment) -> bool:
     """Whether the grid decides one of the loads that were asked for."""
     curve = assessment.curve_as_asked
@@ -73,8 +97,12 @@ def star_is_shown(assessment: Assessment) -> bool:
 def quantity(answer: Answer, i: int) -> str:
     """Write one value of an answer, with its interval where that is known."""
     ends = None if answer.low is None or answer.high is None else (answer.low, answer.high)
-    unit = "%" if answer.key in _SHARES else answer.unit
-    return with_interval(float(answer.values[i]), _at(ends, i), unit)
+    return with_interval(float(answer.values[i]), _at(ends, i), unit_shown(answer))
+
+
+def unit_shown(answer: Answer) -> str:
+    """Unit in which an answer is written: its own, or per cent."""
+    return "%" if answer.key in _SHARES else answer.unit
 
 
 def material_in_words(material: Material) -> str:
@@ -85,7 +113,7 @@ def material_in_words(material: Material) -> str:
     return f"{material.name} ({', '.join(parts)}; {material.source})"
 
 
-def _starred(assessment: Assessment) -> list[str]:
+def starred(assessment: Assessment) -> list[str]:
     """What each load is called, with a star where the grid decides."""
     curve = assessment.curve_as_asked
     stars = curve.converged & ~curve.resolved

@@ -49,6 +49,31 @@ def load_progress() -> Iterator[Callable[[int, int], None]]:
         yield lambda done, total: show("loads", done, total, key="loads")
 
 
+@contextmanager
+def part_progress() -> Iterator[tuple[Callable[[int, int], None], Callable[[int, int], None]]]:
+    """Show bars over the maps of a part, and over the loads of each; gives both callbacks.
+
+    Nothing is drawn before a map is pressed, so that a refusal of all stays one line.
+    """
+    with _bars() as show:
+        told = (0, 1)
+        is_pressing = False
+
+        def maps(done: int, total: int) -> None:
+            nonlocal told
+            told = done, total
+            if is_pressing:
+                show("maps", done, total, key="maps")
+
+        def loads(done: int, total: int) -> None:
+            nonlocal is_pressing
+            is_pressing = True
+            maps(*told)
+            show("loads of this map", done, total, key="loads")
+
+        yield maps, loads
+
+
 class _Show(Protocol):
     def __call__(self, name: str, done: int, total: int, *, key: str) -> None: ...
 
