@@ -32,6 +32,7 @@ def answers(
     amplitudes: tuple[float | None, float | None] = (None, None),
     frequency: float | None = None,
     stiffness_interval: Ends | None = None,
+    unloading_interval: Ends | None = None,
     area_interval: Ends | None = None,
 ) -> list[Answer]:
     """Work out what follows from a curve.
@@ -54,12 +55,16 @@ def answers(
         [m], [1]
     frequency : float, optional
         Of an ultrasonic wave. [Hz]
-    stiffness_interval, area_interval : tuple of ndarray, shape (loads,), optional
-        Both ends, of stiffness [N / m] and of the area fraction [1].
+    stiffness_interval, unloading_interval, area_interval : tuple of ndarray, optional
+        Both ends, of shape (loads,), of the stiffness on loading and on unloading [N / m] and of
+        the area fraction [1].
     """
     k = np.stack([curve.stiffness, *(stiffness_interval or ())])
+    k_u = k
+    if curve.unloading_stiffness is not None:
+        k_u = np.stack([curve.unloading_stiffness, *(unloading_interval or ())])
     pressure = curve.force / area
-    k_i, of_what = k, ""
+    k_i, of_what = k_u, ""
     if interface_stiffness is not None:
         k_i, of_what = interface_stiffness.rows, f"; k_i {interface_stiffness.validity}"
     given = [
@@ -69,30 +74,39 @@ def answers(
         answer("contact_stiffness", k),
         answer("stiffness_per_area", k / area),
     ]
+    if curve.hardness is not None:
+        given.append(answer("unloading_stiffness", k_u))
     if interface_stiffness is not None:
         given.append(interface_stiffness)
     if curve.area_fraction_corrected is not None:
         share = np.stack([curve.area_fraction_corrected, *(area_interval or ())])
-        given += _areas(curve.force, share, area, pair)
-    given += _electric(curve.force, k, pair)
-    given += _thermal(k, k_i / area, of_what, pair)
+        given += _areas(curve, share, area, pair)
+    given += _electric(curve.force, k_u, pair)
+    given += _thermal(k_u, k_i / area, of_what, pair)
     given += _thermal_estimates(pressure, pair, amplitudes)
-    given.append(answer("tangential_stiffness", pair.G_star / pair.E_star * k))
+    given.append(answer("tangential_stiffness", pair.G_star / pair.E_star * k_u))
     given += _reflection(k_i / area, of_what, pair, frequency)
     return given
 
 
-def _areas(force: Real, share: Real, area: float, pair: MaterialPair) -> list[Answer]:
-    """Real contact area, and the pressure on it."""
+def _areas(curve: Curve, share: Real, area: float, pair: MaterialPair) -> list[Answer]:
+    """Real contact area, the pressure on it, and what of it yields."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        pressure = force / (share * area)
+        pressure = curve.force / (share * area)
     given = [
         answer("contact_area", share * area),
         answer("contact_area_fraction", share),
         answer("contact_pressure", pressure),
     ]
-    if pair.hardness is not None:
-        given.append(answer("contact_pressure_over_hardness", pressure / pair.hardness))
+    hardness = curve.hardness or pair.hardness
+    if hardness is not None:
+        given.append(answer("contact_pressure_over_hardness", pressure / hardness))
+    if curve.plastic_fraction is not None and curve.hardness is not None:
+        assert curve.indentation is not None
+        given += [
+            answer("plastic_fraction", curve.plastic_fraction),
+            answer("indentation", curve.indentation),
+        ]
     return given
 
 

@@ -39,12 +39,20 @@ DECLARED = {
         "contact stiffness",
         "k",
         "N/m",
-        "dF/dd at frozen contact, exact",
-        "elastic, without friction or adhesion",
+        "dF/dd at frozen contact on further loading, exact",
+        "without friction or adhesion; where metals yield, points at the hardness bear no more",
+    ),
+    "unloading_stiffness": Declaration(
+        "unloading stiffness",
+        "k_u",
+        "N/m",
+        "dF/dd at frozen contact on unloading, exact",
+        "all of the contact springs back; what vibration, ultrasound and currents meet",
+        "Almqvist et al. 2007",
     ),
     "stiffness_per_area": Declaration("stiffness per area", "k/A_0", "N/m³", "k / A_0"),
     "interface_stiffness": Declaration(
-        "interface stiffness", "k_i", "N/m", "1/k_i = 1/k - 1/k_s, k_s of the flat punch"
+        "interface stiffness", "k_i", "N/m", "1/k_i = 1/k_u - 1/k_s, k_s of the flat punch"
     ),
     "contact_area": Declaration(
         "real contact area",
@@ -60,21 +68,38 @@ DECLARED = {
         "p_c",
         "Pa",
         "F / A",
-        "elastic; no body bears more than its hardness",
+        "no body bears more than its hardness",
+    ),
+    "plastic_fraction": Declaration(
+        "yielded share of the contact",
+        "A_p/A",
+        "1",
+        "cells at the hardness over cells in contact",
+        "elastic, perfectly plastic: no hardening, no pile-up",
+        "Almqvist et al. 2007",
+    ),
+    "indentation": Declaration(
+        "largest permanent indentation",
+        "w",
+        "m",
+        "overlap at the hardness, which lowers the surface for good",
+        "at one point; the grid's finest summits decide it",
+        "Almqvist et al. 2007",
     ),
     "contact_pressure_over_hardness": Declaration(
         "contact pressure over hardness",
         "p_c/H",
         "1",
         "F / (A H), H of the softer body",
-        f"elastic below {ELASTIC_UP_TO:g}, plastic near 1",
+        f"elastic below {ELASTIC_UP_TO:g}, all of the contact yields at 1",
     ),
     "constriction_resistance": Declaration(
         "constriction resistance",
         "R",
         "ohm",
-        "E* (rho1 + rho2) / (2 k)",
-        "clean metal; films add to it",
+        "E* (rho1 + rho2) / (2 k_u)",
+        "clean metal; films add to it. Current spreads from the spots as displacement does when "
+        "all spring back, whatever made them: k_u",
         "Barber 2003",
     ),
     "holm_resistance": Declaration(
@@ -90,8 +115,8 @@ DECLARED = {
         "thermal conductance",
         "G",
         "W/K",
-        "kappa_s k / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
-        "solid spots alone, in vacuum",
+        "kappa_s k_u / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
+        "solid spots alone, in vacuum; k_u, as heat spreads from the spots whatever made them",
         "Barber 2003",
     ),
     "thermal_conductance_per_area": Declaration(
@@ -122,8 +147,9 @@ DECLARED = {
         "tangential stiffness",
         "k_t",
         "N/m",
-        "k G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
-        "before any slip; normal and tangential problems uncoupled",
+        "k_u G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
+        "before any slip; normal and tangential problems uncoupled; k_u, as a small shear makes "
+        "nothing yield",
         "Popov 2017, ch. 8",
     ),
     "reflection": Declaration(
@@ -131,7 +157,8 @@ DECLARED = {
         "|R|",
         "1",
         "|z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|, K = k_i / A_0",
-        "longitudinal plane waves much longer than the distances of contact spots",
+        "longitudinal plane waves much longer than the distances of contact spots; their "
+        "amplitude is small, so all of the contact springs back: k_u",
         "Tattersall 1973",
     ),
 }
