@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING, Any
 from roughline._version import __version__
 
 if TYPE_CHECKING:
-    from roughline.assessment.assess import assess as assess
+    from roughline.assessment.assess import assess_body as assess_body
     from roughline.assessment.assessment import Assessment as Assessment
     from roughline.assessment.line_scan import press_scan as press_scan
+    from roughline.assessment.part import PartAssessment as PartAssessment
     from roughline.assessment.question import Question as Question
-    from roughline.assessment.question import Reading as Reading
+    from roughline.assessment.reading import Reading as Reading
+    from roughline.assessment.several import assess as assess
+    from roughline.assessment.several import assess_part as assess_part
     from roughline.comparison.models import Comparison as Comparison
     from roughline.comparison.models import compare as compare
     from roughline.comparison.trust import trust_map as trust_map
@@ -57,10 +60,13 @@ if TYPE_CHECKING:
     from roughline.topography.two_bodies import facing as facing
 
 _HOMES = {
-    "assess": "assessment.assess",
+    "assess": "assessment.several",
+    "assess_body": "assessment.assess",
+    "assess_part": "assessment.several",
     "Assessment": "assessment.assessment",
+    "PartAssessment": "assessment.part",
     "Question": "assessment.question",
-    "Reading": "assessment.question",
+    "Reading": "assessment.reading",
     "facing": "topography.two_bodies",
     "theory": "theories.theory",
     "press_scan": "assessment.line_scan",

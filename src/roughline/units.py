@@ -38,12 +38,13 @@ _PREFIXES = {
 }
 _POWERS = {prefix: power for power, prefix in _PREFIXES.items()}
 _PREFIXED = re.compile(r"(?P<prefix>[afpnuµμmkMGTPE]?)(?P<unit>m|N|Pa|Hz)")
-_SIGNS = {"ohm": "Ω"}
+_SIGNS = {"ohm": "Ω", "ohm m²": "Ω m²"}
 _EXACT = 15  # decimal digits that double precision always keeps
 
 _EXAMPLES = {
     "Pa": "110 GPa",
     "m": "0.5 mm",
+    "m^2": "2 cm^2",
     "N": "10 N",
     "1/m": "2e6 1/m",
     "Hz": "5 MHz",

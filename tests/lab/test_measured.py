@@ -153,7 +153,7 @@ def test_an_assessment_is_solved_once(page, monkeypatch):
     def never(*_, **__):
         raise AssertionError("solved again")
 
-    monkeypatch.setattr("roughline.lab.measured.answers.assess", never)
+    monkeypatch.setattr("roughline.lab.measured.answers.assess_body", never)
     again, _ = page.ask("answer", said)
     assert again == first
     assert page.ask("report", said)[0]["files"]

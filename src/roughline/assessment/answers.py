@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.larger_surface import stiffness_of_the_piece
-from roughline.assessment.question import has_spectrum
+from roughline.assessment.nominal import has_spectrum
 from roughline.engineering.answer import Answer
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
+from roughline.engineering.joint import of_joint
 from roughline.engineering.limits import elastic_warnings
 from roughline.spectra.moments import Moments, moments
 from roughline.spectra.roughness import ALIKE, isotropy
@@ -46,8 +47,11 @@ def with_answers(
         amplitudes=(result.body.rms_height, spectrum.rms_slope if spectrum else None),
         frequency=result.question.frequency_in_hertz,
         stiffness_interval=result.stiffness_interval_as_asked,
+        unloading_interval=result.unloading_interval_as_asked,
         area_interval=result.area_interval_as_asked,
     )
+    if result.question.joint is not None:
+        given = of_joint(given, result.area, result.question.joint)
     return replace(result, answers={each.key: each for each in given})
 
 
@@ -55,7 +59,7 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
     """Say where the elastic assumption breaks, and of what the answers are not."""
     question, body, pair = result.question, result.body, result.question.pair
     broken = []
-    if pair is not None:
+    if pair is not None and result.curve.hardness is None:
         index = None
         if spectrum is not None and pair.hardness is not None:
             summits = spectrum.summit_deviation, spectrum.summit_radius
@@ -73,7 +77,9 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
 
 def _interface_stiffness(result: Assessment, of_larger_surface: Answer | None) -> Answer | None:
     """Stiffness of the interface alone; None where the contact stiffness is that already."""
-    ends = result.stiffness_interval_as_asked
+    ends = result.unloading_interval_as_asked
+    if result.curve.unloading_stiffness is None:
+        ends = result.stiffness_interval_as_asked
     if of_larger_surface is not None:
         answer = of_larger_surface.at(result.asked)
         # what one piece leaves open is narrower than what is unknown without the grid's error

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from roughline._version import __version__
-from roughline.assessment.question import Question, nominal_area
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.question import Question
 from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve
@@ -55,15 +56,21 @@ class Assessment:
         asked for.
     asked : ndarray of int
         Which loads of the curve were asked for, in the order in which they were.
-    stiffness_interval, area_interval : tuple of ndarray, shape (loads,), or None
-        Both ends, over the loads of the curve: what the grid and filled points, or a single line
-        scan, leave open of the stiffness [N / m] and of the corrected area fraction [1]. None where
-        the grid's error is not known.
+    stiffness_interval, unloading_interval, area_interval : tuple of ndarray, or None
+        Both ends, of shape (loads,), over the loads of the curve: what the grid, filled points and
+        the scatter of hardness, or a single line scan, leave open of the stiffness on loading and
+        on unloading [N / m] and of the corrected area fraction [1]. None where the grid's error is
+        not known.
     interrupted : bool
         Whether Ctrl-C came before the last load was solved, or its errors estimated.
     answers : mapping of str to Answer
         By their keys, such as "contact_stiffness", for the two materials, over the loads that were
         asked for; empty without materials.
+    elastic : mapping of str to Answer
+        The same without yield; empty where nothing yields.
+    hardness_scatter : mapping of str to tuple of ndarray
+        By the keys of the answers, the least and the largest ratio of each to its value while the
+        hardness is varied; that is in the intervals. Empty where the hardness is taken as exact.
     theories : sequence of TheoryCurve
         At the mean pressures of the loads that were solved.
     partial_slip : PartialSlip or None
@@ -80,9 +87,12 @@ class Assessment:
     curve: Curve
     asked: Indices
     stiffness_interval: Ends | None = None
+    unloading_interval: Ends | None = None
     area_interval: Ends | None = None
     interrupted: bool = False
     answers: Mapping[str, Answer] = field(default_factory=dict)
+    elastic: Mapping[str, Answer] = field(default_factory=dict)
+    hardness_scatter: Mapping[str, Ends] = field(default_factory=dict)
     theories: Sequence[TheoryCurve] = ()
     partial_slip: PartialSlip | None = None
     warnings: Sequence[str] = ()
@@ -92,6 +102,11 @@ class Assessment:
     def area(self) -> float:
         """Nominal area; of a line scan, the square of its length. [m²]"""
         return nominal_area(self.body)
+
+    @property
+    def scale(self) -> float:
+        """How many times the force and stiffness of the curve the joint has; 1 without a joint."""
+        return self.question.scale(self.area)
 
     @cached_property
     def roughness(self) -> Roughness | None:
@@ -111,6 +126,14 @@ class Assessment:
         return self.question.headings or [str(i + 1) for i in self.asked]
 
     @property
+    def largest(self) -> int:
+        """Which of the loads that were asked for is the largest, by its number among them."""
+        force = self.curve.force[self.asked]
+        if np.isnan(force).all():
+            return int(np.argmax(self.asked))
+        return int(np.nanargmax(force))
+
+    @property
     def fields(self) -> Fields | None:
         """Fields of one load; None if they were not asked for, or the load was not solved."""
         return next((each for each in self.curve.fields if each is not None), None)
@@ -123,12 +146,17 @@ class Assessment:
             for item in fields(Curve)
             if isinstance(getattr(self.curve, item.name), np.ndarray)
         }
-        return replace(self.curve, **taken, fields=())
+        return replace(self.curve, **taken, fields=(), dents=())
 
     @property
     def stiffness_interval_as_asked(self) -> Ends | None:
         """Both ends of the stiffness at the loads that were asked for. [N / m]"""
         return ends_at(self.stiffness_interval, self.asked)
+
+    @property
+    def unloading_interval_as_asked(self) -> Ends | None:
+        """Both ends of the stiffness on unloading at the loads that were asked for. [N / m]"""
+        return ends_at(self.unloading_interval, self.asked)
 
     @property
     def area_interval_as_asked(self) -> Ends | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from roughline.assessment.question import Reading
+from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body
 from roughline.comparison.models import Comparison, compare
 from roughline.comparison.trust import Difference, trust_map

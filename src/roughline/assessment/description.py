@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from roughline.assessment.notes import filled_points_and_spikes
-from roughline.assessment.question import Reading
+from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body
 from roughline.errors import InputError
 from roughline.files.measurement import Measurement

@@ -103,9 +103,9 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     curve : Curve
         In the free half-space, or of the reduced model.
     interval : tuple of ndarray, shape (loads,), optional
-        Both ends of its stiffness. [N / m]
+        Both ends of its stiffness on unloading. [N / m]
     """
-    k = curve.stiffness
+    k = curve.stiffness if curve.unloading_stiffness is None else curve.unloading_stiffness
     if isinstance(body, Line):
         saturated, error = curve.E_star * body.length, 0.0
         validity = "of the reduced line alone; waves longer than the scan are missing"
@@ -146,12 +146,13 @@ def stiffness_of_the_larger_surface(
     curve : Curve
         Of the piece in the periodic half-space.
     interval : tuple of ndarray, shape (loads,), optional
-        Both ends of its stiffness. [N / m]
+        Both ends of its stiffness on unloading. [N / m]
     """
     assert curve.area_fraction_corrected is not None
+    assert curve.unloading_stiffness is not None
     roll_offs = roll_offs_along_a_side(piece)
     shares = share_of_the_whole(curve.area_fraction_corrected, roll_offs)
-    k = curve.stiffness
+    k = curve.unloading_stiffness
     with np.errstate(divide="ignore", invalid="ignore"):
         halves = [np.log(share) for share in shares]
         if interval is not None:
@@ -159,7 +160,7 @@ def stiffness_of_the_larger_surface(
                 sign * np.hypot(half, np.log(end / k))
                 for sign, half, end in zip((-1, 1), halves, interval, strict=True)
             ]
-    low, high = (k * np.exp(half) for half in halves)
+        low, high = (np.where(k == 0, 0.0, k * np.exp(half)) for half in halves)
     if roll_offs is None:
         held = (
             "it shows no roll-off, so that longer waves are missing: the interval allows for waves "
@@ -171,7 +172,7 @@ def stiffness_of_the_larger_surface(
         k,
         (low, high),
         f"of the larger surface that the map was cut out of; {held}",
-        formula="dF/dd of the map in a periodic half-space under the same force",
+        formula="dF/dd of the map in a periodic half-space under the same force, on unloading",
     )
 
 

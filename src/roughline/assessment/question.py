@@ -1,48 +1,30 @@
-"""What is asked of one rough body, or of two: checked before any file is read."""
+"""What is asked of rough bodies: checked before any file is read."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from roughline.engineering.materials import Material, material
+from roughline.assessment.given import as_si, bodies_or_paths, body_or_path, pair_of, several
+from roughline.assessment.hardness import checked_hardness
+from roughline.assessment.misfit import refuse_misfit
+from roughline.assessment.nominal import area_of_joint
+from roughline.assessment.reading import Reading
 from roughline.engineering.pair import MaterialPair
 from roughline.errors import InputError
-from roughline.files.scale import Sizes
 from roughline.topography.body import Body, Line, Surface
-from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation
-from roughline.units import engineering, in_si, load_in_newtons, refuse_decimal_comma
+from roughline.units import engineering, load_in_newtons
 
 DEFAULT_LOADS = 20
 
-
-@dataclass(frozen=True)
-class Reading:
-    """How a file is read.
-
-    Parameters
-    ----------
-    unit, channel, sizes, missing, most_missing
-        As for :func:`roughline.read`.
-    name : str, optional
-        What the first file is called in messages and results; default: its own name.
-    """
-
-    unit: str | None = None
-    channel: int | str | None = None
-    sizes: Sizes | None = None
-    missing: Filling = "harmonic"
-    most_missing: float = 0.1
-    name: str | None = None
-
-    def __post_init__(self) -> None:
-        Missing(self.missing, self.most_missing)  # refuses what cannot be
+UNLOADING = (0.75, 0.5, 0.25, 0.1, 0.0)
+"""Loads over the largest one, on the way back to none."""
 
 
 @dataclass(frozen=True)
@@ -53,9 +35,10 @@ class Question:
 
     Parameters
     ----------
-    body : Surface, Line, str or Path
+    body : Surface, Line, str or Path, or iterable of them
         What is pressed: a body in metres, or a file with a topography. A line scan (a Line of kind
-        "profile") goes through its spectrum to the reduced model.
+        "profile") goes through its spectrum to the reduced model. Several are maps of one part,
+        each from another place; they are pressed one by one, under the same loads.
     materials : pair of Material or str, or str, optional
         Of both bodies: materials or their descriptions, ("steel", "copper"), or one text with a
         comma between, "steel,copper".
@@ -63,9 +46,22 @@ class Question:
         Contact modulus instead of materials; then no answers follow from the curve. [Pa]
     loads : float or str, or sequence of them, optional
         Total forces [N], or texts: forces, "10 N", or mean pressures over the nominal area,
-        "2 MPa".
+        "2 MPa". Forces act on the body, or on the joint whose area is given.
+    joint_area : float or str, optional
+        Nominal area of the joint that a surface is a map of, such as "2 cm^2", not below that of
+        the map. The map is pressed at the joint's mean pressure, and answers are the joint's. [m²]
     depths : float or str, or sequence of them, optional
         Depths since first touch instead of loads. [m]
+    hardness : float or str, optional
+        Hardness of the softer body, taken as exact; default: that of the materials, with its
+        scatter, where it is known. What goes beyond it indents the surface for good. [Pa]
+    elastic : bool, optional
+        Whether both bodies are elastic, whatever their hardness.
+    history : bool, optional
+        Whether loads or depths are applied in the order given, each to the surface as the last one
+        left it; default: as they rise.
+    unload : bool, optional
+        Whether the largest load is taken off again, in steps down to zero.
     n_loads : int, optional
         Or so many forces from first touch to saturation; 20 if there is neither of the three.
     against : Surface, Line, str or Path, optional
@@ -99,7 +95,7 @@ class Question:
         If a text has no unit, or a wrong one.
     """
 
-    body: Body | str | Path
+    body: Body | str | Path | Iterable[Body | str | Path]
     materials: Any = None
     E_star: float | str | None = None
     loads: float | str | Sequence[float | str] = ()
@@ -111,40 +107,69 @@ class Question:
     frequency: float | str | None = None
     theories: str | Sequence[str] = ()
     grid_error: bool | None = None
-    reading: Reading = Reading()
+    reading: Reading = field(default_factory=Reading)
     preparation: Preparation | None = None
     whole_curve: bool = False
     fields: bool = True
+    joint_area: float | str | None = None
+    hardness: float | str | None = None
+    elastic: bool = False
+    history: bool = False
+    unload: bool = False
 
     def __post_init__(self) -> None:
         checked = {
-            "body": _body_or_path(self.body, "body"),
-            "against": None if self.against is None else _body_or_path(self.against, "against"),
-            "loads": _several(self.loads),
-            "depths": _several(self.depths),
-            "theories": _several(self.theories),
+            "body": bodies_or_paths(self.body, "body"),
+            "against": None if self.against is None else body_or_path(self.against, "against"),
+            "loads": several(self.loads),
+            "depths": several(self.depths),
+            "theories": several(self.theories),
+            "hardness": checked_hardness(self.hardness, elastic=self.elastic),
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
         if self.reading != Reading() and not any(
-            isinstance(each, Path) for each in (self.body, self.against)
+            isinstance(each, Path) for each in (*self.bodies, self.against)
         ):
             raise InputError("reading= says how files are read, and none is given: leave it out")
+        self._check_joint()
         self._check_loads()
         self._check_materials()
+        if self.is_of_several:
+            self._check_several()
         if self.theories:
             from roughline.theories.theory import refuse_unknown  # here because it loads slowly
 
             for theory in self.theories:
                 refuse_unknown(theory)
-        for body in (self.body, self.against):
+        for body in (*self.bodies, self.against):
             if isinstance(body, Surface | Line):
-                self.refuse_misfit(body)
+                refuse_misfit(self, body)
+
+    @property
+    def is_of_several(self) -> bool:
+        """Whether it was asked of a number of maps of one part, be it a single one."""
+        return isinstance(self.body, tuple)
+
+    @property
+    def bodies(self) -> tuple[Body | Path, ...]:
+        """The body, or all maps of the part."""
+        return self.body if isinstance(self.body, tuple) else (self.body,)
+
+    def of_each(self) -> list[Question]:
+        """The same question of each body alone."""
+        return [replace(self, body=body) for body in self.bodies]
 
     @property
     def pair(self) -> MaterialPair | None:
-        """Both materials; None if a contact modulus is given instead."""
-        return None if self.materials is None else MaterialPair(*self.materials)
+        """Both materials, with the hardness that is given; None without materials."""
+        if self.materials is None:
+            return None
+        pair = MaterialPair(*self.materials)
+        if self.hardness is None or self.hardness == math.inf:
+            return pair
+        assert not isinstance(self.hardness, str)
+        return pair.with_hardness(self.hardness)
 
     @property
     def modulus(self) -> float:
@@ -164,6 +189,9 @@ class Question:
     @property
     def name(self) -> str:
         """What the first body is called: its file's name, or what it is."""
+        if self.is_of_several:
+            count = len(self.bodies)
+            return f"{count} maps" if count > 1 else "a single map"
         if isinstance(self.body, Path):
             return self.reading.name or self.body.name
         return "a surface" if isinstance(self.body, Surface) else "a line"
@@ -171,42 +199,74 @@ class Question:
     @property
     def headings(self) -> list[str]:
         """What each load or depth is called, in its order: as it was typed, or with its unit."""
-        named = [(each, "N") for each in _several(self.loads)]
-        named += [(each, "m") for each in _several(self.depths)]
-        return [each if isinstance(each, str) else engineering(each, unit) for each, unit in named]
+        named = [(each, "N") for each in several(self.loads)]
+        named += [(each, "m") for each in several(self.depths)]
+        headings = [
+            each if isinstance(each, str) else engineering(each, unit) for each, unit in named
+        ]
+        return headings + [f"back at {share:.0%}" for share in self._unloading]
+
+    @property
+    def _unloading(self) -> tuple[float, ...]:
+        """Loads that follow the largest one, over it."""
+        return UNLOADING if self.unload else ()
+
+    @property
+    def joint(self) -> float | None:
+        """Nominal area of the joint as a number; None if loads act on the body. [m²]"""
+        assert not isinstance(self.joint_area, str)
+        return self.joint_area
+
+    @property
+    def is_repeated(self) -> bool:
+        """Whether what is pressed is repeated: as asked, and because a joint goes on beyond it."""
+        return self.periodic or self.joint_area is not None
+
+    def scale(self, area: float) -> float:
+        """How many times larger the joint is than a body of a nominal area [m²]; 1 without one."""
+        return 1.0 if self.joint is None else self.joint / area
 
     def forces(self, area: float) -> list[float]:
-        """Total forces on a nominal area, in the order of the loads. [N]"""
+        """Total forces on a body of a nominal area, in the order of the loads. [N]
+
+        Of a joint the body carries as much as its share of the area.
+        """
+        scale = self.scale(area)
         forces = [
-            load_in_newtons(load, area) if isinstance(load, str) else float(load)
-            for load in _several(self.loads)
+            load_in_newtons(load, area * scale) if isinstance(load, str) else float(load)
+            for load in several(self.loads)
         ]
-        for load, force in zip(_several(self.loads), forces, strict=True):
-            if not 0 < force < math.inf:
+        for load, force in zip(several(self.loads), forces, strict=True):
+            if not 0 <= force < math.inf or (force == 0 and not self.history):
                 raise InputError(f'load is "{load}"; give positive ones')
-        return forces
+        forces += [share * max(forces) for share in self._unloading]
+        return [force / scale for force in forces]
 
     def heights(self) -> list[float]:
         """Depths, in their order. [m]"""
-        return [_in_si(depth, "m", "depth") for depth in _several(self.depths)]
+        return [as_si(depth, "m", "depth") for depth in several(self.depths)]
 
-    def refuse_misfit(self, body: Body) -> None:
-        """Refuse what does not suit the kind of a body.
-
-        Raises
-        ------
-        InputError
-            If something that belongs to a surface is asked of a line scan, or theories of a body
-            that has no spectrum.
-        """
-        is_scan = isinstance(body, Line) and body.kind == "profile"
-        if is_scan and (self.periodic or self.grid_error or self.depths):
+    def _check_joint(self) -> None:
+        if self.joint_area is None:
+            return
+        object.__setattr__(self, "joint_area", area_of_joint(self.joint_area))
+        if self.materials is None:
+            raise InputError("answers of a joint (joint_area=) need two materials (materials=)")
+        if self.depths:
             raise InputError(
-                "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
-                "loads, through its spectrum"
+                "a joint (joint_area=) is pressed by loads (loads=): its depth counts from the "
+                "touch of its highest point, which a map does not show"
             )
-        if self.theories and not has_spectrum(body):
-            raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
+
+    def _check_several(self) -> None:
+        if self.materials is None:
+            raise InputError(
+                "several maps are compared by their answers, which need two materials (materials=)"
+            )
+        if not self.loads and not self.depths:
+            raise InputError("several maps are pressed under the same loads: give them (loads=)")
+        if self.reading.name is not None:
+            raise InputError("the name in reading= is that of one file, and there are several")
 
     def _check_loads(self) -> None:
         given = (self.n_loads, self.loads or None, self.depths or None)
@@ -220,12 +280,19 @@ class Question:
             or self.n_loads < 2
         ):
             raise InputError(f"n_loads is {self.n_loads!r}; a whole number of at least 2 is needed")
+        if self.unload and (not self.loads or self.history):
+            raise InputError(
+                "unload=True takes off the largest of the loads (loads=); in a history, and for "
+                "depths, write the falling values yourself"
+            )
+        if self.history and not (self.loads or self.depths):
+            raise InputError("history=True needs loads= or depths= in the order of the history")
         self.forces(1.0)  # reads and checks them; a pressure waits for its area
         self.heights()
 
     def _check_materials(self) -> None:
         if self.materials is not None:
-            object.__setattr__(self, "materials", _pair(self.materials))
+            object.__setattr__(self, "materials", pair_of(self.materials))
         elif self.frequency is not None or self.friction is not None:
             raise InputError("reflection and partial slip need two materials (materials=)")
         if (self.E_star is None) == (self.materials is None):
@@ -233,13 +300,13 @@ class Question:
                 "give either a contact modulus (E_star=) or two materials (materials=)"
             )
         if self.E_star is not None:
-            object.__setattr__(self, "E_star", _in_si(self.E_star, "Pa", "modulus"))
+            object.__setattr__(self, "E_star", as_si(self.E_star, "Pa", "modulus"))
         if not 0 < self.modulus < math.inf:  # two rigid bodies are refused by the modulus itself
             raise InputError(
                 f"E_star is {self.modulus!r}; a positive, finite contact modulus is needed"
             )
         if self.frequency is not None:
-            hertz = _in_si(self.frequency, "Hz", "frequency")
+            hertz = as_si(self.frequency, "Hz", "frequency")
             if not 0 < hertz < math.inf:
                 raise InputError(f'frequency is "{self.frequency}"; a positive one is needed')
             object.__setattr__(self, "frequency", hertz)
@@ -247,51 +314,3 @@ class Question:
             raise InputError(
                 f"the coefficient of friction is {self.friction}; a positive one is needed"
             )
-
-
-def nominal_area(body: Body) -> float:
-    """Nominal area of a body; of a line, the square of its length. [m²]"""
-    return body.area if isinstance(body, Surface) else body.length**2
-
-
-def has_spectrum(body: Body) -> bool:
-    """Whether it is a surface with enough points and some roughness."""
-    return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
-
-
-def _several(given: Any) -> tuple[Any, ...]:
-    """One value or several as a tuple."""
-    return (given,) if np.ndim(given) == 0 else tuple(given)
-
-
-def _in_si(given: float | str, unit: str, name: str) -> float:
-    """A number in an SI unit, or a text with a unit of its own, as a number in the SI unit."""
-    return in_si(given, unit, name) if isinstance(given, str) else float(given)
-
-
-def _body_or_path(given: Any, name: str) -> Body | Path:
-    """A body in metres, or the path of a file."""
-    if isinstance(given, str | Path):
-        return Path(given)
-    if not isinstance(given, Surface | Line):
-        raise InputError(
-            f"{name} is a {type(given).__name__}; give a Surface or a Line in metres, or a file"
-        )
-    if given.unit not in (None, "m"):
-        raise InputError(f'{name} is in "{given.unit}"; give it in metres, as rl.read does')
-    return replace(given, unit="m")
-
-
-def _pair(given: Any) -> tuple[Material, Material]:
-    """Two materials, from themselves, their descriptions, or one text with a comma between."""
-    parts = given
-    if isinstance(given, str):
-        refuse_decimal_comma(given, "materials")
-        parts = [part.strip() for part in given.split(",")]
-    if len(parts) != 2:
-        raise InputError(
-            f'materials is "{given}"; give two with a comma between, such as "steel,copper", or '
-            '"steel,rigid"'
-        )
-    first, second = (each if isinstance(each, Material) else material(each) for each in parts)
-    return first, second

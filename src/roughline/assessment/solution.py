@@ -10,7 +10,7 @@ import numpy as np
 from roughline.assessment.larger_surface import stiffness_of_the_larger_surface
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import Topography, pressed_body
-from roughline.assessment.uncertainty import Solution, change
+from roughline.assessment.uncertainty import Changes, Solution, change
 from roughline.engineering.answer import Answer
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
@@ -44,12 +44,13 @@ def with_other_filling(
         again = again.under_forces_of(curve)  # not spaced anew
     moved, interrupted = again.press(other, [], progress)
     stiffness, share = change(curve.stiffness, moved.stiffness)
+    unloading, _ = change(curve.unloading_stiffness, moved.unloading_stiffness)
     area, area_share = change(curve.area_fraction_corrected, moved.area_fraction_corrected)
     note = (
         f"filled by {method} instead: stiffness moves by {_at_most(share)}, "
         f"area by {_at_most(area_share)}"
     )
-    return Solution.of(curve, interrupted, stiffness, area, note)
+    return Solution.of(curve, interrupted, Changes(stiffness, unloading, area), note)
 
 
 def interface_of_the_larger_surface(
@@ -80,19 +81,38 @@ def interface_of_the_larger_surface(
     curve, converged = solution.curve, solution.curve.converged
     periodic = solution
     if not case.periodic and (solution.interrupted or not converged.any()):
-        unknown = replace(curve, stiffness=np.full(converged.size, np.nan))
+        unknown = replace(curve, unloading_stiffness=np.full(converged.size, np.nan))
         periodic = replace(solution, curve=unknown)
     elif not case.periodic:
         case = replace(case.under_forces_of(curve), periodic=True, levelled=True)
         periodic = solved(case, body, [], progress)
         if filled and not periodic.interrupted:
             periodic = with_other_filling(periodic, case, body, filled, progress)
-    answer = stiffness_of_the_larger_surface(body, periodic.curve, periodic.stiffness_interval)
+    answer = stiffness_of_the_larger_surface(body, periodic.curve, periodic.unloading_interval)
     if answer.values.size < converged.size:  # loads that failed before have no force
         rows = np.full((3, converged.size), np.nan)
         rows[:, converged] = answer.values, answer.low, answer.high
         answer = replace(answer, values=rows[0], low=rows[1], high=rows[2])
     return answer, solution.interrupted or periodic.interrupted
+
+
+def of_larger_surface(solution: Solution, stiffness: Answer) -> Solution:
+    """Return a periodic body's solution with the intervals of the larger surface behind it.
+
+    Without the grid's errors there are none: what a piece leaves open is narrower than what is
+    unknown.
+    """
+    curve, ends = solution.curve, (stiffness.low, stiffness.high)
+    if solution.stiffness_interval is None or ends[0] is None or ends[1] is None:
+        return solution
+    assert curve.unloading_stiffness is not None
+    with np.errstate(invalid="ignore"):
+        share = curve.stiffness / curve.unloading_stiffness
+    return replace(
+        solution,
+        stiffness_interval=(share * ends[0], share * ends[1]),
+        unloading_interval=(ends[0], ends[1]),
+    )
 
 
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:

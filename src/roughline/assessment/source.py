@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from roughline.assessment.question import Question, Reading
+from roughline.assessment.question import Question
+from roughline.assessment.reading import Reading
 from roughline.errors import InputError
 from roughline.files.measurement import Measurement
 from roughline.files.read import measurement

@@ -13,6 +13,7 @@ import typer
 from roughline.cli import options
 from roughline.cli.flags import in_flags
 from roughline.cli.options import end_interrupted, interruptible, make_folders, print_json
+from roughline.cli.part import press_part
 from roughline.errors import InputError
 
 if TYPE_CHECKING:
@@ -25,7 +26,11 @@ ANSWERS = "Answers"
 
 def press_command(
     file: Annotated[
-        Path, typer.Argument(help="A topography or line scan: an instrument's file, or ours.")
+        list[Path],
+        typer.Argument(
+            help="A topography or line scan: an instrument's file, or ours; or several maps of one "
+            "part, from other places each."
+        ),
     ],
     materials: Annotated[
         str | None,
@@ -59,6 +64,14 @@ def press_command(
         list[str] | None,
         typer.Option(help='A depth, such as "200 nm"; may be repeated.', rich_help_panel=LOADS),
     ] = None,
+    joint_area: Annotated[
+        str | None,
+        typer.Option(
+            help='Area of the joint that the map is a part of, "2 cm^2": forces act on it, and '
+            "answers are the joint's.",
+            rich_help_panel=LOADS,
+        ),
+    ] = None,
     loads: Annotated[
         int | None,
         typer.Option(
@@ -66,6 +79,39 @@ def press_command(
             rich_help_panel=LOADS,
         ),
     ] = None,
+    history: Annotated[
+        bool,
+        typer.Option(
+            "--history",
+            help="Apply several --load in the order given, rising and falling, each to the surface "
+            "as the last one left it.",
+            rich_help_panel=LOADS,
+        ),
+    ] = False,
+    unload: Annotated[
+        bool,
+        typer.Option(
+            "--unload",
+            help="Take the largest --load off again, in steps down to zero.",
+            rich_help_panel=LOADS,
+        ),
+    ] = False,
+    hardness: Annotated[
+        str | None,
+        typer.Option(
+            help='Hardness of the softer body, "2 GPa", taken as exact [default: that of the '
+            "materials, with its scatter].",
+            rich_help_panel=BODIES,
+        ),
+    ] = None,
+    elastic: Annotated[
+        bool,
+        typer.Option(
+            "--elastic",
+            help="Take both bodies as elastic, whatever their hardness.",
+            rich_help_panel=BODIES,
+        ),
+    ] = False,
     periodic: Annotated[
         bool,
         typer.Option(
@@ -135,18 +181,26 @@ def press_command(
     goes through its spectrum to the reduced model. A load in newtons is the total force on the
     nominal area; one in pascals is the mean pressure over it. Depth counts from first touch.
 
+    Where the hardness of the materials is known, points of the contact yield at it and are indented
+    for good; elastic values stand beside where that changes them. --elastic leaves it out.
+
     With two materials it prints contact stiffness, real contact area, contact pressure over
     hardness, electrical and thermal contact conductance and tangential stiffness; with --report it
     writes them with their formulas, the surface, the preparation, the assumptions and this command
     on one page, as HTML and PDF. A value is followed by ± or by both ends of its interval: what
-    the grid and filled points, or a single line scan, leave open. A star behind a load marks fewer
-    than ten points in contact, where the grid decides.
+    the grid, filled points and the scatter of a hardness, or a single line scan, leave open. A star
+    behind a load marks fewer than ten points in contact, where the grid decides.
+
+    Of several maps it prints each one's answers, their mean, their scatter between places and an
+    interval for the part. With --joint-area the map stands for a joint that is alike everywhere and
+    evenly loaded.
 
     Materials by name: {materials}. Others by value, or a name with some values changed: E, nu,
     hardness, resistivity, conductivity, density.
 
-    Exit codes: 0; 1 if a load was not solved to the tolerance, which is said and shown as missing;
-    2 for input that cannot be used; 130 after Ctrl-C, with the loads solved until then.
+    Exit codes: 0; 1 if a load was not solved to the tolerance, or one of several maps was refused,
+    which is said and shown as missing; 2 for input that cannot be used; 130 after Ctrl-C, with the
+    loads or maps done until then.
 
     Examples
     --------
@@ -154,12 +208,16 @@ def press_command(
 
     roughline press scan.x3p --materials steel,copper --load "10 N" --report contact
 
+    roughline press scans/*.x3p --materials steel,copper --load "10 N" --joint-area "2 cm^2"
+
+    roughline press scan.x3p --modulus "110 GPa" --hardness "2 GPa" --load "10 N" --unload
+
     roughline press scan.sur --against other.sur --materials "E=3 GPa nu=0.38, rigid" --load "2 MPa"
 
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.assessment.assess import assess
+    from roughline.assessment.assess import assess_body
     from roughline.assessment.question import Question
     from roughline.computing.fft import set_threads
     from roughline.report.json_output import of_assessment
@@ -175,11 +233,16 @@ def press_command(
     if friction is not None and report is None and not json:
         raise InputError("partial slip is drawn in a report: give --report too")
     question = Question(
-        file,
+        file[0] if len(file) == 1 else file,
         materials=materials,
         E_star=modulus,
         loads=load or (),
+        joint_area=joint_area,
         depths=depth or (),
+        hardness=hardness,
+        elastic=elastic,
+        history=history,
+        unload=unload,
         n_loads=loads,
         against=against,
         periodic=periodic,
@@ -192,9 +255,11 @@ def press_command(
         whole_curve=report is not None,
         fields=report is not None or out is not None,
     )
+    if question.is_of_several:
+        return press_part(question, report, out, json, _as_typed())
     with interruptible("there is no result"), load_progress() as progress:
         make_folders(report, out)  # one that cannot be written is told before the work
-        result = assess(question, announce=announce, progress=progress)
+        result = assess_body(question, announce=announce, progress=progress)
         result = replace(
             result,
             warnings=[in_flags(each) for each in result.warnings],
@@ -227,11 +292,15 @@ def _written(result: Assessment, report: Path | None, out: Path | None) -> list[
     if report is not None and result.interrupted:
         files += write_contact(result, report)  # a curve, but no answers to report yet
     elif report is not None:
-        command = shlex.join(["roughline", *map(_without_folders, sys.argv[1:])])
-        files += write_contact_report(result, report, command)
+        files += write_contact_report(result, report, _as_typed())
     if out is not None:
         files += write_contact(result, out)
     return files
+
+
+def _as_typed() -> str:
+    """The command, without the folders of this machine."""
+    return shlex.join(["roughline", *map(_without_folders, sys.argv[1:])])
 
 
 def _without_folders(argument: str) -> str:

@@ -14,7 +14,7 @@ import typer
 from roughline.errors import InputError
 
 if TYPE_CHECKING:
-    from roughline.assessment.question import Reading
+    from roughline.assessment.reading import Reading
     from roughline.spectra.self_affine import SelfAffine
     from roughline.topography.preparation import Preparation
 
@@ -124,7 +124,7 @@ def reading_of(
     unit: str | None, channel: str | None, size: str | None, fill: FillingChoice, max_missing: float
 ) -> Reading:
     """How the options say that files are read."""
-    from roughline.assessment.question import Reading
+    from roughline.assessment.reading import Reading
 
     return Reading(unit, channel, size, fill.value, max_missing)
 

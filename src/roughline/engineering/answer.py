@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +34,8 @@ class Answer:
         Where it holds.
     source : str
         Where it is from.
+    growth : float
+        With what power of the nominal area it grows at the same mean pressure.
     """
 
     key: str
@@ -45,6 +48,7 @@ class Answer:
     formula: str
     validity: str = ""
     source: str = ""
+    growth: float = 0.0
 
     @property
     def rows(self) -> Real:
@@ -73,5 +77,5 @@ def answer(key: str, rows: Real, **differing: str) -> Answer:
     """
     values, *ends = np.atleast_2d(rows)
     low, high = (np.minimum(*ends), np.maximum(*ends)) if ends else (None, None)
-    declared = vars(DECLARED[key]) | differing
+    declared: dict[str, Any] = vars(DECLARED[key]) | differing
     return Answer(key=key, values=values, low=low, high=high, **declared)

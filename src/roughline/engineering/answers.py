@@ -119,7 +119,8 @@ def _electric(force: Real, k: Real, pair: MaterialPair) -> list[Answer]:
         resistance = formulas.electrical_resistance(k, pair.E_star, resistivities)
     given = [answer("constriction_resistance", resistance)]
     if pair.hardness is not None:
-        single_spot = formulas.holm_resistance(force, pair.hardness, resistivities)
+        with np.errstate(divide="ignore"):
+            single_spot = formulas.holm_resistance(force, pair.hardness, resistivities)
         given.append(answer("holm_resistance", single_spot))
     return given
 

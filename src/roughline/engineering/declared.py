@@ -21,6 +21,9 @@ class Declaration:
         Where it holds.
     source : str
         Where it is from.
+    growth : float
+        With what power of the nominal area it grows where every place carries the same mean
+        pressure; 0 for what does not.
     """
 
     name: str
@@ -29,10 +32,11 @@ class Declaration:
     formula: str
     validity: str = ""
     source: str = ""
+    growth: float = 0.0
 
 
 DECLARED = {
-    "normal_force": Declaration("normal force", "F", "N", "given, or F(d)"),
+    "normal_force": Declaration("normal force", "F", "N", "given, or F(d)", growth=1),
     "mean_pressure": Declaration("mean pressure", "p", "Pa", "F / A_0, A_0 the nominal area"),
     "depth": Declaration("approach since touch", "d", "m", "of remote points"),
     "contact_stiffness": Declaration(
@@ -41,7 +45,9 @@ DECLARED = {
         "N/m",
         "dF/dd at frozen contact on further loading, exact",
         "without friction or adhesion; where metals yield, points at the hardness bear no more",
+        growth=1,
     ),
+    "stiffness_per_area": Declaration("stiffness per area", "k/A_0", "N/m³", "k / A_0"),
     "unloading_stiffness": Declaration(
         "unloading stiffness",
         "k_u",
@@ -49,10 +55,14 @@ DECLARED = {
         "dF/dd at frozen contact on unloading, exact",
         "all of the contact springs back; what vibration, ultrasound and currents meet",
         "Almqvist et al. 2007",
+        growth=1,
     ),
-    "stiffness_per_area": Declaration("stiffness per area", "k/A_0", "N/m³", "k / A_0"),
     "interface_stiffness": Declaration(
-        "interface stiffness", "k_i", "N/m", "1/k_i = 1/k_u - 1/k_s, k_s of the flat punch"
+        "interface stiffness",
+        "k_i",
+        "N/m",
+        "1/k_i = 1/k_u - 1/k_s, k_s of the flat punch",
+        growth=1,
     ),
     "contact_area": Declaration(
         "real contact area",
@@ -61,6 +71,7 @@ DECLARED = {
         "cells in contact, corrected for the outline's steps",
         "falls with every finer wave; the grid's shortest is the last here",
         "Yastrebov, Anciaux and Molinari 2017",
+        growth=1,
     ),
     "contact_area_fraction": Declaration("contact area fraction", "A/A_0", "1", "A / A_0"),
     "contact_pressure": Declaration(
@@ -101,6 +112,15 @@ DECLARED = {
         "clean metal; films add to it. Current spreads from the spots as displacement does when "
         "all spring back, whatever made them: k_u",
         "Barber 2003",
+        growth=-1,
+    ),
+    "specific_contact_resistance": Declaration(
+        "specific contact resistance",
+        "rho_c",
+        "ohm m²",
+        "R A_joint",
+        "of the interface alone; clean metal",
+        "Barber 2003",
     ),
     "holm_resistance": Declaration(
         "Holm's single-spot estimate",
@@ -110,6 +130,7 @@ DECLARED = {
         "for comparison: all of the load on one plastic spot; spots apart resist less, and "
         "elastic ones, which are smaller, more",
         "Holm 1967",
+        growth=-0.5,
     ),
     "thermal_conductance": Declaration(
         "thermal conductance",
@@ -118,6 +139,7 @@ DECLARED = {
         "kappa_s k_u / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
         "solid spots alone, in vacuum; k_u, as heat spreads from the spots whatever made them",
         "Barber 2003",
+        growth=1,
     ),
     "thermal_conductance_per_area": Declaration(
         "thermal conductance per area",
@@ -151,6 +173,7 @@ DECLARED = {
         "before any slip; normal and tangential problems uncoupled; k_u, as a small shear makes "
         "nothing yield",
         "Popov 2017, ch. 8",
+        growth=1,
     ),
     "reflection": Declaration(
         "reflection",

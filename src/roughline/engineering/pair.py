@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from operator import itemgetter
 
 from roughline.engineering.materials import Material
@@ -53,6 +53,15 @@ class MaterialPair:
         yielding = [each for each in (self.first, self.second) if not math.isinf(each.E)]
         known = [(each.hardness, each) for each in yielding if each.hardness is not None]
         return min(known, key=itemgetter(0))[1] if known else None
+
+    def with_hardness(self, hardness: float) -> MaterialPair:
+        """Return the pair with another hardness of the softer body, known exactly. [Pa]"""
+        return MaterialPair(
+            *(
+                replace(each, hardness=hardness, hardness_factor=1.0)
+                for each in (self.first, self.second)
+            )
+        )
 
     def lacking(self, quantity: str) -> list[str]:
         """Name the bodies whose property is not known; a rigid one needs no hardness."""

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -21,6 +22,7 @@ from roughline.spectra.roughness import Roughness
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering, prefix
 
+_GAP_ELASTIC_PLASTIC = ListedColormap(["white", "black", "tab:red"])
 _DASHES = ("--", ":", "-.")
 
 
@@ -60,9 +62,11 @@ def curve_figure(assessment: Assessment) -> Figure:
     left, right = figure.subplots(1, 2)
     curve = assessment.curve
     depth_unit, depth = _prefixed(curve.depth, "m")
-    force_unit, force = _prefixed(curve.force, "N")
-    _draw_loads(left, curve.depth * depth, curve.force * force, curve.resolved)
-    left.set(xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=f"force $F$ [{force_unit}]")
+    force_unit, force = _prefixed(curve.force, "N", assessment.scale)
+    _draw_loads(left, curve.depth * depth, curve.force * force, curve)
+    left.set(
+        xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=_force_label(assessment, force_unit)
+    )
     draw_stiffness(right, assessment)
     return figure
 
@@ -87,14 +91,21 @@ def roughness_figure(body: Body, parameters: Roughness) -> Figure:
 
 
 def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
-    """Stiffness over force with its interval, and theories beside it."""
-    curve, area = assessment.curve, assessment.area
-    force_unit, force = _prefixed(curve.force, "N")
-    unit, stiffness = _prefixed(curve.stiffness, "N/m")
-    _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve.resolved)
+    """Stiffness over force with its interval, and theories beside it; of the joint, if given."""
+    curve, area, scale = assessment.curve, assessment.area, assessment.scale
+    force_unit, force = _prefixed(curve.force, "N", scale)
+    unit, stiffness = _prefixed(curve.stiffness, "N/m", scale)
+    _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve)
+    rising = _rising(curve)
+    if curve.hardness is not None and curve.unloading_stiffness is not None:
+        unloading = curve.unloading_stiffness * stiffness
+        axes.loglog(
+            curve.force[rising] * force, unloading[rising], "--", color="tab:red", label="$k_u$"
+        )
+        axes.legend()
     if assessment.stiffness_interval is not None:
-        low, high = (end * stiffness for end in assessment.stiffness_interval)
-        axes.fill_between(curve.force * force, low, high, color="0.85", zorder=-5)
+        low, high = (end[rising] * stiffness for end in assessment.stiffness_interval)
+        axes.fill_between(curve.force[rising] * force, low, high, color="0.85", zorder=-5)
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         if theory.stiffness is not None:
             axes.plot(
@@ -104,21 +115,24 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
                 label=theory.name,
             )
             axes.legend()
-    axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel=f"stiffness $k$ [{unit}]")
+    symbol = "k" if assessment.question.joint is None else "k_i"
+    axes.set(xlabel=_force_label(assessment, force_unit), ylabel=f"stiffness ${symbol}$ [{unit}]")
 
 
 def draw_area(axes: Axes, assessment: Assessment) -> None:
     """Contact area over force with its interval, and theories beside it."""
     curve, area = assessment.curve, assessment.area
     assert curve.area_fraction_corrected is not None
-    force_unit, force = _prefixed(curve.force, "N")
-    _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve.resolved)
+    force_unit, force = _prefixed(curve.force, "N", assessment.scale)
+    _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve)
     if assessment.area_interval is not None:
-        axes.fill_between(curve.force * force, *assessment.area_interval, color="0.85", zorder=-5)
+        rising = _rising(curve)
+        low, high = (end[rising] for end in assessment.area_interval)
+        axes.fill_between(curve.force[rising] * force, low, high, color="0.85", zorder=-5)
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
         axes.legend()
-    axes.set(xlabel=f"force $F$ [{force_unit}]", ylabel="contact area $A/A_0$")
+    axes.set(xlabel=_force_label(assessment, force_unit), ylabel="contact area $A/A_0$")
 
 
 def draw_partial_slip(axes: Axes, slip: PartialSlip | None) -> None:
@@ -171,17 +185,19 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
 
 
 def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
-    """Real contact area at the last load whose fields are there."""
+    """Real contact area at the last load whose fields are there; red where it yields."""
     _label_sides(axes, surface)
     for i in range(len(curve.fields) - 1, -1, -1):
         fields = curve.fields[i]
         if fields is None:
             continue
         axes.imshow(
-            fields.contact.T,
+            fields.contact.T.astype(int) + fields.plastic.T,
             origin="lower",
             extent=_extent(surface),
-            cmap="binary",
+            cmap=_GAP_ELASTIC_PLASTIC,
+            vmin=0,
+            vmax=2,
             interpolation="nearest",
         )
         assert curve.area_fraction_corrected is not None
@@ -209,10 +225,21 @@ def draw_spectrum(axes: Axes, parameters: Roughness) -> None:
         axes.set_title(f"H = {fit.hurst:.2f} ({low:.2f} to {high:.2f})", fontsize=9)
 
 
-def _draw_loads(axes: Axes, x: Real, y: Real, resolved: NDArray[np.bool_]) -> None:
-    axes.loglog(x, y, color="0.5", linewidth=0.8)
-    axes.loglog(x[resolved], y[resolved], "o", color="k")
-    axes.loglog(x[~resolved], y[~resolved], "o", color="k", fillstyle="none")
+def _draw_loads(axes: Axes, x: Real, y: Real, curve: Curve) -> None:
+    """Draw the loads of a curve in their order; those after a larger one in blue."""
+    rising, resolved = _rising(curve), curve.resolved
+    shown = (x > 0) & (y > 0)  # scales are logarithmic: bodies just apart have no place
+    axes.loglog(x[shown], y[shown], color="0.5", linewidth=0.8)
+    for when, colour in ((rising, "k"), (~rising, "tab:blue")):
+        for which, fill in ((resolved, "full"), (~resolved, "none")):
+            points = shown & when & which
+            axes.loglog(x[points], y[points], "o", color=colour, fillstyle=fill)
+
+
+def _rising(curve: Curve) -> NDArray[np.bool_]:
+    """Which loads are at least as large as all before them."""
+    force = np.nan_to_num(curve.force)
+    return force >= np.maximum.accumulate(force)
 
 
 def _extent(surface: Surface) -> tuple[float, float, float, float]:
@@ -225,7 +252,15 @@ def _label_sides(axes: Axes, surface: Surface) -> None:
     axes.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
 
 
-def _prefixed(values: Real, unit: str) -> tuple[str, float]:
-    """Choose a prefix for values in an SI unit; return the unit, and the factor to it."""
-    factor, prefixed = prefix(float(np.nanmax(np.abs(values), initial=0.0)), unit)
-    return prefixed, factor
+def _force_label(assessment: Assessment, unit: str) -> str:
+    on = "" if assessment.question.joint is None else " on the joint"
+    return f"force $F${on} [{unit}]"
+
+
+def _prefixed(values: Real, unit: str, scale: float = 1.0) -> tuple[str, float]:
+    """Choose a prefix for values times a scale; return the unit, and the factor to it.
+
+    The values are in an SI unit, and the factor holds the scale.
+    """
+    factor, prefixed = prefix(scale * float(np.nanmax(np.abs(values), initial=0.0)), unit)
+    return prefixed, factor * scale

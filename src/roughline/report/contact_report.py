@@ -6,7 +6,6 @@ from datetime import date
 from functools import partial
 from pathlib import Path
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from roughline._version import __version__
@@ -24,7 +23,9 @@ from roughline.report.contact_figures import (
 from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
+    elastic_in_words,
     formula_table,
+    leading_keys,
     material_in_words,
     quantity,
     star_is_shown,
@@ -35,24 +36,29 @@ from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
 
-# keys of the answers that the page begins with
-_LEADING = (
-    "contact_stiffness",
-    "contact_area_fraction",
-    "constriction_resistance",
-    "thermal_conductance_per_area",
-)
 _ABREAST = 4  # loads that fit beside each other on a page
 
 ASSUMPTIONS = (
-    "Linear elastic half-spaces, small slopes, no friction in the normal problem, no adhesion, "
-    "static loads.",
+    "Half-spaces that are linear elastic up to the hardness of the softer body and perfectly "
+    "plastic there, if that is known; small slopes, no friction in the normal problem, no "
+    "adhesion, static loads.",
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less.",
     "Intervals, where given, are those of the grid and of filled points, or of what a line scan "
     "leaves open; those of k_i, h_c and |R| of a map hold the surface behind it as well. The "
     "scatter of material data, and for all other answers that of other places on the part, comes "
     "on top.",
+)
+ASSUMPTIONS_OF_JOINT = (
+    *ASSUMPTIONS[:2],
+    "The joint is alike everywhere, and evenly loaded: each place carries the mean pressure and is "
+    "rough as the map is. The map is pressed at that pressure in a periodic half-space, and what "
+    "is per area is multiplied by the joint's area. Answers are those of the interface; waviness "
+    "longer than the map, bending, and the constriction of the bodies to the joint's outline are "
+    "left out.",
+    "Intervals, where given, are those of the grid, of filled points and of what one map leaves "
+    "open of the surface around it. The scatter of material data, and that of places which are "
+    "not alike, comes on top.",
 )
 
 
@@ -89,15 +95,19 @@ def _lead(assessment: Assessment) -> str:
     """The answers at the largest load, by the names that they have in the table."""
     pair, curve = assessment.question.pair, assessment.curve_as_asked
     assert pair is not None
-    largest = int(np.argmax(assessment.asked))
+    largest = assessment.largest
     answers = assessment.answers
     shown = {key: quantity(each, largest) for key, each in answers.items()}
-    leading = [f"{answers[key].name} {shown[key]}" for key in _LEADING if key in shown]
+    leading = [f"{answers[key].name} {shown[key]}" for key in leading_keys(assessment)]
+    elastic = elastic_in_words(assessment, leading_keys(assessment))
+    joint = assessment.question.joint
+    over = "the nominal area" if joint is None else f"a joint of {engineering(joint, 'm²')}"
     unsure = curve.converged[largest] and not curve.resolved[largest]
-    return _sentence(
+    return sentence(
         f"{pair.first.name} on {pair.second.name} under {shown['normal_force']}, "
-        f"{shown['mean_pressure']} over the nominal area: {', '.join(leading)}"
+        f"{shown['mean_pressure']} over {over}: {', '.join(leading)}"
         + (f" ({UNRESOLVED})" if unsure else "")
+        + (f"; {elastic}" if elastic else "")
     )
 
 
@@ -132,7 +142,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
         Section(
             "Answers",
             [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."],
-            notes=[*legend, *map(_sentence, assessment.remarks)],
+            notes=[*legend, *map(sentence, assessment.remarks)],
             tables=[
                 Table(header, rows, numbers=range(1, len(header)))
                 for header, rows in map(partial(answer_table, assessment), _abreast(assessment))
@@ -146,13 +156,17 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
         Section("Where the answers are from", tables=[Table(*formula_table(assessment))]),
         Section(
             "Assumptions",
-            [
-                *ASSUMPTIONS,
-                *(f"{theory.name}: {theory.validity}." for theory in assessment.theories),
-            ],
+            assumptions_of(assessment),
         ),
         Section("To do it again", [how_to_repeat, settings]),
     ]
+
+
+def assumptions_of(assessment: Assessment) -> list[str]:
+    """What the answers rest on."""
+    of_theories = [f"{theory.name}: {theory.validity}." for theory in assessment.theories]
+    joint = assessment.question.joint is not None
+    return [*(ASSUMPTIONS_OF_JOINT if joint else ASSUMPTIONS), *of_theories]
 
 
 def _abreast(assessment: Assessment) -> list[slice]:
@@ -163,13 +177,15 @@ def _abreast(assessment: Assessment) -> list[slice]:
 def _caption(assessment: Assessment) -> str:
     marked = any(part.filled_region is not None for part in assessment.topographies)
     return (
-        "Heights"
+        ("Heights of the map" if assessment.question.joint is not None else "Heights")
         + (" (red: filled points)" if marked else "")
         + ", spectrum with the nearest self-affine law, stiffness over force (open marks: fewer "
         "than ten points in contact)"
         + (", and theories for the same spectrum" if assessment.theories else "")
         + (
-            ", and the points in contact at the largest load; their area is corrected for the "
+            ", and the points in contact at the largest load"
+            + (" (red: at the hardness)" if assessment.curve.hardness is not None else "")
+            + "; their area is corrected for the "
             "outline's steps, as in the table"
             if isinstance(assessment.body, Surface)
             else ""
@@ -203,7 +219,7 @@ def _surface(assessment: Assessment) -> str:
         low, high = parameters.fit.hurst_interval
         text += f" Hurst exponent {parameters.fit.hurst:.2f} ({low:.2f} to {high:.2f})."
     if parameters is not None and parameters.remarks:
-        text += " " + " ".join(_sentence(remark) for remark in parameters.remarks)
+        text += " " + " ".join(sentence(remark) for remark in parameters.remarks)
     return text
 
 
@@ -225,5 +241,6 @@ def _preparation(body: Body) -> str:
     return ", ".join(done) or "none"
 
 
-def _sentence(text: str) -> str:
+def sentence(text: str) -> str:
+    """A remark as a sentence: with a capital and a full stop."""
     return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from roughline.assessment.assessment import Assessment
 from roughline.contact.curve import Status
 from roughline.contact.quantities import QUANTITIES
@@ -12,6 +14,16 @@ from roughline.units import engineering
 
 _SHARES = ("contact_area_fraction",)  # keys of what is written in per cent
 
+# keys of the answers that the page begins with
+_LEADING = (
+    "contact_stiffness",
+    "interface_stiffness",  # of a joint, which has no contact stiffness
+    "contact_area_fraction",
+    "constriction_resistance",
+    "thermal_conductance_per_area",
+)
+_OF_JOINT = ("specific_contact_resistance",)
+
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
 UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
@@ -19,9 +31,15 @@ UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surfac
 
 
 def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of a curve in SI units; a star marks loads that the grid decides."""
-    curve = assessment.curve_as_asked
-    stiffness = assessment.stiffness_interval_as_asked
+    """Return header and rows of a curve in SI units; a star marks loads that the grid decides.
+
+    Force and stiffness are the joint's, where its area is given.
+    """
+    curve, scale = assessment.curve_as_asked, assessment.scale
+    force, stiffness = curve.force * scale, curve.stiffness * scale
+    ends = assessment.stiffness_interval_as_asked
+    if ends is not None:
+        ends = ends[0] * scale, ends[1] * scale
     area = assessment.area_interval_as_asked
     header = ["load", "depth", "force", "stiffness k"]
     if curve.area_fraction is not None:
@@ -35,8 +53,8 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
         row = [
             heading,
             engineering(curve.depth[i], _SI["depth"]),
-            engineering(curve.force[i], _SI["force"]),
-            with_interval(curve.stiffness[i], _at(stiffness, i), _SI["stiffness"]),
+            engineering(force[i], _SI["force"]),
+            with_interval(stiffness[i], _at(ends, i), _SI["stiffness"]),
         ]
         if curve.area_fraction is not None and curve.area_fraction_corrected is not None:
             corrected = with_interval(curve.area_fraction_corrected[i], _at(area, i), "%")
@@ -46,13 +64,37 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 
 def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of the answers at some of the loads that were asked for."""
+    """Return header and rows of the answers at some of the loads that were asked for.
+
+    Where yield changes an answer by more than its interval, that of elastic bodies stands below.
+    """
     header = ["", *_starred(assessment)[loads]]
-    rows = [
-        [f"{each.name} {each.symbol}", *(quantity(each, i) for i in _numbers(assessment, loads))]
-        for each in assessment.answers.values()
-    ]
+    numbers = range(assessment.asked.size)[loads]
+    rows = []
+    for key, each in assessment.answers.items():
+        rows.append([f"{each.name} {each.symbol}", *(quantity(each, i) for i in numbers)])
+        elastic = assessment.elastic.get(key)
+        if elastic is not None and any(_differs(elastic, each, i) for i in numbers):
+            rows.append(["if nothing yielded", *(quantity(elastic, i) for i in numbers)])
     return header, rows
+
+
+def elastic_in_words(assessment: Assessment, keys: Iterable[str]) -> str:
+    """Say what some answers would be of elastic bodies, at the largest load, where they differ."""
+    i = assessment.largest
+    shown = [
+        f"{each.name} {quantity(each, i)}"
+        for key, each in assessment.elastic.items()
+        if key in keys and _differs(each, assessment.answers[key], i)
+    ]
+    return f"if nothing yielded: {', '.join(shown)}" if shown else ""
+
+
+def _differs(elastic: Answer, yielding: Answer, i: int) -> bool:
+    """Whether elastic bodies give something else: beyond the interval, or a per cent without."""
+    value, low, high = yielding.values[i], yielding.low, yielding.high
+    ends = (0.99 * value, 1.01 * value) if low is None or high is None else (low[i], high[i])
+    return not min(ends) <= elastic.values[i] <= max(ends)
 
 
 def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
@@ -64,38 +106,52 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     ]
 
 
+def leading_keys(assessment: Assessment) -> list[str]:
+    """Keys of the answers that a page begins with."""
+    of_joint = assessment.question.joint is not None
+    left_out = "contact_stiffness" if of_joint else "interface_stiffness"
+    keys = (*_LEADING, *_OF_JOINT) if of_joint else _LEADING
+    return [key for key in keys if key in assessment.answers and key != left_out]
+
+
 def star_is_shown(assessment: Assessment) -> bool:
     """Whether the grid decides one of the loads that were asked for."""
-    curve = assessment.curve_as_asked
-    return not curve.resolved[curve.converged].all()
+    return any(_decided_by_grid(assessment))
 
 
 def quantity(answer: Answer, i: int) -> str:
     """Write one value of an answer, with its interval where that is known."""
     ends = None if answer.low is None or answer.high is None else (answer.low, answer.high)
-    unit = "%" if answer.key in _SHARES else answer.unit
-    return with_interval(float(answer.values[i]), _at(ends, i), unit)
+    return with_interval(float(answer.values[i]), _at(ends, i), unit_shown(answer))
+
+
+def unit_shown(answer: Answer) -> str:
+    """Unit in which an answer is written: its own, or per cent."""
+    return "%" if answer.key in _SHARES else answer.unit
 
 
 def material_in_words(material: Material) -> str:
     """Name, moduli and hardness of a material, and where they are from."""
     parts = [f"E = {engineering(material.E, 'Pa')}", f"nu = {material.nu:g}"]
     if material.hardness:
-        parts.append(f"H = {engineering(material.hardness, 'Pa')}")
+        factor = material.hardness_factor
+        known = f" to a factor of {factor:g}" if factor > 1 else ""
+        parts.append(f"H = {engineering(material.hardness, 'Pa')}{known}")
     return f"{material.name} ({', '.join(parts)}; {material.source})"
 
 
 def _starred(assessment: Assessment) -> list[str]:
     """What each load is called, with a star where the grid decides."""
-    curve = assessment.curve_as_asked
-    stars = curve.converged & ~curve.resolved
+    stars = _decided_by_grid(assessment)
     return [
         f"{name} *" if star else name for name, star in zip(assessment.headings, stars, strict=True)
     ]
 
 
-def _numbers(assessment: Assessment, loads: slice) -> range:
-    return range(assessment.asked.size)[loads]
+def _decided_by_grid(assessment: Assessment) -> list[bool]:
+    """Which of the loads that were asked for have too few points in contact."""
+    curve = assessment.curve_as_asked
+    return list(curve.converged & ~curve.resolved & (curve.force > 0))
 
 
 def _at(ends: Ends | None, i: int) -> tuple[float, float] | None:

@@ -35,6 +35,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "body": _of_body(assessment.body),
         "E_star": curve.E_star,
         "nominal_area": assessment.area,
+        "joint_area": question.joint,
         "loads": assessment.headings,
         "curve": {
             **{

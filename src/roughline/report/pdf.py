@@ -19,9 +19,15 @@ _PADDING = 6  # left and right of a cell, as ReportLab has it [points]
 
 
 def write_pdf(
-    path: Path, title: str, lead: str, sections: Sequence[Section], made: str = ""
+    path: Path,
+    title: str,
+    lead: str,
+    sections: Sequence[Section],
+    made: str = "",
+    *,
+    one_sheet: bool = True,
 ) -> None:
-    """Write a page as PDF, one sheet of A4; what is too long is made smaller.
+    """Write a page as PDF on A4: on one sheet, made smaller if it is too long, or on several.
 
     Parameters
     ----------
@@ -29,6 +35,8 @@ def write_pdf(
         Replaced if it exists.
     title, lead, sections, made
         As for :func:`roughline.report.page.render`.
+    one_sheet : bool, optional
+        Whether all of it stands on one sheet.
 
     Raises
     ------
@@ -55,8 +63,11 @@ def write_pdf(
         invariant=True,
     )
     room = (A4[0] - 2 * _MARGIN, A4[1] - 2 * _MARGIN - 12)  # frames have a padding of 6
+    flow = _flow(title, lead, sections, made)
+    if one_sheet:
+        flow = [KeepInFrame(*room, flow, mode="shrink")]
     try:
-        document.build([KeepInFrame(*room, _flow(title, lead, sections, made), mode="shrink")])
+        document.build(flow)
     except OSError as error:
         raise StoreError(f"cannot write {path} ({error}): choose another folder") from error
 

@@ -49,6 +49,16 @@ def load_progress() -> Iterator[Callable[[int, int], None]]:
         yield lambda done, total: show("loads", done, total, key="loads")
 
 
+@contextmanager
+def part_progress() -> Iterator[tuple[Callable[[int, int], None], Callable[[int, int], None]]]:
+    """Show bars over the maps of a part, and over the loads of each; gives both callbacks."""
+    with _bars() as show:
+        yield (
+            lambda done, total: show("maps", done, total, key="maps"),
+            lambda done, total: show("loads of this map", done, total, key="loads"),
+        )
+
+
 class _Show(Protocol):
     def __call__(self, name: str, done: int, total: int, *, key: str) -> None: ...
 

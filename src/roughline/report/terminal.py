@@ -63,9 +63,9 @@ def print_assessment(
     if many:
         console.print(_in_one_line(assessment, long_curves_by), highlight=False, soft_wrap=True)
     elif answered:
-        _print_table(console, *answer_table(assessment, slice(None)))  # formulas are for the report
+        print_table(console, *answer_table(assessment, slice(None)))  # formulas are for the report
     else:
-        _print_table(console, *curve_table(assessment))
+        print_table(console, *curve_table(assessment))
     if star_is_shown(assessment) and not many:
         console.print(f"* {UNRESOLVED}", highlight=False)
     if pair is not None and not answered:
@@ -144,7 +144,7 @@ def print_comparison(compared: ModelComparison, files: Iterable[Path] = ()) -> N
     print_files(files)
 
 
-def _print_table(console: Console, header: list[str], rows: list[list[str]]) -> None:
+def print_table(console: Console, header: list[str], rows: list[list[str]]) -> None:
     """Print a table of names and values; where it is too wide, intervals stand below values."""
     if _width(header, rows) > console.width:
         rows = [[_stacked(cell) for cell in row] for row in rows]

@@ -36,7 +36,7 @@ def download(arguments: Mapping[str, Any], progress: Progress) -> bytes:
         rl.write(surface, folder / name)
         return frame({"file": name})
     force = state.F * state.E_star * rms_height(state) * state.length
-    result = rl.assess(
+    result = rl.assess_body(
         rl.Question(
             surface,
             E_star=state.E_star,

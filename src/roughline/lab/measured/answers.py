@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.assessment.assess import assess
+from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
@@ -60,7 +60,7 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment:
 
     def solve() -> Assessment:
         with at("answers"):
-            return assess(question, progress=Steps(arguments, progress))
+            return assess_body(question, progress=Steps(arguments, progress))
 
     return kept(arguments["session"], "assessment", sorted(said.items()), solve)
 

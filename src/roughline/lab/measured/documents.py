@@ -9,7 +9,7 @@ from dataclasses import fields
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from roughline.assessment.question import Reading
+from roughline.assessment.reading import Reading
 from roughline.lab.frames import frame
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.kept import digest

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import roughline as rl
-from roughline.assessment.question import Question, Reading
+from roughline.assessment.question import Question
+from roughline.assessment.reading import Reading
 from roughline.engineering.materials import Material, material
 from roughline.lab.controls import ControlError
 from roughline.lab.measured import controls as c

@@ -1,0 +1,112 @@
+"""Whether maps are of one kind, and what is to be said of all of them and of single ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.nominal import nominal_area
+from roughline.topography.body import Body, Surface
+from roughline.units import engineering
+
+_SAME_SIZE = 1.05  # largest area over smallest, up to which forces on maps are compared
+_FEW = 5  # maps up to which it is said how much more would help
+
+# Largest over smallest from which on maps are not of one kind. Places of one surface differ in
+# their long waves, and so in rms height; an instrument does not change its lens by a tenth.
+_KINDS: tuple[tuple[str, Callable[[Body], float], float], ...] = (
+    ("rms heights", lambda body: body.rms_height, 3.0),
+    ("pixels", lambda body: _pixel(body), 1.5),
+    ("sides", lambda body: nominal_area(body) ** 0.5, 1.5),
+)
+
+
+def differ_in_size(results: Sequence[Assessment]) -> bool:
+    """Whether maps are of so different size that what belongs to a whole map cannot be compared."""
+    areas = [each.area for each in results]
+    return max(areas) > _SAME_SIZE * min(areas)
+
+
+def differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
+    """Point out maps that plainly are not of one kind."""
+    found = []
+    kinds = {isinstance(each.body, Surface) for each in results.values()}
+    if len(kinds) > 1:
+        scans = [name for name, each in results.items() if not isinstance(each.body, Surface)]
+        found.append(f"not of one kind: {', '.join(scans)} is a line scan, and others are maps")
+    for what, of, most in _KINDS:
+        sizes = {name: of(each.body) for name, each in results.items()}
+        least, largest = min(sizes, key=sizes.__getitem__), max(sizes, key=sizes.__getitem__)
+        if sizes[largest] > most * sizes[least]:
+            ends = [f"{engineering(sizes[name], 'm', 3)} ({name})" for name in (least, largest)]
+            found.append(
+                f"not of one kind: {what} go from {ends[0]} to {ends[1]}, more than a factor of "
+                f"{most:g}; see whether these are maps of one part, made alike"
+            )
+    first = next(iter(results.values()))
+    if first.question.joint is None and differ_in_size(list(results.values())):
+        found.append(
+            "the maps differ in size, so what belongs to a whole map has no common mean; give mean "
+            "pressures as loads for what is per area, or the area of the joint (joint_area=)"
+        )
+    return found
+
+
+def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
+    """Say what mean, scatter and interval of a part are."""
+    from scipy.special import stdtrit  # here because it loads slowly
+
+    count = len(results)
+    if count == 1:
+        return [
+            "a single map shows no scatter between places: no interval for the part; map at least "
+            "two more places, better four"
+        ]
+    student = float(stdtrit(count - 1, 0.975))
+    notes = [
+        f"mean: geometric, over {count} maps, taken to be of places chosen at random; scatter: the "
+        "factor within which two of three places lie about it",
+        "interval of the part: 95 % for the mean over all its places, Student's t on logarithms "
+        f"({student:.3g} standard errors for {count} maps), widened by the maps' own intervals, "
+        "which may err all in one way and do not average out",
+    ]
+    if count < _FEW:
+        more = float(stdtrit(_FEW - 1, 0.975))
+        notes[1] += (
+            f"; {_FEW} maps have {more:.3g}, and intervals narrower by a factor of "
+            f"{student / more * (_FEW / count) ** 0.5:.2g} for the same scatter"
+        )
+    if any(each.stiffness_interval is None for each in results):
+        notes.append(
+            "a map has no interval of its own, so the part's is that of the scatter alone there "
+            "(grid_error=True gives the maps theirs)"
+        )
+    return notes
+
+
+def what_the_maps_say(results: Mapping[str, Assessment]) -> tuple[list[str], list[str]]:
+    """Warnings and notes of all maps: those of all once, the others with the maps' names."""
+    return (
+        _once({name: each.warnings for name, each in results.items()}),
+        _once({name: each.notes for name, each in results.items()}),
+    )
+
+
+def _once(said: Mapping[str, Sequence[str]]) -> list[str]:
+    """Each remark once, with the names of the maps that it is of, unless it is of all."""
+    remarks: dict[str, list[str]] = {}
+    for name, texts in said.items():
+        for text in texts:
+            remarks.setdefault(text, []).append(name)
+    return [
+        text if len(names) == len(said) else f"{', '.join(names)}: {text}"
+        for text, names in remarks.items()
+    ]
+
+
+def _pixel(body: Body) -> float:
+    """Side of a pixel, of both the geometric mean. [m]"""
+    if isinstance(body, Surface):
+        dx, dy = body.spacing
+        return float((dx * dy) ** 0.5)
+    return body.spacing

@@ -1,0 +1,55 @@
+"""What cannot be asked of a body of some kind."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from roughline.assessment.nominal import has_spectrum
+from roughline.errors import InputError
+from roughline.topography.body import Body, Line
+from roughline.units import engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.question import Question
+
+
+def refuse_misfit(question: Question, body: Body) -> None:
+    """Refuse what does not suit the kind of a body, or its size.
+
+    Raises
+    ------
+    InputError
+        If something that belongs to a surface is asked of a line scan, theories of a body that
+        has no spectrum, or a joint that is smaller than its map.
+    """
+    is_scan = isinstance(body, Line) and body.kind == "profile"
+    if is_scan and (question.periodic or question.grid_error or question.depths):
+        raise InputError(
+            "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
+            "loads, through its spectrum"
+        )
+    if isinstance(body, Line) and (
+        question.hardness is not None or question.history or question.unload
+    ):
+        raise InputError(
+            "hardness, history and unload belong to a surface; the reduced model of a line has no "
+            "yield: it may serve while mean contact pressures stay below some 0.4 of the hardness"
+        )
+    if question.joint is not None:
+        _refuse_as_piece_of_a_joint(body, question.joint)
+    if question.theories and not has_spectrum(body):
+        raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
+
+
+def _refuse_as_piece_of_a_joint(body: Body, joint: float) -> None:
+    """Refuse a body that cannot stand for a joint of some area [m²]."""
+    if isinstance(body, Line):
+        raise InputError(
+            "joint_area= belongs to a surface: a line stands for the square of its length alone, "
+            "and what lies beyond is not known; leave joint_area= out"
+        )
+    if body.area > joint * (1 + 1e-9):  # sides are rounded
+        raise InputError(
+            f"the joint has {engineering(joint, 'm²')}, less than the map, which has "
+            f"{engineering(body.area, 'm²')}: crop the map, or leave joint_area= out"
+        )

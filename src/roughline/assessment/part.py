@@ -1,0 +1,128 @@
+"""What pressing several maps of one part gave: each map's answers, their mean and scatter."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.question import Question
+from roughline.computing.arrays import Indices, Real
+from roughline.engineering.answer import Answer
+from roughline.statistics.places import average_of_places
+
+
+@dataclass(frozen=True, eq=False)
+class PartAnswer:
+    """One quantity of a part, over the loads.
+
+    Attributes
+    ----------
+    of_maps : sequence of Answer
+        Of each map, with its own interval.
+    mean : ndarray, shape (loads,)
+        Geometric mean over the maps. [unit]
+    scatter : ndarray, shape (loads,)
+        Geometric standard deviation over the maps, a factor of at least 1; NaN of a single map.
+    low, high : ndarray, shape (loads,)
+        Ends of the 95 % interval of the mean over all places of the part; NaN where there is none.
+        [unit]
+    count : ndarray of int, shape (loads,)
+        Maps that have a value.
+    """
+
+    of_maps: Sequence[Answer]
+    mean: Real
+    scatter: Real
+    low: Real
+    high: Real
+    count: Indices
+
+    @classmethod
+    def of(cls, of_maps: Sequence[Answer]) -> PartAnswer:
+        """Average the answers of one or more maps."""
+        values = np.stack([each.values for each in of_maps])
+        unknown = np.full(values.shape[1], np.nan)
+        low, high = (
+            np.stack([unknown if end is None else end for end in ends])
+            for ends in zip(*((each.low, each.high) for each in of_maps), strict=True)
+        )
+        found = average_of_places(values, low, high)
+        if len(of_maps) == 1:  # what one map leaves open of itself is no interval of the part
+            return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
+        return cls(of_maps, found.mean, found.scatter, found.low, found.high, found.count)
+
+    @property
+    def key(self) -> str:
+        """By which it is found, such as "contact_stiffness"."""
+        return self.of_maps[0].key
+
+    @property
+    def name(self) -> str:
+        """What it is called in tables."""
+        return self.of_maps[0].name
+
+    @property
+    def symbol(self) -> str:
+        """What it is called in formulas."""
+        return self.of_maps[0].symbol
+
+    @property
+    def unit(self) -> str:
+        """SI unit."""
+        return self.of_maps[0].unit
+
+
+@dataclass(frozen=True, eq=False)
+class PartAssessment:
+    """What pressing several maps of one part gave.
+
+    Attributes
+    ----------
+    question : Question
+        What was asked of each map, with the first one's body.
+    names : sequence of str
+        What the maps that were pressed are called.
+    assessments : sequence of Assessment
+        Of these maps, in their order.
+    refused : mapping of str to str
+        Maps that could not be pressed, and why.
+    left : sequence of str
+        Maps that were not pressed, or not to the end, because Ctrl-C came.
+    answers : mapping of str to PartAnswer
+        By their keys, over the loads that were asked for. Maps of different size, without a joint,
+        have no common answers that depend on it.
+    warnings, notes : sequence of str
+        What is to be said of all maps, and of single ones, with their names.
+    """
+
+    question: Question
+    names: Sequence[str]
+    assessments: Sequence[Assessment]
+    refused: Mapping[str, str]
+    left: Sequence[str]
+    answers: Mapping[str, PartAnswer]
+    warnings: Sequence[str] = ()
+    notes: Sequence[str] = ()
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether Ctrl-C came before the last map was done."""
+        return bool(self.left)
+
+    @property
+    def headings(self) -> list[str]:
+        """What each load is called: as it was typed."""
+        return self.question.headings
+
+    @property
+    def remarks(self) -> list[str]:
+        """Warnings and notes, gravest first."""
+        return [*self.warnings, *self.notes]
+
+    @property
+    def largest(self) -> int:
+        """Number of the largest load among those that were asked for."""
+        return int(np.argmax(self.assessments[0].asked))

@@ -1,0 +1,31 @@
+"""How the files of a question are read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from roughline.files.scale import Sizes
+from roughline.topography.missing import Filling, Missing
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How a file is read.
+
+    Parameters
+    ----------
+    unit, channel, sizes, missing, most_missing
+        As for :func:`roughline.read`.
+    name : str, optional
+        What the first file is called in messages and results; default: its own name.
+    """
+
+    unit: str | None = None
+    channel: int | str | None = None
+    sizes: Sizes | None = None
+    missing: Filling = "harmonic"
+    most_missing: float = 0.1
+    name: str | None = None
+
+    def __post_init__(self) -> None:
+        Missing(self.missing, self.most_missing)  # refuses what cannot be

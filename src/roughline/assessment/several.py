@@ -1,0 +1,210 @@
+"""One body, or several maps of a part: each pressed alone, and what they say together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughline.assessment.alike import (
+    differ_in_size,
+    differences_in_kind,
+    what_is_averaged,
+    what_the_maps_say,
+)
+from roughline.assessment.assess import Announce, assess_body
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.given import is_force, several
+from roughline.assessment.loads import LoadProgress
+from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.assessment.question import Question
+from roughline.errors import InputError
+
+MapProgress = Callable[[int, int], None]
+"""Called with (maps done, maps in all)."""
+
+
+@dataclass
+class _Pressed:
+    """What became of the maps so far, by their names."""
+
+    assessments: dict[str, Assessment] = field(default_factory=dict)
+    refused: dict[str, str] = field(default_factory=dict)
+    left: list[str] = field(default_factory=list)
+
+
+def assess(
+    question: Question,
+    *,
+    announce: Announce | None = None,
+    progress: LoadProgress | None = None,
+    map_progress: MapProgress | None = None,
+) -> Assessment | PartAssessment:
+    """Answer a question of one body, or of several maps of a part.
+
+    Parameters
+    ----------
+    question : Question
+        What is asked.
+    announce, progress
+        As for :func:`assess_body`.
+    map_progress : callable, optional
+        Called with (maps done, maps in all).
+
+    Returns
+    -------
+    Assessment or PartAssessment
+        Of several maps, even if it is a single one in a list, what they say together.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be read, or what is asked does not suit what it holds; of several, if that
+        is so of all.
+    """
+    if not question.is_of_several:
+        return assess_body(question, announce=announce, progress=progress)
+    return assess_part(
+        question.of_each(), announce=announce, progress=progress, map_progress=map_progress
+    )
+
+
+def assess_part(
+    questions: Sequence[Question],
+    *,
+    names: Sequence[str] | None = None,
+    announce: Announce | None = None,
+    progress: LoadProgress | None = None,
+    map_progress: MapProgress | None = None,
+) -> PartAssessment:
+    """Answer one question for several maps of a part.
+
+    A map that is refused is named, and the others go on. On Ctrl-C the maps that were done before
+    are kept.
+
+    Parameters
+    ----------
+    questions : sequence of Question
+        Of one map each, alike but for the map and how it is read.
+    names : sequence of str, optional
+        What the maps are called; default: as their files are.
+    announce, progress
+        As for :func:`assess_body`, map by map.
+    map_progress : callable, optional
+        Called with (maps done, maps in all).
+
+    Raises
+    ------
+    InputError
+        If the questions are not alike, or no map can be pressed.
+    KeyboardInterrupt
+        On Ctrl-C before the first map was done.
+    """
+    answer = partial(assess_body, announce=announce, progress=progress)
+    _refuse_unlike(questions)
+    done = _Pressed()
+    todo = list(zip(names or names_of(questions), questions, strict=True))
+    for i, (name, question) in enumerate(todo):
+        if map_progress is not None:
+            map_progress(i, len(todo))
+        if not _press(done, name, question, answer):
+            done.left = [each for each, _ in todo[i:]]
+            break
+    else:
+        if map_progress is not None:
+            map_progress(len(todo), len(todo))
+    if not done.assessments:
+        if done.left:
+            raise KeyboardInterrupt
+        reasons = "; ".join(_reason(name, why) for name, why in done.refused.items())
+        raise InputError(f"none of the {len(todo)} maps can be pressed: {reasons}")
+    return _together(done)
+
+
+def names_of(questions: Sequence[Question]) -> list[str]:
+    """What maps are called: their files' names, with folders where these are the same."""
+    paths = [each.body if isinstance(each.body, Path) else None for each in questions]
+    names = [
+        f"map {i}" if path is None else question.name
+        for i, (path, question) in enumerate(zip(paths, questions, strict=True), 1)
+    ]
+    for depth in range(2, 1 + max((len(path.parts) for path in paths if path), default=0)):
+        repeated = {name for name in names if names.count(name) > 1}
+        names = [
+            str(Path(*path.parts[-depth:])) if path and name in repeated else name
+            for name, path in zip(names, paths, strict=True)
+        ]
+    return [f"{name} ({i})" if names.count(name) > 1 else name for i, name in enumerate(names, 1)]
+
+
+def _press(
+    done: _Pressed, name: str, question: Question, answer: Callable[[Question], Assessment]
+) -> bool:
+    """Press one map; says whether it came to its end."""
+    try:
+        result = answer(question)
+    except InputError as error:
+        done.refused[name] = str(error)
+        return True
+    except KeyboardInterrupt:
+        return False
+    if result.interrupted:
+        return False
+    for other, earlier in done.assessments.items():
+        if np.array_equal(earlier.body.heights, result.body.heights):
+            done.refused[name] = f"its heights are those of {other}, and one place counts once"
+            return True
+    done.assessments[name] = result
+    return True
+
+
+def _together(done: _Pressed) -> PartAssessment:
+    """What the maps that were pressed say together."""
+    results = list(done.assessments.values())
+    first = results[0].question
+    answers = _answers(results)
+    refused = [f"refused: {_reason(name, why)}" for name, why in done.refused.items()]
+    left = [f"not pressed, because of Ctrl-C: {', '.join(done.left)}"] if done.left else []
+    warnings, notes = what_the_maps_say(done.assessments)
+    return PartAssessment(
+        question=first,
+        names=list(done.assessments),
+        assessments=results,
+        refused=done.refused,
+        left=done.left,
+        answers=answers,
+        warnings=[*refused, *left, *differences_in_kind(done.assessments), *warnings],
+        notes=[*what_is_averaged(results), *notes],
+    )
+
+
+def _answers(results: Sequence[Assessment]) -> Mapping[str, PartAnswer]:
+    """Averages of the answers that all maps have, and that belong to one and the same thing."""
+    question = results[0].question
+    keys = [key for key in results[0].answers if all(key in each.answers for each in results)]
+    if question.joint is None and differ_in_size(results):
+        forced = any(map(is_force, several(question.loads)))
+        keys = [key for key in keys if not forced and not results[0].answers[key].growth]
+    return {key: PartAnswer.of([each.answers[key] for each in results]) for key in keys}
+
+
+def _refuse_unlike(questions: Sequence[Question]) -> None:
+    """Refuse questions that differ in more than their map, and how it is read."""
+    if not questions:
+        raise InputError("there is no map; give at least one, better five")
+    for item in fields(Question):
+        if item.name not in ("body", "reading") and any(
+            getattr(each, item.name) != getattr(questions[0], item.name) for each in questions
+        ):
+            raise InputError(
+                f"the maps of a part are asked the same, and {item.name} differs between them"
+            )
+
+
+def _reason(name: str, why: Any) -> str:
+    """A map and why it was refused; many reasons begin with its name."""
+    return str(why) if str(why).startswith(name) else f"{name}: {why}"

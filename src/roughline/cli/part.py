@@ -1,0 +1,76 @@
+"""Several maps of one part, pressed and shown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from roughline.cli.flags import in_flags
+from roughline.cli.options import end_interrupted, interruptible, make_folders, print_json
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
+    from roughline.assessment.part import PartAssessment
+    from roughline.assessment.question import Question
+
+
+def press_part(
+    question: Question, report: Path | None, out: Path | None, json: bool, command: str
+) -> None:
+    """Press the maps of a question, show what they say together, and end with the exit code."""
+    from roughline.assessment.several import assess_part
+    from roughline.report.part_output import of_part, print_part
+    from roughline.report.progress import part_progress
+    from roughline.report.terminal import announce
+
+    with interruptible("no map was done"), part_progress() as (maps, loads):
+        make_folders(report, out)  # one that cannot be written is told before the work
+        part = assess_part(question.of_each(), announce=announce, progress=loads, map_progress=maps)
+        part = _in_flags(part)
+        files = _written(part, report, out, command)
+    if json:
+        print_json(of_part(part, files))
+    else:
+        print_part(part, files, many_answers_by="--json and --report")
+    if part.interrupted:
+        end_interrupted("the maps done before are above")
+    if part.refused or not all(each.curve.converged.all() for each in part.assessments):
+        raise typer.Exit(1)
+
+
+def _written(
+    part: PartAssessment, report: Path | None, out: Path | None, command: str
+) -> list[Path]:
+    """Write what is wanted."""
+    files: list[Path] = []
+    if report is None and out is None:
+        return files
+    from roughline.report.part_report import write_part, write_part_report
+
+    if report is not None:
+        files += write_part_report(part, report, command)
+    if out is not None:
+        files += write_part(part, out)
+    return files
+
+
+def _in_flags(part: PartAssessment) -> PartAssessment:
+    """What is said of the part and of each map, in flags."""
+
+    def said(texts: Sequence[str]) -> list[str]:
+        return [in_flags(each) for each in texts]
+
+    def of_map(each: Assessment) -> Assessment:
+        return replace(each, warnings=said(each.warnings), notes=said(each.notes))
+
+    return replace(
+        part,
+        assessments=[of_map(each) for each in part.assessments],
+        refused={name: in_flags(why) for name, why in part.refused.items()},
+        warnings=said(part.warnings),
+        notes=said(part.notes),
+    )

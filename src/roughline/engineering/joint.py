@@ -1,0 +1,76 @@
+"""From a map to the joint that it shows a part of: alike everywhere, and evenly loaded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+from roughline.computing.arrays import Real
+from roughline.engineering.answer import Answer, answer
+
+_BY_STIFFNESS = (
+    "stiffness_per_area",
+    "constriction_resistance",
+    "thermal_conductance",
+    "tangential_stiffness",
+)
+"""Keys of what follows from k, which is the stiffness k_i of a joint's interface."""
+
+
+def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]:
+    """Return the answers of a joint, from those of a map of it under the same mean pressure.
+
+    What is per area, or a share, stays as it is; forces, areas and conductances grow with the
+    nominal area, and resistances fall with it. The stiffness is that of the interface: the bodies'
+    constriction to the outline of the map, which is in a free map's contact stiffness, is in no
+    joint.
+
+    Parameters
+    ----------
+    given : iterable of Answer
+        Of the map in the periodic half-space; its stiffness is that of the interface.
+    area, joint : float
+        Nominal areas of both. [m²]
+    """
+    found = []
+    for each in given:
+        if each.key in ("contact_stiffness", "unloading_stiffness"):
+            continue
+        found.append(_grown(each, joint / area))
+        if each.key == "constriction_resistance":
+            found.append(answer("specific_contact_resistance", found[-1].rows * joint))
+    return found
+
+
+def constriction_of_disc(joint: float, E_star: float) -> float:
+    """Stiffness of a flat round punch as large as a joint, 2 E* a with pi a² its area. [N / m]
+
+    Bodies that are wide beside the joint are as compliant as that, without any roughness.
+    """
+    return 2 * E_star * math.sqrt(joint / math.pi)
+
+
+def _grown(each: Answer, ratio: float) -> Answer:
+    """An answer on an area that is so many times larger."""
+    factor = ratio**each.growth
+
+    def grown(values: Real | None) -> Real | None:
+        return None if values is None else values * factor
+
+    differing: dict[str, Any] = {}
+    if each.key == "interface_stiffness":
+        differing["formula"] = (
+            "dF/dd of the map in a periodic half-space at the same mean pressure, times "
+            "A_joint / A_map"
+        )
+    elif each.key in _BY_STIFFNESS:
+        differing["validity"] = "; ".join(filter(None, [each.validity, "k is k_i of the joint"]))
+    elif each.key == "depth":
+        differing["validity"] = (
+            "of the map, from the touch of its highest point; the joint has higher ones"
+        )
+    return replace(
+        each, values=each.values * factor, low=grown(each.low), high=grown(each.high), **differing
+    )

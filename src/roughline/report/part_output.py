@@ -1,0 +1,75 @@
+"""What several maps of a part gave, on the terminal and as JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from roughline.assessment.part import PartAssessment
+from roughline.report.json_output import of_assessment
+from roughline.report.part_tables import maps_table, part_table
+from roughline.report.terminal import print_files, print_table
+
+_MOST_LOADS = 2  # whose answers fit on a screen beside each other
+
+
+def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers_by: str) -> None:
+    """Print the maps, their mean answers with scatter and interval, and the files written.
+
+    Parameters
+    ----------
+    part : PartAssessment
+        What is shown.
+    files : iterable of Path
+        What was written.
+    many_answers_by : str
+        How the caller gives what is too much for a screen.
+    """
+    console = Console()
+    header, rows = maps_table(part)
+    header[0] = f"map, at {part.headings[part.largest]}"
+    print_table(console, header, rows)
+    loads = range(len(part.headings))[:_MOST_LOADS]
+    if part.answers:
+        console.print()
+        print_table(console, *part_table(part, loads))
+    if len(part.headings) > _MOST_LOADS:
+        console.print(f"answers at more than {_MOST_LOADS} loads are for {many_answers_by}")
+    for remark in part.remarks:
+        console.print(f"note: {remark}", highlight=False, soft_wrap=not console.is_terminal)
+    print_files(files)
+
+
+def of_part(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
+    """What several maps gave, in SI units, over the loads that were asked for.
+
+    Answers stand by their symbols; each map has all that a single one has.
+    """
+    return {
+        "loads": part.headings,
+        "joint_area": part.question.joint,
+        "part": {
+            each.symbol: {
+                "key": each.key,
+                "name": each.name,
+                "unit": each.unit,
+                "mean": each.mean,
+                "scatter": each.scatter,
+                "low": each.low,
+                "high": each.high,
+                "maps": each.count,
+            }
+            for each in part.answers.values()
+        },
+        "maps": {
+            name: of_assessment(each)
+            for name, each in zip(part.names, part.assessments, strict=True)
+        },
+        "refused": part.refused,
+        "not_pressed": part.left,
+        "notes": part.remarks,
+        "files": list(files),
+    }

@@ -1,0 +1,163 @@
+"""The report on a part of which several maps were pressed, as HTML and PDF."""
+
+from __future__ import annotations
+
+from datetime import date
+from pathlib import Path
+
+from roughline._version import __version__
+from roughline.assessment.part import PartAssessment
+from roughline.report.contact_figures import write_contact
+from roughline.report.contact_report import assumptions_of, sentence, write_contact_report
+from roughline.report.contact_tables import formula_table, leading_keys, material_in_words
+from roughline.report.page import Picture, Section, Table, render
+from roughline.report.part_figures import answers_figure, heights_figure
+from roughline.report.part_tables import (
+    each_map_table,
+    maps_table,
+    mean_and_interval,
+    part_table,
+    scatter_in_words,
+)
+from roughline.report.pdf import write_pdf
+from roughline.report.style import save, styled
+from roughline.units import engineering
+
+_LOADS_ABREAST = 2  # each has two columns
+_MAPS_ABREAST = 4
+
+
+def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) -> list[Path]:
+    """Write ``report.html``, ``report.pdf``, figures, and each map's report in a folder of its own.
+
+    Parameters
+    ----------
+    part : PartAssessment
+        With the fields of one load of each map.
+    folder : Path
+        Made if it does not exist.
+    how_to_repeat : str
+        The command, or the lines of Python, that give the same report.
+
+    Raises
+    ------
+    StoreError
+        If the folder cannot be written.
+    """
+    written = []
+    for of_map, each in zip(_folders(part, folder), part.assessments, strict=True):
+        written.append(write_contact_report(each, of_map, how_to_repeat)[0])
+    figures = _figures(part, folder)
+    title, lead = f"Contact of a part, {_count(part)}", _lead(part)
+    made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
+    sections = _sections(part, figures[0], figures[2], how_to_repeat)
+    page = folder / "report.html"
+    page.write_text(render(title, lead, sections, made), encoding="utf-8")
+    write_pdf(folder / "report.pdf", title, lead, sections, made, one_sheet=False)
+    return [page, folder / "report.pdf", *figures, *written]
+
+
+def write_part(part: PartAssessment, folder: Path) -> list[Path]:
+    """Write figures of the part, and each map's curve and figures in a folder of its own.
+
+    Raises
+    ------
+    StoreError
+        If the folder cannot be written.
+    """
+    written = []
+    for of_map, each in zip(_folders(part, folder), part.assessments, strict=True):
+        written += write_contact(each, of_map)
+    return [*_figures(part, folder), *written]
+
+
+def _folders(part: PartAssessment, folder: Path) -> list[Path]:
+    """A folder for each map, with its number and its name."""
+    return [folder / f"map-{i:02d}-{Path(name).stem}" for i, name in enumerate(part.names, 1)]
+
+
+def _figures(part: PartAssessment, folder: Path) -> list[Path]:
+    """Draw the answers and the heights of all maps, each as PNG and PDF."""
+    with styled():
+        return [
+            *save(answers_figure(part), folder, "answers"),
+            *save(heights_figure(part), folder, "maps"),
+        ]
+
+
+def _count(part: PartAssessment) -> str:
+    """How many maps the page is of, and how many are missing."""
+    count = len(part.names)
+    text = f"{count} maps" if count > 1 else "a single map"
+    missing = len(part.refused) + len(part.left)
+    return f"{text} of {count + missing}" if missing else text
+
+
+def _lead(part: PartAssessment) -> str:
+    """Means, intervals and scatter of the leading answers at the largest load."""
+    i, first = part.largest, part.assessments[0]
+    pair, joint = part.question.pair, part.question.joint
+    assert pair is not None
+    under = part.headings[i] + (
+        "" if joint is None else f" on a joint of {engineering(joint, 'm²')}"
+    )
+    leading = [part.answers[key] for key in leading_keys(first) if key in part.answers]
+    if not leading:
+        return sentence(
+            f"{pair.first.name} on {pair.second.name} under {under}: the maps have no common mean"
+        )
+    answers = ", ".join(f"{each.of_maps[0].name} {mean_and_interval(each, i)}" for each in leading)
+    scatter = scatter_in_words(leading[0], i)
+    between = f"; places scatter by {scatter} in {leading[0].name}" if len(part.names) > 1 else ""
+    return sentence(f"{pair.first.name} on {pair.second.name} under {under}: {answers}{between}")
+
+
+def _sections(
+    part: PartAssessment, answers: Path, heights: Path, how_to_repeat: str
+) -> list[Section]:
+    pair, first = part.question.pair, part.assessments[0]
+    assert pair is not None
+    loads, maps = range(len(part.headings)), range(len(part.names))
+    of_part = [part_table(part, loads[i : i + _LOADS_ABREAST]) for i in loads[::_LOADS_ABREAST]]
+    of_maps = [
+        each_map_table(part, load, maps[i : i + _MAPS_ABREAST])
+        for load in loads
+        for i in maps[::_MAPS_ABREAST]
+    ]
+    return [
+        Section(
+            "The part",
+            [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."],
+            notes=[sentence(each) for each in part.remarks],
+            tables=[_with_numbers(*each) for each in of_part if part.answers],
+        ),
+        Section(
+            "The maps",
+            tables=[_with_numbers(*maps_table(part))],
+            pictures=[
+                Picture(answers, "Answers", _caption_of_answers(part)),
+                Picture(heights, "Heights", "Of each map, about its mean."),
+            ],
+        ),
+        Section(
+            "Each map",
+            [
+                "Values and intervals of each map alone, whose own report lies in a folder beside "
+                "this page."
+            ],
+            tables=[_with_numbers(*each) for each in of_maps],
+        ),
+        Section("Where the answers are from", tables=[Table(*formula_table(first))]),
+        Section("Assumptions", [*assumptions_of(first)]),
+        Section("To do it again", [how_to_repeat]),
+    ]
+
+
+def _with_numbers(header: list[str], rows: list[list[str]]) -> Table:
+    """A table whose columns are numbers, but for the first."""
+    return Table(header, rows, numbers=range(1, len(header)))
+
+
+def _caption_of_answers(part: PartAssessment) -> str:
+    text = f"At {part.headings[part.largest]}, of each map with its own interval"
+    return f"{text}; red: mean, and its interval over the places of the part."

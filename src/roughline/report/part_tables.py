@@ -1,0 +1,93 @@
+"""The answers of a part, its maps and what each of them gives, as tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.report.contact_tables import leading_keys, quantity, unit_shown
+from roughline.report.values import with_interval
+from roughline.topography.body import Surface
+from roughline.units import decimal, engineering
+
+NO_MEAN = "-"
+"""Stands where maps have no common value."""
+
+_SAME = 1e-6  # scatter below which a quantity was given, and did not come out
+
+
+def part_table(part: PartAssessment, loads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of mean, interval and scatter of all answers at some of the loads."""
+    header = [""]
+    for i in loads:
+        header += [part.headings[i], "scatter"]
+    rows = []
+    for each in part.answers.values():
+        row = [f"{each.name} {each.symbol}"]
+        for i in loads:
+            row += [mean_and_interval(each, i), scatter_in_words(each, i)]
+        rows.append(row)
+    return header, rows
+
+
+def each_map_table(
+    part: PartAssessment, load: int, maps: Sequence[int]
+) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of all answers of some of the maps, at one load."""
+    header = [part.headings[load], *(part.names[i] for i in maps)]
+    keys = part.assessments[0].answers
+    rows = []
+    for key, first in keys.items():
+        found = [part.assessments[i].answers.get(key) for i in maps]
+        cells = [NO_MEAN if each is None else quantity(each, load) for each in found]
+        rows.append([f"{first.name} {first.symbol}", *cells])
+    return header, rows
+
+
+def maps_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of what each map is, and its leading answers at the largest load."""
+    first, load = part.assessments[0], part.largest
+    keys = leading_keys(first)
+    header = ["map", "points", "sides", "rms height", "rms slope"]
+    header += [first.answers[key].symbol for key in keys]
+    rows = []
+    for name, each in zip(part.names, part.assessments, strict=True):
+        cells = [quantity(each.answers[key], load) if key in each.answers else "-" for key in keys]
+        rows.append([name, *_described(each), *cells])
+    for name in part.refused:
+        rows.append([name, "refused", *[""] * (len(header) - 2)])
+    for name in part.left:
+        rows.append([name, "not pressed", *[""] * (len(header) - 2)])
+    return header, rows
+
+
+def mean_and_interval(answer: PartAnswer, i: int) -> str:
+    """Write the mean of an answer at one load, with its interval where there is one."""
+    mean = float(answer.mean[i])
+    if np.isnan(mean):
+        return NO_MEAN
+    ends = (float(answer.low[i]), float(answer.high[i]))
+    return with_interval(mean, ends, unit_shown(answer.of_maps[0]))
+
+
+def scatter_in_words(answer: PartAnswer, i: int) -> str:
+    """Write the scatter of an answer between maps: per cent where small, a factor where large."""
+    factor = float(answer.scatter[i])
+    if np.isnan(factor) or answer.count[i] < 2:
+        return NO_MEAN
+    if factor < 1 + _SAME:
+        return "none"
+    return f"{100 * (factor - 1):.2g}%" if factor < 1.5 else f"factor {decimal(factor, 3)}"
+
+
+def _described(assessment: Assessment) -> list[str]:
+    body = assessment.body
+    if isinstance(body, Surface):
+        points = f"{body.shape[0]} x {body.shape[1]}"
+        sides = " x ".join(engineering(size, "m", 3) for size in body.sizes)
+    else:
+        points, sides = str(body.heights.size), engineering(body.length, "m", 3)
+    return [points, sides, engineering(body.rms_height, "m", 3), decimal(body.rms_slope, 3)]

@@ -1,0 +1,44 @@
+"""What repeating a surface periodically makes of its borders."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.topography.body import Surface
+
+
+@dataclass(frozen=True)
+class BorderJump:
+    """Steps of a repeated surface across its borders, beside those within.
+
+    Attributes
+    ----------
+    jump : float
+        Root-mean-square difference of heights across opposite borders. [length]
+    step : float
+        The same of neighbouring points within the surface. [length]
+    share_of_slope : float
+        Share of the repeated surface's mean-square slope that lies at its borders. [1]
+    """
+
+    jump: float
+    step: float
+    share_of_slope: float
+
+
+def border_jump(surface: Surface) -> BorderJump:
+    """Measure the jump across the borders of a surface that is repeated periodically."""
+    across, within = [], []
+    slopes_across = slopes_within = 0.0
+    for axis, spacing in enumerate(surface.spacing):
+        heights = np.moveaxis(surface.heights, axis, 0)
+        across.append(heights[0] - heights[-1])
+        within.append(np.diff(heights, axis=0).ravel())
+        slopes_across += float(np.sum((across[-1] / spacing) ** 2))
+        slopes_within += float(np.sum((within[-1] / spacing) ** 2))
+    jump, step = (math.sqrt(float(np.mean(np.concatenate(each) ** 2))) for each in (across, within))
+    slopes = slopes_across + slopes_within
+    return BorderJump(jump, step, slopes_across / slopes if slopes else 0.0)
