@@ -18,7 +18,8 @@ import numpy as np
 from scipy.special import erfinv
 
 import roughline as rl
-from roughline.assessment.larger_surface import roll_offs_along_a_side, share_of_the_whole
+from roughline.assessment.larger_surface import roll_offs_along_a_side
+from roughline.assessment.pieces import share_of_the_whole
 from roughline.engineering.answers import saturated_stiffness
 from roughline.engineering.formulas import interface_stiffness
 

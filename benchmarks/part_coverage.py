@@ -21,14 +21,15 @@ from roughline.statistics.places import average_of_places
 
 POINTS, MAP = 1024, 128
 CELLS = 4  # to the shortest wave
-HURSTS = (0.3, 0.8)
-WAVES = (0.25, 0.5, 1, 2, 4, 8)  # roll-off wavelengths along a side of a map
+HURSTS = (0.4, 0.9)
+WAVES = (0.35, 0.75, 1.5, 3, 6, 12)  # roll-off wavelengths along a side of a map
 SEEDS = (1, 2)
 WANTED = (0.01, 0.1, 0.4)  # contact area fractions, about
 COUNTS = (1, 2, 3, 4, 5, 7, 10)
 DRAWS = 400
 KEYS = ("stiffness_per_area", "contact_area_fraction")
 KEY = ["hurst", "waves", "seed"]
+ENDS = ["low", "high", "shared_low", "shared_high"]
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 
 
@@ -69,14 +70,14 @@ def rows(hurst, waves, seed):
         for key, truth in zip(KEYS, truths, strict=True):
             answer = result.answers[key]
             for i, wanted in enumerate(WANTED):
-                low, value, high = answer.low[i], answer.values[i], answer.high[i]
-                yield number, wanted, key, value, low, high, truth[i]
+                ends = (each[i] for each in (answer.low, answer.high, *answer.shared))
+                yield number, wanted, key, truth[i], answer.values[i], *ends
 
 
 def measured(file):
     """Make the rows that the file lacks, and read all."""
     file.parent.mkdir(parents=True, exist_ok=True)
-    columns = [*KEY, "number", "wanted", "key", "value", "low", "high", "truth"]
+    columns = [*KEY, "number", "wanted", "key", "truth", "value", *ENDS]
     if not file.exists():
         file.write_text(",".join(columns) + "\n")
     there = set(pd.read_csv(file)[KEY].itertuples(index=False, name=None))
@@ -96,12 +97,13 @@ def held(table, count, rng):
     """Share of intervals that hold the truth, and their median half width as a factor."""
     inside, widths = [], []
     for _, one in table.groupby([*KEY, "wanted"]):
-        values, low, high = (one[name].to_numpy() for name in ("value", "low", "high"))
+        values = one["value"].to_numpy()
+        low, high, shared_low, shared_high = (one[name].to_numpy() for name in ENDS)
         picked = np.array([rng.permutation(values.size)[:count] for _ in range(DRAWS)]).T
         if count == 1:  # the map's own
             ends = low[picked[0]], high[picked[0]]
         else:
-            found = average_of_places(values[picked], low[picked], high[picked])
+            found = average_of_places(values[picked], shared_low[picked], shared_high[picked])
             ends = found.low, found.high
         truth = one["truth"].iloc[0]
         inside.append((ends[0] <= truth) & (truth <= ends[1]))

@@ -8,10 +8,10 @@ from scipy import special
 
 import roughline as rl
 from roughline.assessment.larger_surface import (
-    share_of_the_whole,
-    stiffness_of_the_larger_surface,
+    larger_surface,
     stiffness_of_the_piece,
 )
+from roughline.assessment.pieces import share_of_the_whole
 from roughline.engineering.answers import answers, saturated_stiffness
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.limits import elastic_warnings
@@ -190,7 +190,7 @@ def pieces():
 def test_the_interval_of_a_piece_holds_the_stiffness_of_its_parent(pieces):
     held, seen = [], []
     for waves, truth, piece, curve in pieces:
-        given = stiffness_of_the_larger_surface(piece, curve)
+        given = larger_surface(piece, curve).stiffness
         assert given.values == pytest.approx(curve.stiffness)
         held.append((given.low <= truth) & (truth <= given.high))
         seen.append("shows no roll-off" not in given.validity)
@@ -250,9 +250,9 @@ def test_both_uncertainties_are_combined():
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=1e-3, q_roll=8 * math.tau)
     piece = spectrum.surface(64, 3).cropped((0, 48), (0, 48)).detrended()
     curve = rl.press(piece, E_star=1.0, forces=[1e-3], periodic=True)
-    alone = stiffness_of_the_larger_surface(piece, curve)
+    alone = larger_surface(piece, curve).stiffness
     k = curve.stiffness
-    wide = stiffness_of_the_larger_surface(piece, curve, (k / 10, 10 * k))
+    wide = larger_surface(piece, curve, (k / 10, 10 * k)).stiffness
     assert wide.low == pytest.approx(k * np.exp(-np.hypot(np.log(10), np.log(k / alone.low))))
     assert wide.high == pytest.approx(k * np.exp(np.hypot(np.log(10), np.log(alone.high / k))))
 

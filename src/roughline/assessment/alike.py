@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 
 from roughline.assessment.assessment import Assessment
@@ -9,6 +10,7 @@ from roughline.assessment.nominal import nominal_area
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
+_NUMBER = re.compile(r"\d[\d.]*(e[-+]?\d+)?( ?[afpnµmkMGT]?(m²|m|N/m|N|Pa|Ω|%)(?!\w))?")
 _SAME_SIZE = 1.05  # largest area over smallest, up to which forces on maps are compared
 _FEW = 5  # maps up to which it is said how much more would help
 
@@ -67,8 +69,8 @@ def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
         f"mean: geometric, over {count} maps, taken to be of places chosen at random; scatter: the "
         "factor within which two of three places lie about it",
         "interval of the part: 95 % for the mean over all its places, Student's t on logarithms "
-        f"({student:.3g} standard errors for {count} maps), widened by the maps' own intervals, "
-        "which may err all in one way and do not average out",
+        f"({student:.3g} standard errors for {count} maps), widened by what maps may all miss "
+        "alike, such as the grid's error and waves longer than a map, which does not average out",
     ]
     if count < _FEW:
         more = float(stdtrit(_FEW - 1, 0.975))
@@ -93,15 +95,22 @@ def what_the_maps_say(results: Mapping[str, Assessment]) -> tuple[list[str], lis
 
 
 def _once(said: Mapping[str, Sequence[str]]) -> list[str]:
-    """Each remark once, with the names of the maps that it is of, unless it is of all."""
-    remarks: dict[str, list[str]] = {}
+    """Each remark once, with the names of the maps that it is of, unless it is of all.
+
+    Remarks that differ in their numbers alone are one; it has the numbers of its first map.
+    """
+    remarks: dict[str, dict[str, str]] = {}
     for name, texts in said.items():
         for text in texts:
-            remarks.setdefault(text, []).append(name)
-    return [
-        text if len(names) == len(said) else f"{', '.join(names)}: {text}"
-        for text, names in remarks.items()
-    ]
+            remarks.setdefault(_NUMBER.sub("#", text), {}).setdefault(name, text)
+    found = []
+    for of_maps in remarks.values():
+        first, *others = of_maps
+        of = "" if len(of_maps) == len(said) else f"of {', '.join(of_maps)}: "
+        if others and len(set(of_maps.values())) > 1:
+            of += f"(numbers of {first}) "
+        found.append(f"{of}{of_maps[first]}")
+    return found
 
 
 def _pixel(body: Body) -> float:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.larger_surface import stiffness_of_the_piece
+from roughline.assessment.larger_surface import LargerSurface, stiffness_of_the_piece
 from roughline.assessment.nominal import has_spectrum
-from roughline.engineering.answer import Answer
+from roughline.engineering.answer import Answer, Ends
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
 from roughline.engineering.joint import of_joint
 from roughline.engineering.limits import elastic_warnings
+from roughline.engineering.pair import MaterialPair
 from roughline.spectra.moments import Moments, moments
 from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.topography.body import Body, Surface
@@ -23,7 +24,7 @@ def surface_moments(body: Body) -> Moments | None:
 
 
 def with_answers(
-    result: Assessment, of_larger_surface: Answer | None, spectrum: Moments | None
+    result: Assessment, larger: LargerSurface | None, spectrum: Moments | None
 ) -> Assessment:
     """Return the assessment with its answers for the loads that were asked for.
 
@@ -31,28 +32,60 @@ def with_answers(
     ----------
     result : Assessment
         With its curve.
-    of_larger_surface : Answer or None
-        Interface stiffness of the larger surface behind the body, over the loads of the curve.
+    larger : LargerSurface or None
+        The larger surface behind the body, over the loads of the curve.
     spectrum : Moments or None
         Of the body.
     """
-    pair = result.question.pair
+    pair, question = result.question.pair, result.question
     if pair is None:
         return result
-    given = answers(
+    interface = _interface_stiffness(result, larger)
+    stiffness, area = result.stiffness_interval_as_asked, result.area_interval_as_asked
+    given = _answers(result, pair, interface, stiffness, area, spectrum)
+    if larger is not None and stiffness is not None:
+        larger = larger.at(result.asked)
+        shared = larger.stiffness.shared
+        assert interface is not None
+        assert shared is not None
+        interface = replace(interface, low=shared[0], high=shared[1])
+        if question.joint is not None:  # the surface is pressed as a part of the larger one
+            stiffness, area = shared, larger.shared_area_interval
+        missed_by_all = _answers(result, pair, interface, stiffness, area, spectrum)
+        given = [
+            replace(each, shared=other.ends)
+            for each, other in zip(given, missed_by_all, strict=True)
+        ]
+    if question.joint is not None:
+        given = of_joint(given, result.area, question.joint)
+    return replace(result, answers={each.key: each for each in given})
+
+
+def _answers(
+    result: Assessment,
+    pair: MaterialPair,
+    interface_stiffness: Answer | None,
+    stiffness_interval: Ends | None,
+    area_interval: Ends | None,
+    spectrum: Moments | None,
+) -> list[Answer]:
+    """What follows from the curve, with intervals as they are given."""
+    return answers(
         result.curve_as_asked,
         result.area,
         pair,
-        interface_stiffness=_interface_stiffness(result, of_larger_surface),
+        interface_stiffness=interface_stiffness,
         amplitudes=(result.body.rms_height, spectrum.rms_slope if spectrum else None),
         frequency=result.question.frequency_in_hertz,
+<<<<<<< HEAD
         stiffness_interval=result.stiffness_interval_as_asked,
         unloading_interval=result.unloading_interval_as_asked,
         area_interval=result.area_interval_as_asked,
+=======
+        stiffness_interval=stiffness_interval,
+        area_interval=area_interval,
+>>>>>>> maps
     )
-    if result.question.joint is not None:
-        given = of_joint(given, result.area, result.question.joint)
-    return replace(result, answers={each.key: each for each in given})
 
 
 def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
@@ -75,13 +108,19 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
     return broken
 
 
-def _interface_stiffness(result: Assessment, of_larger_surface: Answer | None) -> Answer | None:
+def _interface_stiffness(result: Assessment, larger: LargerSurface | None) -> Answer | None:
     """Stiffness of the interface alone; None where the contact stiffness is that already."""
+<<<<<<< HEAD
     ends = result.unloading_interval_as_asked
     if result.curve.unloading_stiffness is None:
         ends = result.stiffness_interval_as_asked
     if of_larger_surface is not None:
         answer = of_larger_surface.at(result.asked)
+=======
+    ends = result.stiffness_interval_as_asked
+    if larger is not None:
+        answer = larger.stiffness.at(result.asked)
+>>>>>>> maps
         # what one piece leaves open is narrower than what is unknown without the grid's error
         return replace(answer, low=None, high=None) if ends is None else answer
     if result.question.periodic:

@@ -16,6 +16,7 @@ from roughline.assessment.answers import (
 )
 from roughline.assessment.assessment import Assessment, PartialSlip
 from roughline.assessment.grid import grid_error_is_estimated, why_without_grid_error
+from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads, load_with_fields
 from roughline.assessment.misfit import refuse_misfit
@@ -33,8 +34,11 @@ from roughline.assessment.variants import with_elastic_answers, with_scatter_of_
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import estimate, memory_for
+<<<<<<< HEAD
 from roughline.contact.press import press
 from roughline.engineering.answer import Answer
+=======
+>>>>>>> maps
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
@@ -172,7 +176,7 @@ def _solved_body(
     parts: Sequence[Topography],
     case: LoadCase,
     progress: LoadProgress | None,
-) -> tuple[Solution, Answer | None]:
+) -> tuple[Solution, LargerSurface | None]:
     """Press a body, filled in both ways, and periodically where a larger surface is behind it."""
     kept = [load_with_fields(case)] if question.fields else []
     solution = solved(case, body, kept, progress)

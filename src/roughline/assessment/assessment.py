@@ -16,7 +16,7 @@ from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices, Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
-from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answer import Answer, Ends, ends_at
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
@@ -171,8 +171,3 @@ class Assessment:
             "E_star": self.curve.E_star,
             **self.curve.settings,
         }
-
-
-def ends_at(ends: Ends | None, loads: Indices) -> Ends | None:
-    """Both ends of an interval at some of the loads, by their numbers."""
-    return None if ends is None else (ends[0][loads], ends[1][loads])

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from roughline.computing.arrays import Real
+from roughline.assessment.pieces import (
+    AREA_OF_MANY,
+    AREA_OF_ONE,
+    STIFFNESS_OF_MANY,
+    STIFFNESS_OF_ONE,
+    WAVES_OVER_SIDE,
+    Share,
+    share_of_the_whole,
+)
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
-from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answer import Answer, Ends, ends_at
 from roughline.engineering.answers import saturated_stiffness
 from roughline.engineering.declared import DECLARED
 from roughline.engineering.formulas import interface_stiffness
@@ -18,26 +27,50 @@ from roughline.spectra.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.topography.body import Body, Line, Surface
 
-# Where a piece shows no roll-off, waves up to this many times its side are allowed for.
-_WAVES_OVER_SIDE = 4
-
-# What was measured: contact area fractions, and the most roll-off wavelengths.
-_MEASURED = (0.001, 0.95)
-_MOST_WAVES = 16
-
-# Half widths of the interval of log(stiffness of the whole surface over that of its piece), at the
-# lower and the upper end, chosen to hold 95 of 100 (benchmarks/interface_stiffness.py). With a
-# roll-off inside, all of them fall with its wavelength over the side.
-_FEW_PATCHES = 0.16  # over the root of the contact area fraction: patches are few at light loads
-_FEW_WAVES = (0.65, 0.4)
-# Near full contact little decides what is still open, and sides that do not match keep gaps.
-_FULL = (0.25, 0.9)
-# Without a roll-off the longer waves of the whole surface make it less stiff.
-_UNKNOWN_PATCHES = 0.02
-_UNKNOWN_WAVES = (1.8, 0.35)
-_UNKNOWN_FULL = (0.0, 0.5)
-
 _PUNCH_ERROR = 0.396  # of the stiffness of a punch on n x n points, times n
+
+
+@dataclass(frozen=True, eq=False)
+class LargerSurface:
+    """The surface behind a piece, under the loads of the piece's curve.
+
+    Attributes
+    ----------
+    stiffness : Answer
+        Interface stiffness of as much of it as the piece is large. [N / m]
+    area_interval, shared_area_interval : tuple of ndarray, shape (loads,), or None
+        Ends of its corrected area fraction, and of what other pieces would miss of it in the same
+        way; None where the grid's error is not known. [1]
+    """
+
+    stiffness: Answer
+    area_interval: Ends | None = None
+    shared_area_interval: Ends | None = None
+
+    def at(self, loads: Indices) -> LargerSurface:
+        """The same at some of the loads, by their numbers."""
+        return LargerSurface(
+            self.stiffness.at(loads),
+            ends_at(self.area_interval, loads),
+            ends_at(self.shared_area_interval, loads),
+        )
+
+    def among(self, solved: Mask) -> LargerSurface:
+        """The same over more loads, of which some were solved: NaN at the others."""
+        place = np.where(solved, np.cumsum(solved) - 1, 0)
+        found = self.at(place)
+        unsolved = np.where(solved, 0.0, np.nan)
+        stiffness, ends = found.stiffness, found.stiffness.ends
+        assert ends is not None
+        return replace(
+            found,
+            stiffness=replace(
+                stiffness,
+                values=stiffness.values + unsolved,
+                low=ends[0] + unsolved,
+                high=ends[1] + unsolved,
+            ),
+        )
 
 
 def roll_offs_along_a_side(surface: Surface) -> float | None:
@@ -61,34 +94,6 @@ def roll_offs_along_a_side(surface: Surface) -> float | None:
     if fit.q_roll is None or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):
         return None
     return fit.q_roll * surface.length / (2 * math.pi)
-
-
-def share_of_the_whole(area_fraction: ArrayLike, roll_offs: float | None) -> tuple[Real, Real]:
-    """Stiffness per area of a large surface over that of a piece of it, both periodic.
-
-    Both ends, between which 95 of 100 lie under the same mean pressure. Nearer to full contact
-    than was measured the upper end is infinite.
-
-    Parameters
-    ----------
-    area_fraction : array_like
-        Of the piece. [1]
-    roll_offs : float or None
-        Along its side, as of :func:`roll_offs_along_a_side`.
-    """
-    share = np.clip(np.asarray(area_fraction, dtype=np.float64), 0.0, 1.0)
-    lightest, fullest = _MEASURED
-    with np.errstate(divide="ignore"):
-        patches = 1 / np.sqrt(np.fmax(share, lightest))
-        patches *= 1 + np.log(np.fmax(lightest / share, 1.0)) / 2  # stiffness goes on as a power
-        full = np.sqrt(np.minimum(share, fullest) / (1 - np.minimum(share, fullest)))
-    if roll_offs is None:
-        waves, constants = 1.0, (_UNKNOWN_PATCHES, _UNKNOWN_WAVES, _UNKNOWN_FULL)
-    else:
-        waves, constants = min(roll_offs, _MOST_WAVES), (_FEW_PATCHES, _FEW_WAVES, _FULL)
-    few, long, filled = constants
-    low, high = ((few * patches + long[i] + filled[i] * full) / waves for i in (0, 1))
-    return np.exp(-low), np.where(share > fullest, np.inf, np.exp(high))
 
 
 def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = None) -> Answer:
@@ -131,12 +136,12 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     )
 
 
-def stiffness_of_the_larger_surface(
-    piece: Surface, curve: Curve, interval: Ends | None = None
-) -> Answer:
-    """Interface stiffness of the part of a large surface that a piece was cut out of.
+def larger_surface(
+    piece: Surface, curve: Curve, stiffness: Ends | None = None, area: Ends | None = None
+) -> LargerSurface:
+    """Stiffness and area of the part of a large surface that a piece was cut out of.
 
-    Its interval holds that of the large surface under the same mean pressure: it combines that of
+    Intervals hold those of the large surface under the same mean pressure: they combine those of
     the curve with what one piece leaves open, as independent.
 
     Parameters
@@ -145,6 +150,7 @@ def stiffness_of_the_larger_surface(
         Without its tilt, in SI units.
     curve : Curve
         Of the piece in the periodic half-space.
+<<<<<<< HEAD
     interval : tuple of ndarray, shape (loads,), optional
         Both ends of its stiffness on unloading. [N / m]
     """
@@ -161,19 +167,52 @@ def stiffness_of_the_larger_surface(
                 for sign, half, end in zip((-1, 1), halves, interval, strict=True)
             ]
         low, high = (np.where(k == 0, 0.0, k * np.exp(half)) for half in halves)
+=======
+    stiffness, area : tuple of ndarray, shape (loads,), optional
+        Both ends of its stiffness [N / m] and of its corrected area fraction [1].
+    """
+    touching = curve.area_fraction_corrected
+    assert touching is not None
+    roll_offs = roll_offs_along_a_side(piece)
+
+    def widened(values: Real, ends: Ends | None, of: Share) -> Ends:
+        return _widened(values, ends, share_of_the_whole(touching, roll_offs, of))
+
+>>>>>>> maps
     if roll_offs is None:
         held = (
             "it shows no roll-off, so that longer waves are missing: the interval allows for waves "
-            f"{_WAVES_OVER_SIDE} times as long as its side, longer ones lower the stiffness further"
+            f"{WAVES_OVER_SIDE} times as long as its side, longer ones lower the stiffness further"
         )
     else:
         held = f"it holds {roll_offs:.2g} roll-off wavelengths along a side"
-    return _interface_stiffness(
+    k = curve.stiffness
+    answer = _interface_stiffness(
         k,
-        (low, high),
+        widened(k, stiffness, STIFFNESS_OF_ONE),
         f"of the larger surface that the map was cut out of; {held}",
         formula="dF/dd of the map in a periodic half-space under the same force, on unloading",
     )
+    answer = replace(answer, shared=widened(k, stiffness, STIFFNESS_OF_MANY))
+    if area is None:
+        return LargerSurface(answer)
+    one, many = (widened(touching, area, each) for each in (AREA_OF_ONE, AREA_OF_MANY))
+    return LargerSurface(
+        answer, (one[0], np.minimum(one[1], 1.0)), (many[0], np.minimum(many[1], 1.0))
+    )
+
+
+def _widened(values: Real, ends: Ends | None, shares: Ends) -> Ends:
+    """Ends of values times shares of the whole, combined with the values' own ends."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        halves = [np.log(share) for share in shares]
+        if ends is not None:
+            halves = [
+                sign * np.hypot(half, np.log(end / values))
+                for sign, half, end in zip((-1, 1), halves, ends, strict=True)
+            ]
+    low, high = (values * np.exp(half) for half in halves)
+    return low, high
 
 
 def _interface_stiffness(

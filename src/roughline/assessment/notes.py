@@ -180,7 +180,8 @@ def of_yield(result: Assessment) -> list[str]:
     notes = []
     if share > 0:
         notes.append(
-            f"{100 * share:.3g}% of the contact yields at the largest load: it bears the hardness, {known}"
+            f"{100 * share:.3g}% of the contact yields at the largest load: it bears the hardness, "
+            f"{known}"
         )
     elif not np.isnan(share):
         notes.append(f"nothing yields at the largest load: no point reaches the hardness, {known}")

@@ -45,10 +45,8 @@ class PartAnswer:
         """Average the answers of one or more maps."""
         values = np.stack([each.values for each in of_maps])
         unknown = np.full(values.shape[1], np.nan)
-        low, high = (
-            np.stack([unknown if end is None else end for end in ends])
-            for ends in zip(*((each.low, each.high) for each in of_maps), strict=True)
-        )
+        shared = [each.shared or each.ends or (unknown, unknown) for each in of_maps]
+        low, high = (np.stack(ends) for ends in zip(*shared, strict=True))
         found = average_of_places(values, low, high)
         if len(of_maps) == 1:  # what one map leaves open of itself is no interval of the part
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)

@@ -7,11 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughline.assessment.larger_surface import stiffness_of_the_larger_surface
+from roughline.assessment.larger_surface import LargerSurface, larger_surface
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import Topography, pressed_body
+<<<<<<< HEAD
 from roughline.assessment.uncertainty import Changes, Solution, change
 from roughline.engineering.answer import Answer
+=======
+from roughline.assessment.uncertainty import Solution, change
+>>>>>>> maps
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
 
@@ -59,8 +63,8 @@ def interface_of_the_larger_surface(
     body: Surface,
     filled: Sequence[Topography],
     progress: LoadProgress | None,
-) -> tuple[Answer, bool]:
-    """Stiffness of the interface of the larger surface that a body was cut out of.
+) -> tuple[LargerSurface, bool]:
+    """Interface of the larger surface that a body was cut out of.
 
     The body is pressed again, into a periodic half-space, unless that was asked for to begin with.
     The second result says whether Ctrl-C came.
@@ -88,20 +92,30 @@ def interface_of_the_larger_surface(
         periodic = solved(case, body, [], progress)
         if filled and not periodic.interrupted:
             periodic = with_other_filling(periodic, case, body, filled, progress)
+<<<<<<< HEAD
     answer = stiffness_of_the_larger_surface(body, periodic.curve, periodic.unloading_interval)
     if answer.values.size < converged.size:  # loads that failed before have no force
         rows = np.full((3, converged.size), np.nan)
         rows[:, converged] = answer.values, answer.low, answer.high
         answer = replace(answer, values=rows[0], low=rows[1], high=rows[2])
     return answer, solution.interrupted or periodic.interrupted
+=======
+    larger = larger_surface(
+        body, periodic.curve, periodic.stiffness_interval, periodic.area_interval
+    )
+    if larger.stiffness.values.size < converged.size:  # loads that failed before have no force
+        larger = larger.among(converged)
+    return larger, solution.interrupted or periodic.interrupted
+>>>>>>> maps
 
 
-def of_larger_surface(solution: Solution, stiffness: Answer) -> Solution:
+def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
     """Return a periodic body's solution with the intervals of the larger surface behind it.
 
     Without the grid's errors there are none: what a piece leaves open is narrower than what is
     unknown.
     """
+<<<<<<< HEAD
     curve, ends = solution.curve, (stiffness.low, stiffness.high)
     if solution.stiffness_interval is None or ends[0] is None or ends[1] is None:
         return solution
@@ -112,6 +126,14 @@ def of_larger_surface(solution: Solution, stiffness: Answer) -> Solution:
         solution,
         stiffness_interval=(share * ends[0], share * ends[1]),
         unloading_interval=(ends[0], ends[1]),
+=======
+    if solution.stiffness_interval is None:
+        return solution
+    return replace(
+        solution,
+        stiffness_interval=larger.stiffness.ends,
+        area_interval=larger.area_interval,
+>>>>>>> maps
     )
 
 

@@ -28,6 +28,9 @@ class Answer:
         NaN where a load was not solved. [unit]
     low, high : ndarray, shape (loads,), or None
         Ends of the interval that is known; what else is uncertain is not in it. [unit]
+    shared : tuple of ndarray, shape (loads,), or None
+        Ends of that part of it which other maps of the same surface would miss in the same way;
+        None where that is all of it. [unit]
     formula : str
         How it follows.
     validity : str
@@ -49,18 +52,28 @@ class Answer:
     validity: str = ""
     source: str = ""
     growth: float = 0.0
+    shared: Ends | None = None
+
+    @property
+    def ends(self) -> Ends | None:
+        """Both ends of its interval. [unit]"""
+        return None if self.low is None or self.high is None else (self.low, self.high)
 
     @property
     def rows(self) -> Real:
         """Values, and both ends where they are known, (1 or 3, loads). [unit]"""
-        ends = () if self.low is None or self.high is None else (self.low, self.high)
-        return np.stack([self.values, *ends])
+        return np.stack([self.values, *(self.ends or ())])
 
     def at(self, loads: Indices) -> Answer:
         """The same at some of the loads, by their numbers."""
         values, *ends = self.rows[:, loads]
         low, high = ends or (None, None)
-        return replace(self, values=values, low=low, high=high)
+        return replace(self, values=values, low=low, high=high, shared=ends_at(self.shared, loads))
+
+
+def ends_at(ends: Ends | None, loads: Indices) -> Ends | None:
+    """Both ends of an interval at some of the loads, by their numbers."""
+    return None if ends is None else (ends[0][loads], ends[1][loads])
 
 
 def answer(key: str, rows: Real, **differing: str) -> Answer:

@@ -7,8 +7,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from roughline.computing.arrays import Real
-from roughline.engineering.answer import Answer, answer
+from roughline.engineering.answer import Answer, Ends, answer
 
 _BY_STIFFNESS = (
     "stiffness_per_area",
@@ -40,7 +39,7 @@ def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]
             continue
         found.append(_grown(each, joint / area))
         if each.key == "constriction_resistance":
-            found.append(answer("specific_contact_resistance", found[-1].rows * joint))
+            found.append(_specific(found[-1], joint))
     return found
 
 
@@ -52,13 +51,15 @@ def constriction_of_disc(joint: float, E_star: float) -> float:
     return 2 * E_star * math.sqrt(joint / math.pi)
 
 
+def _specific(resistance: Answer, joint: float) -> Answer:
+    """Resistance times the area of the joint."""
+    made = answer("specific_contact_resistance", resistance.rows * joint)
+    return replace(made, shared=_times(resistance.shared, joint))
+
+
 def _grown(each: Answer, ratio: float) -> Answer:
     """An answer on an area that is so many times larger."""
     factor = ratio**each.growth
-
-    def grown(values: Real | None) -> Real | None:
-        return None if values is None else values * factor
-
     differing: dict[str, Any] = {}
     if each.key == "interface_stiffness":
         differing["formula"] = (
@@ -71,6 +72,12 @@ def _grown(each: Answer, ratio: float) -> Answer:
         differing["validity"] = (
             "of the map, from the touch of its highest point; the joint has higher ones"
         )
+    low, high = _times(each.ends, factor) or (None, None)
+    shared = _times(each.shared, factor)
     return replace(
-        each, values=each.values * factor, low=grown(each.low), high=grown(each.high), **differing
+        each, values=each.values * factor, low=low, high=high, shared=shared, **differing
     )
+
+
+def _times(ends: Ends | None, factor: float) -> Ends | None:
+    return None if ends is None else (ends[0] * factor, ends[1] * factor)

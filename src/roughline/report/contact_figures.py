@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from roughline.assessment.assessment import Assessment, PartialSlip
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
 from roughline.report.folder import make_folder
 from roughline.report.pixels import any_marked, thinned
 from roughline.report.style import PAGE, new_figure, save, styled
@@ -77,7 +76,7 @@ def contact_figure(surface: Surface, assessment: Assessment) -> Figure:
     left, right = figure.subplots(1, 2)
     draw_heights(left, surface)
     draw_filled(left, assessment)
-    draw_contact(right, surface, assessment.curve)
+    draw_contact(right, surface, assessment)
     return figure
 
 
@@ -184,8 +183,14 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
     axes.axis(bounds)
 
 
+<<<<<<< HEAD
 def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
     """Real contact area at the last load whose fields are there; red where it yields."""
+=======
+def draw_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
+    """Real contact area at the last load whose fields are there; the load is the joint's."""
+    curve = assessment.curve
+>>>>>>> maps
     _label_sides(axes, surface)
     for i in range(len(curve.fields) - 1, -1, -1):
         fields = curve.fields[i]
@@ -202,7 +207,7 @@ def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
         )
         assert curve.area_fraction_corrected is not None
         share = decimal(100 * curve.area_fraction_corrected[i], 4)
-        force = engineering(curve.force[i], "N")
+        force = engineering(curve.force[i] * assessment.scale, "N")
         axes.set_title(f"corrected area {share}% at {force}", fontsize=8)
         return
 

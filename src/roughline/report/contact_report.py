@@ -125,7 +125,7 @@ def _overview(assessment: Assessment) -> Figure:
         if assessment.theories or friction is not None:
             draw_area(remaining.pop(0), assessment)
         if remaining:
-            draw_contact(remaining.pop(0), assessment.body, assessment.curve)
+            draw_contact(remaining.pop(0), assessment.body, assessment)
     if friction is not None and remaining:
         draw_partial_slip(remaining.pop(0), assessment.partial_slip)
     for empty in remaining:

@@ -45,7 +45,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     if curve.area_fraction is not None:
         header += ["raw area", "corrected A/A_0"]
     rows = []
-    for i, heading in enumerate(_starred(assessment)):
+    for i, heading in enumerate(starred(assessment)):
         if not curve.converged[i]:
             reason = Status(curve.status[i]).reason
             rows.append([heading, "-", "-", reason, "-", "-"][: len(header)])
@@ -64,6 +64,7 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 
 def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[list[str]]]:
+<<<<<<< HEAD
     """Return header and rows of the answers at some of the loads that were asked for.
 
     Where yield changes an answer by more than its interval, that of elastic bodies stands below.
@@ -76,6 +77,14 @@ def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[
         elastic = assessment.elastic.get(key)
         if elastic is not None and any(_differs(elastic, each, i) for i in numbers):
             rows.append(["if nothing yielded", *(quantity(elastic, i) for i in numbers)])
+=======
+    """Return header and rows of the answers at some of the loads that were asked for."""
+    header = ["", *starred(assessment)[loads]]
+    rows = [
+        [f"{each.name} {each.symbol}", *(quantity(each, i) for i in _numbers(assessment, loads))]
+        for each in assessment.answers.values()
+    ]
+>>>>>>> maps
     return header, rows
 
 
@@ -140,7 +149,7 @@ def material_in_words(material: Material) -> str:
     return f"{material.name} ({', '.join(parts)}; {material.source})"
 
 
-def _starred(assessment: Assessment) -> list[str]:
+def starred(assessment: Assessment) -> list[str]:
     """What each load is called, with a star where the grid decides."""
     stars = _decided_by_grid(assessment)
     return [

@@ -7,14 +7,19 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from roughline.assessment.part import PartAnswer, PartAssessment
-from roughline.report.contact_figures import draw_heights
-from roughline.report.contact_tables import leading_keys
+from roughline.engineering.answer import Answer
+from roughline.report.contact_tables import leading_keys, unit_shown
+from roughline.report.pixels import thinned
 from roughline.report.style import PAGE, new_figure
+from roughline.report.values import scale_of
+from roughline.topography.body import Surface
 from roughline.units import prefix
 
 _ABREAST = 5  # maps of heights in a row
+_LOG_FROM = 5.0  # largest over smallest from which on an axis is logarithmic
 _LONGEST = 14  # letters of a name under an axis
 _MOST_HEIGHTS = 20  # maps whose heights are drawn
 
@@ -35,22 +40,42 @@ def answers_figure(part: PartAssessment) -> Figure:
 
 
 def heights_figure(part: PartAssessment) -> Figure:
-    """Heights of the maps, each about its mean."""
+    """Heights of the maps, each about its mean, in the same colours; of scans, lines."""
     bodies = [each.body for each in part.assessments[:_MOST_HEIGHTS]]
-    columns = min(_ABREAST, max(2, len(bodies)))
-    rows = math.ceil(len(bodies) / columns)
-    figure = new_figure(PAGE, 1.7 * rows if columns > 2 else 2.4 * rows)
-    panels = np.atleast_1d(figure.subplots(rows, columns)).ravel()
+    rows = math.ceil(len(bodies) / _ABREAST)
+    figure = new_figure(PAGE, 1.8 * rows + 0.75)
+    panels = np.atleast_1d(figure.subplots(rows, _ABREAST)).ravel()
+    spread = 4 * max(body.rms_height for body in bodies)
+    factor, unit = prefix(spread, "m", 3)
+    shown = None
     for axes, body, name in zip(panels, bodies, part.names, strict=False):
-        draw_heights(axes, body)
-        axes.set_title(name, fontsize=7)
+        axes.set_title(_short(name), fontsize=7)
         axes.tick_params(labelsize=6)
+        heights = (body.heights - body.heights.mean()) * factor
+        if isinstance(body, Surface):
+            size, sides = prefix(max(body.sizes), "m", 3)
+            extent = (0.0, body.sizes[0] * size, 0.0, body.sizes[1] * size)
+            shown = axes.imshow(
+                thinned(heights).T,
+                origin="lower",
+                extent=extent,
+                cmap="cividis",
+                vmin=-spread * factor,
+                vmax=spread * factor,
+            )
+        else:
+            size, sides = prefix(body.length, "m", 3)
+            x = (np.arange(heights.size) + 0.5) * body.spacing * size
+            axes.plot(x, heights, color="k", linewidth=0.5)
+        axes.set_xlabel(f"x [{sides}]", fontsize=6)
     for axes in panels[len(bodies) :]:
         axes.set_axis_off()
-    for axes in figure.axes:  # bars of colours are axes too
-        axes.tick_params(labelsize=6)
-        axes.xaxis.label.set_fontsize(6)
-        axes.yaxis.label.set_fontsize(6)
+    if shown is not None:
+        bar = figure.colorbar(
+            shown, ax=panels, orientation="horizontal", shrink=0.5, aspect=40, extend="both"
+        )
+        bar.set_label(f"height [{unit}]", fontsize=7)
+        bar.ax.tick_params(labelsize=6)
     return figure
 
 
@@ -58,21 +83,33 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     """One answer of each map at the largest load, its mean, and the interval of the part."""
     load = part.largest
     values = np.array([each.values[load] for each in answer.of_maps])
-    factor, unit = prefix(float(np.nanmax(values)), answer.unit)
+    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer.of_maps[0]))
     places = np.arange(1, values.size + 1)
-    for place, each in zip(places, answer.of_maps, strict=True):
-        if each.low is not None and each.high is not None:
-            ends = [each.low[load] * factor, each.high[load] * factor]
-            axes.plot([place, place], ends, color="0.35", linewidth=1.0)
+    ends = np.array([_ends(each, load) for each in answer.of_maps]) * factor
+    axes.vlines(places, ends[:, 0], ends[:, 1], color="0.35", linewidth=1.0)
     axes.plot(places, values * factor, "o", color="k")
     if np.isfinite(answer.mean[load]):
         axes.axhline(answer.mean[load] * factor, color="tab:red", linewidth=1.0)
-    low, high = answer.low[load] * factor, answer.high[load] * factor
-    if np.isfinite([low, high]).all():
-        axes.axhspan(low, high, color="tab:red", alpha=0.12, linewidth=0)
-    axes.set_yscale("log")
-    names = [n if len(n) <= _LONGEST else f"{n[: _LONGEST - 1]}…" for n in part.names]
-    axes.set_xticks(places, names, rotation=30, ha="right", fontsize=6)
+    interval = np.array([answer.low[load], answer.high[load]]) * factor
+    if np.isfinite(interval).all():
+        axes.axhspan(*interval, color="tab:red", alpha=0.12, linewidth=0)
+    known = np.concatenate([ends.ravel(), interval])
+    known = known[np.isfinite(known) & (known > 0)]
+    if known.size and known.max() > _LOG_FROM * known.min():
+        axes.set_yscale("log")
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_minor_formatter(NullFormatter())
+    axes.set_xticks(places, list(map(_short, part.names)), rotation=30, ha="right", fontsize=6)
     axes.set_xlim(0.5, values.size + 0.5)
-    unit = "" if unit == "1" else f" [{unit}]"
-    axes.set_ylabel(f"{answer.name}\n{unit}".strip(), fontsize=7)
+    axes.set_ylabel(answer.name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=7)
+
+
+def _ends(answer: Answer, load: int) -> tuple[float, float]:
+    """Both ends of the interval of one map; the value where there is none."""
+    low, high = answer.ends or (answer.values, answer.values)
+    return float(low[load]), float(high[load])
+
+
+def _short(name: str) -> str:
+    """A name that fits under an axis."""
+    return name if len(name) <= _LONGEST else f"{name[: _LONGEST - 1]}…"

@@ -9,8 +9,9 @@ from typing import Any
 from rich.console import Console
 
 from roughline.assessment.part import PartAssessment
+from roughline.report.contact_tables import UNRESOLVED
 from roughline.report.json_output import of_assessment
-from roughline.report.part_tables import maps_table, part_table
+from roughline.report.part_tables import leading_table, maps_table, part_table, star_is_shown_of
 from roughline.report.terminal import print_files, print_table
 
 _MOST_LOADS = 2  # whose answers fit on a screen beside each other
@@ -29,13 +30,15 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
         How the caller gives what is too much for a screen.
     """
     console = Console()
-    header, rows = maps_table(part)
-    header[0] = f"map, at {part.headings[part.largest]}"
-    print_table(console, header, rows)
+    print_table(console, *maps_table(part))
+    console.print()
+    print_table(console, *leading_table(part))
     loads = range(len(part.headings))[:_MOST_LOADS]
     if part.answers:
         console.print()
         print_table(console, *part_table(part, loads))
+    if star_is_shown_of(part):
+        console.print(f"* {UNRESOLVED}", highlight=False)
     if len(part.headings) > _MOST_LOADS:
         console.print(f"answers at more than {_MOST_LOADS} loads are for {many_answers_by}")
     for remark in part.remarks:

@@ -9,15 +9,22 @@ from roughline._version import __version__
 from roughline.assessment.part import PartAssessment
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import assumptions_of, sentence, write_contact_report
-from roughline.report.contact_tables import formula_table, leading_keys, material_in_words
+from roughline.report.contact_tables import (
+    UNRESOLVED,
+    formula_table,
+    leading_keys,
+    material_in_words,
+)
 from roughline.report.page import Picture, Section, Table, render
 from roughline.report.part_figures import answers_figure, heights_figure
 from roughline.report.part_tables import (
     each_map_table,
+    leading_table,
     maps_table,
     mean_and_interval,
     part_table,
     scatter_in_words,
+    star_is_shown_of,
 )
 from roughline.report.pdf import write_pdf
 from roughline.report.style import save, styled
@@ -108,8 +115,12 @@ def _lead(part: PartAssessment) -> str:
         )
     answers = ", ".join(f"{each.of_maps[0].name} {mean_and_interval(each, i)}" for each in leading)
     scatter = scatter_in_words(leading[0], i)
+    unsure = any(not each.curve_as_asked.resolved[i] for each in part.assessments)
     between = f"; places scatter by {scatter} in {leading[0].name}" if len(part.names) > 1 else ""
-    return sentence(f"{pair.first.name} on {pair.second.name} under {under}: {answers}{between}")
+    return sentence(
+        f"{pair.first.name} on {pair.second.name} under {under}: {answers}{between}"
+        + (f" ({UNRESOLVED})" if unsure else "")
+    )
 
 
 def _sections(
@@ -117,6 +128,7 @@ def _sections(
 ) -> list[Section]:
     pair, first = part.question.pair, part.assessments[0]
     assert pair is not None
+    legend = [f"A star: {UNRESOLVED}."] if star_is_shown_of(part) else []
     loads, maps = range(len(part.headings)), range(len(part.names))
     of_part = [part_table(part, loads[i : i + _LOADS_ABREAST]) for i in loads[::_LOADS_ABREAST]]
     of_maps = [
@@ -128,15 +140,15 @@ def _sections(
         Section(
             "The part",
             [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."],
-            notes=[sentence(each) for each in part.remarks],
+            notes=[*legend, *map(sentence, part.remarks)],
             tables=[_with_numbers(*each) for each in of_part if part.answers],
         ),
         Section(
             "The maps",
-            tables=[_with_numbers(*maps_table(part))],
+            tables=[_with_numbers(*maps_table(part)), _with_numbers(*leading_table(part))],
             pictures=[
                 Picture(answers, "Answers", _caption_of_answers(part)),
-                Picture(heights, "Heights", "Of each map, about its mean."),
+                Picture(heights, "Heights", "Of each map about its mean, in the same colours."),
             ],
         ),
         Section(

@@ -8,7 +8,13 @@ import numpy as np
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAnswer, PartAssessment
-from roughline.report.contact_tables import leading_keys, quantity, unit_shown
+from roughline.report.contact_tables import (
+    leading_keys,
+    quantity,
+    star_is_shown,
+    starred,
+    unit_shown,
+)
 from roughline.report.values import with_interval
 from roughline.topography.body import Surface
 from roughline.units import decimal, engineering
@@ -20,10 +26,14 @@ _SAME = 1e-6  # scatter below which a quantity was given, and did not come out
 
 
 def part_table(part: PartAssessment, loads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of mean, interval and scatter of all answers at some of the loads."""
+    """Return header and rows of mean, interval and scatter of all answers at some of the loads.
+
+    A star marks loads under which the grid decides on a map.
+    """
+    headings = [starred(each) for each in part.assessments]
     header = [""]
     for i in loads:
-        header += [part.headings[i], "scatter"]
+        header += [max((each[i] for each in headings), key=len), "scatter"]
     rows = []
     for each in part.answers.values():
         row = [f"{each.name} {each.symbol}"]
@@ -36,8 +46,12 @@ def part_table(part: PartAssessment, loads: Sequence[int]) -> tuple[list[str], l
 def each_map_table(
     part: PartAssessment, load: int, maps: Sequence[int]
 ) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of all answers of some of the maps, at one load."""
-    header = [part.headings[load], *(part.names[i] for i in maps)]
+    """Return header and rows of all answers of some of the maps, at one load.
+
+    A star behind a map marks that the grid decides on it.
+    """
+    stars = [starred(each)[load].removeprefix(part.headings[load]) for each in part.assessments]
+    header = [part.headings[load], *(f"{part.names[i]}{stars[i]}" for i in maps)]
     keys = part.assessments[0].answers
     rows = []
     for key, first in keys.items():
@@ -48,19 +62,28 @@ def each_map_table(
 
 
 def maps_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of what each map is, and its leading answers at the largest load."""
+    """Return header and rows of what each map is, and of those that were not pressed."""
+    header = ["map", "points", "sides", "rms height", "rms slope"]
+    rows = [
+        [name, *_described(each)] for name, each in zip(part.names, part.assessments, strict=True)
+    ]
+    rows += [[name, "refused", "", "", ""] for name in part.refused]
+    rows += [[name, "not pressed", "", "", ""] for name in part.left]
+    return header, rows
+
+
+def leading_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of each map's leading answers at the largest load."""
     first, load = part.assessments[0], part.largest
     keys = leading_keys(first)
-    header = ["map", "points", "sides", "rms height", "rms slope"]
-    header += [first.answers[key].symbol for key in keys]
+    header = [part.headings[load], *(first.answers[key].symbol for key in keys)]
     rows = []
     for name, each in zip(part.names, part.assessments, strict=True):
-        cells = [quantity(each.answers[key], load) if key in each.answers else "-" for key in keys]
-        rows.append([name, *_described(each), *cells])
-    for name in part.refused:
-        rows.append([name, "refused", *[""] * (len(header) - 2)])
-    for name in part.left:
-        rows.append([name, "not pressed", *[""] * (len(header) - 2)])
+        star = starred(each)[load].removeprefix(part.headings[load])
+        cells = [
+            quantity(each.answers[key], load) if key in each.answers else NO_MEAN for key in keys
+        ]
+        rows.append([f"{name}{star}", *cells])
     return header, rows
 
 
@@ -81,6 +104,11 @@ def scatter_in_words(answer: PartAnswer, i: int) -> str:
     if factor < 1 + _SAME:
         return "none"
     return f"{100 * (factor - 1):.2g}%" if factor < 1.5 else f"factor {decimal(factor, 3)}"
+
+
+def star_is_shown_of(part: PartAssessment) -> bool:
+    """Whether the grid decides on a map, under one of the loads."""
+    return any(map(star_is_shown, part.assessments))
 
 
 def _described(assessment: Assessment) -> list[str]:

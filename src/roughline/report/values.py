@@ -17,7 +17,7 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     """Write a value, and its interval as ± where that is narrow, else by both ends in its unit."""
     if not np.isfinite(value):
         return "not solved" if np.isnan(value) else "infinite"
-    factor, sign = _scale(value, unit)
+    factor, sign = scale_of(value, unit)
     shown = f"{decimal(value * factor, 4)}{sign}"
     if ends is None or np.isnan(ends).any() or not value:
         return shown
@@ -29,7 +29,7 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     return f"{shown} ({first} to {last})"
 
 
-def _scale(value: float, unit: str) -> tuple[float, str]:
+def scale_of(value: float, unit: str) -> tuple[float, str]:
     """What a value is multiplied with, and what then stands behind it."""
     if unit == "1":
         return 1.0, ""

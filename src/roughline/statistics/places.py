@@ -43,7 +43,7 @@ def average_of_places(
 
     Such quantities scatter by factors, so logarithms are averaged, and what holds of a resistance
     holds of its conductance. The half width of the interval combines two parts as independent:
-    Student's t times the standard error of the logarithms; and, at either end, the mean distance
+    Student's t times the standard error of the logarithms; and, at either end, the median distance
     of the values' own ends, which may be a bias that all places share and does not average out.
 
     Parameters
@@ -69,7 +69,7 @@ def average_of_places(
         student = stdtrit(np.maximum(count - 1, 1), (1 + confidence) / 2)
         of_places = student * deviation / np.sqrt(count)
         halves = [
-            np.hypot(of_places, _mean_distance(np.abs(np.log(values / ends)), known, count))
+            np.hypot(of_places, _median_distance(np.abs(np.log(values / ends)), known))
             for ends in (low, high)
         ]
         ends = [
@@ -79,6 +79,8 @@ def average_of_places(
     return PlaceAverage(np.exp(centre), np.exp(deviation), ends[0], ends[1], count)
 
 
-def _mean_distance(distances: Real, known: Mask, count: Indices) -> Real:
-    """Mean over the places that have a value; one without ends has none."""
-    return np.where(known & ~np.isnan(distances), distances, 0.0).sum(axis=0) / count
+def _median_distance(distances: Real, known: Mask) -> Real:
+    """Median over the places that have a value; one without ends has no distance."""
+    distances = np.where(np.isnan(distances), 0.0, distances)
+    none = ~known.any(axis=0)
+    return np.nanmedian(np.where(known | none, distances, np.nan), axis=0)

@@ -1,0 +1,177 @@
+"""From a map to the joint that it shows a part of."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.engineering.formulas import electrical_resistance
+from roughline.engineering.joint import constriction_of_disc
+
+PAIR = "steel,copper"
+SPECTRUM = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6, q_roll=math.tau / 12e-6)
+
+
+@pytest.fixture(scope="module")
+def part():
+    """A part of 0.4 mm, and a map of 0.1 mm of it."""
+    surface = SPECTRUM.surface(256, 3)
+    return surface, surface.cropped((0, 64), (0, 64)).detrended()
+
+
+def test_a_joint_of_four_maps_is_the_map_laid_four_times():
+    """Every answer, for every one grows with the area as is declared."""
+    tile = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-7).surface(32, 5)
+    four = rl.Surface(np.tile(tile.heights, (2, 2)), (2e-4, 2e-4))
+    asked = {"materials": PAIR, "frequency": "5 MHz", "grid_error": False, "fields": False}
+    joint = rl.assess(rl.Question(tile, loads="4 N", joint_area=four.area, **asked)).answers
+    whole = rl.assess(rl.Question(four, loads="4 N", periodic=True, **asked)).answers
+    names = {"interface_stiffness": "contact_stiffness"}  # of what is repeated they are the same
+    specific = whole["constriction_resistance"].values * four.area
+    for key, answer in joint.items():
+        expected = specific
+        if key != "specific_contact_resistance":
+            expected = whole[names.get(key, key)].values
+        # estimates of the literature take the rms slope of the forward differences inside
+        tolerance = 0.05 if key in ("mikic_conductance", "plastic_conductance") else 1e-5
+        assert answer.values == pytest.approx(expected, rel=tolerance), key
+    assert set(whole) - set(joint) == {"contact_stiffness"}
+
+
+def test_forces_act_on_the_joint_and_pressures_are_the_same_everywhere(part):
+    _, piece = part
+    by_force, by_pressure = (
+        rl.assess(rl.Question(piece, PAIR, loads=load, joint_area="2 cm^2", fields=False))
+        for load in ("1 kN", "5 MPa")
+    )
+    assert by_force.curve.force == pytest.approx(1e3 * piece.area / 2e-4, rel=1e-12)
+    for key, answer in by_force.answers.items():
+        other = by_pressure.answers[key]
+        assert answer.rows == pytest.approx(other.rows, rel=1e-6), key
+    assert by_force.headings == ["1 kN"]
+    assert by_force.answers["normal_force"].values == pytest.approx([1e3])
+
+
+def test_what_is_per_area_does_not_know_how_large_the_joint_is(part):
+    _, piece = part
+    small, large = (
+        rl.assess(rl.Question(piece, PAIR, loads="5 MPa", joint_area=area)).answers
+        for area in ("1 mm^2", "100 mm^2")
+    )
+    for key in ("specific_contact_resistance", "stiffness_per_area", "contact_area_fraction"):
+        assert large[key].rows == pytest.approx(small[key].rows, rel=1e-9), key
+    assert large["constriction_resistance"].rows * 100 == pytest.approx(
+        small["constriction_resistance"].rows, rel=1e-9
+    )
+
+
+def test_the_joint_is_within_the_interval_of_its_map(part):
+    """The truth is the whole part, pressed as it is, which the map is a sixteenth of."""
+    surface, piece = part
+    E_star = rl.Question(piece, PAIR).modulus
+    force = 5e6 * surface.area
+    truth = rl.press(surface, E_star=E_star, forces=[force], periodic=True)
+    question = rl.Question(piece, PAIR, loads=force, joint_area=surface.area, grid_error=True)
+    found = rl.assess(question).answers
+    metals = [rl.material(name).resistivity for name in ("steel", "copper")]
+    expected = {
+        "interface_stiffness": truth.stiffness,
+        "contact_area": truth.area_fraction_corrected * surface.area,
+        "constriction_resistance": electrical_resistance(truth.stiffness, E_star, metals),
+    }
+    for key, value in expected.items():
+        answer = found[key]
+        assert answer.low < value < answer.high, key
+        shared_low, shared_high = answer.shared
+        assert answer.low < shared_low < answer.values < shared_high < answer.high
+
+
+def test_the_joint_slides_under_its_own_load(part):
+    _, piece = part
+    question = rl.Question(
+        piece, PAIR, loads="100 N", joint_area="1 mm^2", friction=0.3, whole_curve=True
+    )
+    assert rl.assess(question).partial_slip.force[-1] == pytest.approx(30.0)
+
+
+def test_what_is_left_out_of_a_joint_is_told_with_its_size(part):
+    _, piece = part
+    light, heavy = (
+        rl.assess(rl.Question(piece, PAIR, loads=load, joint_area=2e-8))
+        for load in ("1 mN", "10 N")
+    )
+    disc = constriction_of_disc(2e-8, light.curve.E_star)
+    radius = math.sqrt(2e-8 / math.pi)
+    metals = [rl.material(name).resistivity for name in ("steel", "copper")]
+    assert electrical_resistance(disc, light.curve.E_star, metals) == pytest.approx(
+        sum(metals) / (4 * radius)
+    )
+    assert any("evenly loaded" in note for note in light.notes)
+    assert any("evenly loaded" in note and "decide as well" in note for note in heavy.warnings)
+
+
+def test_without_a_joint_forces_act_on_the_map_and_the_notes_say_so(part):
+    surface, piece = part
+    told = "forces act on the map alone"
+
+    def notes(body, load):
+        return " ".join(rl.assess(rl.Question(body, PAIR, loads=load, fields=False)).notes)
+
+    assert told in notes(piece, "1 N")
+    assert told not in notes(piece, "2 MPa")
+    assert told not in notes(surface, "1 N")  # it was not cut out of a larger one
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"joint_area": 0}, 'joint area is "0"; give a positive one'),
+        ({"joint_area": "-2 cm^2"}, 'joint area is "-2 cm^2"; give a positive one'),
+        ({"joint_area": math.nan}, 'joint area is "nan"; give a positive one'),
+        ({"joint_area": "inf cm^2"}, 'joint area is "inf cm^2"; give a positive one'),
+        ({"joint_area": "2 cm"}, 'joint area is "2 cm", which is no quantity in m^2'),
+        ({"joint_area": "2"}, 'joint area is "2", without a unit; give one, such as "2 cm^2"'),
+        ({"joint_area": "1,5 cm^2"}, "numbers take a decimal point"),
+        ({"joint_area": 1.0, "materials": None, "E_star": 1e9}, "need two materials"),
+        ({"joint_area": 1.0, "loads": (), "depths": "1 um"}, "is pressed by loads (loads=)"),
+    ],
+)
+def test_joints_that_cannot_be_are_refused(asked, message):
+    asked = {"materials": PAIR, "loads": "1 N", **asked}
+    with pytest.raises(rl.InputError, match=re.escape(message)):
+        rl.Question("nowhere.x3p", **asked)
+
+
+def test_bodies_that_stand_for_no_joint_are_refused(part):
+    _, piece = part
+    with pytest.raises(rl.InputError, match="less than the map, which has .*: crop the map"):
+        rl.Question(piece, PAIR, loads="1 N", joint_area="100 µm²")
+    assert rl.Question(piece, PAIR, loads="1 N", joint_area=piece.area).joint == piece.area
+    scan = rl.Line(piece.heights[0], 1e-4, kind="profile")
+    with pytest.raises(rl.InputError, match="joint_area= belongs to a surface"):
+        rl.Question(scan, PAIR, loads="1 N", joint_area="2 cm^2")
+
+
+@pytest.mark.parametrize("area", ["2 cm^2", "2 cm²", "2cm2", "200 mm^2", 2e-4])
+def test_areas_are_read_as_they_are_written(area):
+    assert rl.Question("nowhere.x3p", PAIR, loads="1 N", joint_area=area).joint == 2e-4
+
+
+def test_a_repeated_map_tells_of_the_jump_at_its_borders(part):
+    surface, piece = part
+    slope = 0.1 * np.arange(64)[:, np.newaxis] * piece.spacing[0]
+    tilted = rl.Surface(piece.heights + slope, piece.sizes, is_cut_out=True)
+
+    def said(body, **asked):
+        result = rl.assess(rl.Question(body, PAIR, loads="5 MPa", fields=False, **asked))
+        return " ".join(result.warnings), " ".join(result.notes)
+
+    assert "jumps by" in said(piece, periodic=True)[1]
+    warned, _ = said(tilted, periodic=True)
+    assert re.search(r"jumps by .*, \S+ times an ordinary step .*; \d\d% of its mean-sq", warned)
+    assert not any("jumps by" in text for text in said(piece))
+    assert not any("jumps by" in text for text in said(surface, periodic=True))
+    joint = {"joint_area": "1 mm^2"}  # whose map is pressed without its tilt
+    assert "jumps by" in said(tilted, **joint)[1]

@@ -1,0 +1,64 @@
+"""The mean over all places of a part, from a few of them."""
+
+import numpy as np
+import pytest
+
+from roughline.statistics.places import average_of_places
+
+DRAWS = 20_000
+TOLERANCE = 4 * np.sqrt(0.05 * 0.95 / DRAWS)  # four standard errors of a share of 95 %
+
+
+def unknown(values):
+    return np.full(values.shape, np.nan)
+
+
+@pytest.mark.parametrize("count", [2, 3, 5, 10])
+@pytest.mark.parametrize("scatter", [0.05, 0.7])
+def test_the_interval_holds_the_mean_over_all_places_in_95_of_100(count, scatter):
+    rng = np.random.default_rng(count)
+    values = 3.0 * np.exp(scatter * rng.standard_normal((count, DRAWS)))
+    found = average_of_places(values, unknown(values), unknown(values))
+    held = (found.low <= 3.0) & (found.high >= 3.0)
+    assert held.mean() == pytest.approx(0.95, abs=TOLERANCE)
+
+
+@pytest.mark.parametrize("bias", [-0.2, 0.2])
+def test_what_all_places_miss_alike_does_not_average_out(bias):
+    """However many maps there are; their own ends hold it at either side."""
+    rng = np.random.default_rng(1)
+    values = np.exp(bias + 0.1 * rng.standard_normal((100, 1000)))
+    found = average_of_places(values, values * np.exp(-0.25), values * np.exp(0.25))
+    assert ((found.low < 1) & (found.high > 1)).all()
+    alone = average_of_places(values, unknown(values), unknown(values))
+    assert not ((alone.low < 1) & (alone.high > 1)).any()
+
+
+def test_what_holds_of_a_quantity_holds_of_its_reciprocal():
+    rng = np.random.default_rng(2)
+    values = np.exp(rng.standard_normal((4, 3)))
+    low, high = values / 1.2, values * 1.5
+    found = average_of_places(values, low, high)
+    inverse = average_of_places(1 / values, 1 / high, 1 / low)
+    for name, other in (("mean", "mean"), ("low", "high"), ("high", "low")):
+        assert getattr(inverse, name) == pytest.approx(1 / getattr(found, other), rel=1e-12)
+    assert inverse.scatter == pytest.approx(found.scatter, rel=1e-12)
+
+
+def test_a_single_place_has_no_scatter_and_equal_ones_no_interval():
+    one = average_of_places(np.array([[2.0]]), np.array([[1.0]]), np.array([[3.0]]))
+    assert (one.mean, one.count) == (2.0, 1)
+    assert np.isnan([one.scatter, one.low, one.high]).all()
+    values = np.full((3, 1), 10.0)
+    given = average_of_places(values, unknown(values), unknown(values))
+    assert (given.mean, given.scatter) == (pytest.approx(10.0), 1.0)
+    assert np.isnan([given.low, given.high]).all()
+
+
+def test_places_without_a_value_are_left_out_and_infinite_ones_have_no_mean():
+    values = np.array([[1.0, np.nan, 1.0, np.nan], [4.0, 5.0, np.inf, np.nan]])
+    found = average_of_places(values, unknown(values), unknown(values))
+    assert found.mean[:2] == pytest.approx([2.0, 5.0])
+    assert np.isnan(found.mean[2:]).all()
+    assert found.count.tolist() == [2, 1, 1, 0]
+    assert np.isnan(found.low[1:]).all()
