@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.larger_surface import LargerSurface, stiffness_of_the_piece
 from roughline.assessment.nominal import has_spectrum
@@ -42,7 +44,8 @@ def with_answers(
         return result
     interface = _interface_stiffness(result, larger)
     stiffness, area = result.stiffness_interval_as_asked, result.area_interval_as_asked
-    given = _answers(result, pair, interface, stiffness, area, spectrum)
+    unloading = result.unloading_interval_as_asked
+    given = _answers(result, pair, interface, (stiffness, unloading, area), spectrum)
     if larger is not None and stiffness is not None:
         larger = larger.at(result.asked)
         shared = larger.stiffness.shared
@@ -50,8 +53,13 @@ def with_answers(
         assert shared is not None
         interface = replace(interface, low=shared[0], high=shared[1])
         if question.joint is not None:  # the surface is pressed as a part of the larger one
-            stiffness, area = shared, larger.shared_area_interval
-        missed_by_all = _answers(result, pair, interface, stiffness, area, spectrum)
+            curve = result.curve_as_asked
+            assert curve.unloading_stiffness is not None
+            with np.errstate(invalid="ignore"):
+                share = curve.stiffness / curve.unloading_stiffness
+            stiffness = share * shared[0], share * shared[1]
+            unloading, area = shared, larger.shared_area_interval
+        missed_by_all = _answers(result, pair, interface, (stiffness, unloading, area), spectrum)
         given = [
             replace(each, shared=other.ends)
             for each, other in zip(given, missed_by_all, strict=True)
@@ -65,11 +73,11 @@ def _answers(
     result: Assessment,
     pair: MaterialPair,
     interface_stiffness: Answer | None,
-    stiffness_interval: Ends | None,
-    area_interval: Ends | None,
+    intervals: tuple[Ends | None, Ends | None, Ends | None],
     spectrum: Moments | None,
 ) -> list[Answer]:
-    """What follows from the curve, with intervals as they are given."""
+    """What follows from the curve, with intervals of k, k_u and the area as they are given."""
+    stiffness_interval, unloading_interval, area_interval = intervals
     return answers(
         result.curve_as_asked,
         result.area,
@@ -77,14 +85,9 @@ def _answers(
         interface_stiffness=interface_stiffness,
         amplitudes=(result.body.rms_height, spectrum.rms_slope if spectrum else None),
         frequency=result.question.frequency_in_hertz,
-<<<<<<< HEAD
-        stiffness_interval=result.stiffness_interval_as_asked,
-        unloading_interval=result.unloading_interval_as_asked,
-        area_interval=result.area_interval_as_asked,
-=======
         stiffness_interval=stiffness_interval,
+        unloading_interval=unloading_interval,
         area_interval=area_interval,
->>>>>>> maps
     )
 
 
@@ -110,17 +113,11 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
 
 def _interface_stiffness(result: Assessment, larger: LargerSurface | None) -> Answer | None:
     """Stiffness of the interface alone; None where the contact stiffness is that already."""
-<<<<<<< HEAD
     ends = result.unloading_interval_as_asked
     if result.curve.unloading_stiffness is None:
         ends = result.stiffness_interval_as_asked
-    if of_larger_surface is not None:
-        answer = of_larger_surface.at(result.asked)
-=======
-    ends = result.stiffness_interval_as_asked
     if larger is not None:
         answer = larger.stiffness.at(result.asked)
->>>>>>> maps
         # what one piece leaves open is narrower than what is unknown without the grid's error
         return replace(answer, low=None, high=None) if ends is None else answer
     if result.question.periodic:

@@ -34,11 +34,7 @@ from roughline.assessment.variants import with_elastic_answers, with_scatter_of_
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import estimate, memory_for
-<<<<<<< HEAD
 from roughline.contact.press import press
-from roughline.engineering.answer import Answer
-=======
->>>>>>> maps
 from roughline.engineering.formulas import partial_slip
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
@@ -127,7 +123,7 @@ def _solved_again(
     case: LoadCase,
     *,
     progress: LoadProgress | None,
-) -> tuple[Solution, Answer | None]:
+) -> tuple[Solution, LargerSurface | None]:
     """Press a body with another hardness: without fields, and filled in one way."""
     whole = [replace(each, measurement=None) for each in parts]
     question = replace(

@@ -150,35 +150,18 @@ def larger_surface(
         Without its tilt, in SI units.
     curve : Curve
         Of the piece in the periodic half-space.
-<<<<<<< HEAD
-    interval : tuple of ndarray, shape (loads,), optional
-        Both ends of its stiffness on unloading. [N / m]
-    """
-    assert curve.area_fraction_corrected is not None
-    assert curve.unloading_stiffness is not None
-    roll_offs = roll_offs_along_a_side(piece)
-    shares = share_of_the_whole(curve.area_fraction_corrected, roll_offs)
-    k = curve.unloading_stiffness
-    with np.errstate(divide="ignore", invalid="ignore"):
-        halves = [np.log(share) for share in shares]
-        if interval is not None:
-            halves = [
-                sign * np.hypot(half, np.log(end / k))
-                for sign, half, end in zip((-1, 1), halves, interval, strict=True)
-            ]
-        low, high = (np.where(k == 0, 0.0, k * np.exp(half)) for half in halves)
-=======
     stiffness, area : tuple of ndarray, shape (loads,), optional
-        Both ends of its stiffness [N / m] and of its corrected area fraction [1].
+        Both ends of its stiffness on unloading [N / m] and of its corrected area fraction [1].
     """
     touching = curve.area_fraction_corrected
+    k = curve.unloading_stiffness
     assert touching is not None
+    assert k is not None
     roll_offs = roll_offs_along_a_side(piece)
 
     def widened(values: Real, ends: Ends | None, of: Share) -> Ends:
         return _widened(values, ends, share_of_the_whole(touching, roll_offs, of))
 
->>>>>>> maps
     if roll_offs is None:
         held = (
             "it shows no roll-off, so that longer waves are missing: the interval allows for waves "
@@ -186,7 +169,6 @@ def larger_surface(
         )
     else:
         held = f"it holds {roll_offs:.2g} roll-off wavelengths along a side"
-    k = curve.stiffness
     answer = _interface_stiffness(
         k,
         widened(k, stiffness, STIFFNESS_OF_ONE),
@@ -211,7 +193,7 @@ def _widened(values: Real, ends: Ends | None, shares: Ends) -> Ends:
                 sign * np.hypot(half, np.log(end / values))
                 for sign, half, end in zip((-1, 1), halves, ends, strict=True)
             ]
-    low, high = (values * np.exp(half) for half in halves)
+        low, high = (np.where(values == 0, 0.0, values * np.exp(half)) for half in halves)
     return low, high
 
 

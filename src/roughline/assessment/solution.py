@@ -10,12 +10,7 @@ import numpy as np
 from roughline.assessment.larger_surface import LargerSurface, larger_surface
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import Topography, pressed_body
-<<<<<<< HEAD
 from roughline.assessment.uncertainty import Changes, Solution, change
-from roughline.engineering.answer import Answer
-=======
-from roughline.assessment.uncertainty import Solution, change
->>>>>>> maps
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
 
@@ -92,21 +87,12 @@ def interface_of_the_larger_surface(
         periodic = solved(case, body, [], progress)
         if filled and not periodic.interrupted:
             periodic = with_other_filling(periodic, case, body, filled, progress)
-<<<<<<< HEAD
-    answer = stiffness_of_the_larger_surface(body, periodic.curve, periodic.unloading_interval)
-    if answer.values.size < converged.size:  # loads that failed before have no force
-        rows = np.full((3, converged.size), np.nan)
-        rows[:, converged] = answer.values, answer.low, answer.high
-        answer = replace(answer, values=rows[0], low=rows[1], high=rows[2])
-    return answer, solution.interrupted or periodic.interrupted
-=======
     larger = larger_surface(
-        body, periodic.curve, periodic.stiffness_interval, periodic.area_interval
+        body, periodic.curve, periodic.unloading_interval, periodic.area_interval
     )
     if larger.stiffness.values.size < converged.size:  # loads that failed before have no force
         larger = larger.among(converged)
     return larger, solution.interrupted or periodic.interrupted
->>>>>>> maps
 
 
 def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
@@ -115,9 +101,8 @@ def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
     Without the grid's errors there are none: what a piece leaves open is narrower than what is
     unknown.
     """
-<<<<<<< HEAD
-    curve, ends = solution.curve, (stiffness.low, stiffness.high)
-    if solution.stiffness_interval is None or ends[0] is None or ends[1] is None:
+    curve, ends = solution.curve, larger.stiffness.ends
+    if solution.stiffness_interval is None or ends is None:
         return solution
     assert curve.unloading_stiffness is not None
     with np.errstate(invalid="ignore"):
@@ -125,15 +110,8 @@ def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
     return replace(
         solution,
         stiffness_interval=(share * ends[0], share * ends[1]),
-        unloading_interval=(ends[0], ends[1]),
-=======
-    if solution.stiffness_interval is None:
-        return solution
-    return replace(
-        solution,
-        stiffness_interval=larger.stiffness.ends,
+        unloading_interval=ends,
         area_interval=larger.area_interval,
->>>>>>> maps
     )
 
 

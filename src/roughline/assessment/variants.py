@@ -10,14 +10,15 @@ import numpy as np
 from roughline.assessment.answers import with_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.hardness import hardness_of
+from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.loads import LoadCase
 from roughline.assessment.uncertainty import Solution
 from roughline.computing.arrays import Real
-from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answer import Ends
 from roughline.spectra.moments import Moments
 
-Solve = Callable[[LoadCase], tuple[Solution, Answer | None]]
-"""Presses the body of an assessment; the answer is the interface's of the larger surface."""
+Solve = Callable[[LoadCase], tuple[Solution, LargerSurface | None]]
+"""Presses the body of an assessment; the second result is the larger surface behind it."""
 
 
 def with_scatter_of_hardness(
@@ -86,7 +87,7 @@ def _case(case: LoadCase, result: Assessment, hardness: float | None) -> LoadCas
 def _answered(
     result: Assessment,
     solution: Solution,
-    larger: Answer | None,
+    larger: LargerSurface | None,
     spectrum: Moments | None,
     *,
     hardness: float | None = None,
@@ -99,7 +100,9 @@ def _answered(
 
 
 def _without_intervals(result: Assessment) -> Assessment:
-    answers = {key: replace(each, low=None, high=None) for key, each in result.answers.items()}
+    answers = {
+        key: replace(each, low=None, high=None, shared=None) for key, each in result.answers.items()
+    }
     return replace(
         result,
         stiffness_interval=None,
@@ -136,7 +139,8 @@ def _widened(result: Assessment, moved: list[Assessment]) -> Assessment:
         scatter[key] = ratios
         low = None if each.low is None else each.low * ratios[0]
         high = None if each.high is None else each.high * ratios[1]
-        answers[key] = replace(each, low=low, high=high)
+        shared = each.shared and (each.shared[0] * ratios[0], each.shared[1] * ratios[1])
+        answers[key] = replace(each, low=low, high=high, shared=shared)
     return replace(
         result,
         stiffness_interval=of_curve(result.stiffness_interval, "stiffness"),

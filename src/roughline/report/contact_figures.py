@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from roughline.assessment.assessment import Assessment, PartialSlip
 from roughline.computing.arrays import Real
+from roughline.contact.curve import Curve
 from roughline.report.folder import make_folder
 from roughline.report.pixels import any_marked, thinned
 from roughline.report.style import PAGE, new_figure, save, styled
@@ -183,14 +184,9 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
     axes.axis(bounds)
 
 
-<<<<<<< HEAD
-def draw_contact(axes: Axes, surface: Surface, curve: Curve) -> None:
-    """Real contact area at the last load whose fields are there; red where it yields."""
-=======
 def draw_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
-    """Real contact area at the last load whose fields are there; the load is the joint's."""
+    """Real contact area at the last load whose fields are there; red where it yields."""
     curve = assessment.curve
->>>>>>> maps
     _label_sides(axes, surface)
     for i in range(len(curve.fields) - 1, -1, -1):
         fields = curve.fields[i]

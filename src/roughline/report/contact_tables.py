@@ -64,12 +64,11 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 
 def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[list[str]]]:
-<<<<<<< HEAD
     """Return header and rows of the answers at some of the loads that were asked for.
 
     Where yield changes an answer by more than its interval, that of elastic bodies stands below.
     """
-    header = ["", *_starred(assessment)[loads]]
+    header = ["", *starred(assessment)[loads]]
     numbers = range(assessment.asked.size)[loads]
     rows = []
     for key, each in assessment.answers.items():
@@ -77,14 +76,6 @@ def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[
         elastic = assessment.elastic.get(key)
         if elastic is not None and any(_differs(elastic, each, i) for i in numbers):
             rows.append(["if nothing yielded", *(quantity(elastic, i) for i in numbers)])
-=======
-    """Return header and rows of the answers at some of the loads that were asked for."""
-    header = ["", *starred(assessment)[loads]]
-    rows = [
-        [f"{each.name} {each.symbol}", *(quantity(each, i) for i in _numbers(assessment, loads))]
-        for each in assessment.answers.values()
-    ]
->>>>>>> maps
     return header, rows
 
 
