@@ -17,7 +17,7 @@ from roughline.assessment.pieces import (
     share_of_the_whole,
 )
 
-ASKED = {"materials": "steel,copper", "grid_error": False, "fields": False}
+ASKED = {"materials": "steel,copper", "elastic": True, "grid_error": False, "fields": False}
 SURFACE = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6, q_roll=math.tau / 25e-6)
 
 

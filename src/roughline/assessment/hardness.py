@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from roughline.assessment.given import as_si
 from roughline.errors import InputError
+from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.question import Question
@@ -79,8 +80,11 @@ def refuse_beyond_hardness(question: Question, area: float) -> None:
         return
     for heading, force in zip(question.headings, question.forces(area), strict=False):
         if force >= hardness.value * area:
+            most = hardness.value * area * question.scale(area)
+            on = "the map" if question.joint is None else "the joint"
             raise InputError(
-                f"load {heading} is a mean pressure of {force / area:.3g} Pa, and the softer body "
-                f"bears less than its hardness, {hardness.value:.3g} Pa (H A_0 = "
-                f"{hardness.value * area * question.scale(area):.3g} N in all): give smaller loads"
+                f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and no "
+                f"contact bears its hardness, {engineering(hardness.value, 'Pa')}, all over: give "
+                f"loads below {engineering(most, 'N')} on {on}, or the hardness (hardness=) if it "
+                "is larger"
             )

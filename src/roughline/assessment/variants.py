@@ -177,8 +177,8 @@ def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment
         )
         scatter[key] = ratios
         ends = each.ends
-        if key in _OF_HARDNESS_ALONE:  # nothing else leaves them open
-            ends = each.values, each.values
+        if key in _OF_HARDNESS_ALONE and result.intervals is not None:
+            ends = each.values, each.values  # nothing else leaves them open
         within = limits.get(key, (0.0, np.inf))
         low, high = (None, None) if ends is None else _times(ends, ratios, *within)
         shared = None if each.shared is None else _times(each.shared, ratios, *within)
