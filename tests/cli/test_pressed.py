@@ -173,9 +173,7 @@ def test_a_report_speaks_to_a_client(holed, invoke, tmp_path):
     assert str(tmp_path) not in page
     assert "roughline press holed.npy --unit m" in page
     assert "periodic=True" not in page
-    headings = "".join(
-        f"<th class=.number.>{each}</th>" for each in ("10 N", "1 N", r"1 mN \*")
-    )
+    headings = "".join(f"<th class=.number.>{each}</th>" for each in ("10 N", "1 N", r"1 mN \*"))
     assert re.search(headings, page)
     lead = re.search('<p class="lead">(.*?)</p>', page)[1]
     names = re.findall("<td>([^<]*)</td><td class=.number", page)

@@ -212,9 +212,7 @@ def test_the_interface_of_a_map_is_that_of_the_periodic_half_space(tmp_path, inv
     found = answered(tmp_path / "map.npy", *sizes)
     level = rl.Surface(piece.detrended().heights, (1e-3, 1e-3))
     forces, hardness = [2.0, 20.0], rl.material("copper").hardness
-    curve = rl.press(
-        level, E_star=found["E_star"], hardness=hardness, forces=forces, periodic=True
-    )
+    curve = rl.press(level, E_star=found["E_star"], hardness=hardness, forces=forces, periodic=True)
     k_u = curve.unloading_stiffness
     given = {name: each for name, each in found["answers"].items() if each["values"] is not None}
     assert given["k_i"]["values"] == pytest.approx(k_u, rel=1e-4)
