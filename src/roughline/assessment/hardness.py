@@ -80,11 +80,11 @@ def refuse_beyond_hardness(question: Question, area: float) -> None:
         return
     for heading, force in zip(question.headings, question.forces(area), strict=False):
         if force >= hardness.value * area:
-            most = hardness.value * area * question.scale(area)
+            most = engineering(hardness.value * area * question.scale(area), "N")
             on = "the map" if question.joint is None else "the joint"
             raise InputError(
-                f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and no "
-                f"contact bears its hardness, {engineering(hardness.value, 'Pa')}, all over: give "
-                f"loads below {engineering(most, 'N')} on {on}, or the hardness (hardness=) if it "
+                f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and the "
+                f"softer body, of hardness {engineering(hardness.value, 'Pa')}, bears less than "
+                f"{most} on {on} (H A_0): give smaller loads, or its hardness (hardness=) if that "
                 "is larger"
             )

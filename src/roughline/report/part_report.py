@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
@@ -136,6 +137,7 @@ def _sections(
         for load in loads
         for i in maps[::_MAPS_ABREAST]
     ]
+    formulas = formula_table(replace(first, hardness_scatter={}))  # which moves each map otherwise
     return [
         Section(
             "The part",
@@ -159,7 +161,7 @@ def _sections(
             ],
             tables=[_with_numbers(*each) for each in of_maps],
         ),
-        Section("Where the answers are from", tables=[Table(*formula_table(first))]),
+        Section("Where the answers are from", tables=[Table(*formulas)]),
         Section("Assumptions", [*assumptions_of(first)]),
         Section("To do it again", [how_to_repeat]),
     ]
