@@ -31,6 +31,9 @@ _LARGEST_CHANGE = 1.0
 # A guess whose pressures exceed the hardness so many times leaves no doubt that nodes yield.
 _SURELY = 3.0
 
+# Over a force; so near, two forces are one, whatever the tolerance.
+_HAIR = 1e-13
+
 
 def solve_path(
     problem: Problem, loads: Sequence[Load], method: Method
@@ -112,16 +115,28 @@ class _Path:
             if pressure > _SURELY * most and problem.conditions is not self._yielding:
                 problem = replace(problem, conditions=self._yielding)
                 start, _ = first_guess(problem, load)
-        contact = solve(problem, load, start, self._method)
+        contact = self._solve(problem, load, start)
         if contact.pressure.max() > most:
             problem = replace(problem, conditions=self._yielding)
             start = ContactSet(contact.nodes, self._yielding.projected(contact.pressure))
             spent = contact.convolutions
             del contact
-            contact = solve(problem, load, start, self._method)
+            contact = self._solve(problem, load, start)
             contact = replace(contact, convolutions=contact.convolutions + spent)
         self._yields |= problem.conditions is self._yielding
         return contact
+
+    def _solve(self, problem: Problem, load: Load, start: ContactSet) -> Contact:
+        """Solve a contact, under a hair less force where nodes at the hardness alone would bear it.
+
+        With no elastic node among them the depth would be open.
+        """
+        if problem.conditions is self._yielding and load.force is not None:
+            nodes = load.force / (self._yielding.largest_pressure * problem.operator.cell_area)
+            whole = round(nodes)
+            if whole and abs(nodes - whole) <= _HAIR * whole:
+                load = Load(force=load.force * (1 - 2 * _HAIR))
+        return solve(problem, load, start, self._method)
 
     def _elastic_or_yielding(self, load: Load) -> Problem:
         """Return the bodies as the last load left them, elastic if they may be under this one.

@@ -91,6 +91,8 @@ class Trial:
                 factor = below / float(pressure.max())
             pressure = np.minimum(factor * pressure, below)  # the product may be rounded up
             gap *= factor
+        # soft bodies spring by little of their roughness: small gaps are much of their force
+        sprung = np.inf if elastic.all() else float(np.abs(gap.flat[nodes]).max())
         gap += problem.separation
         depth = load.depth
         if depth is None:
@@ -100,7 +102,7 @@ class Trial:
         overlap = np.maximum(-gap.flat[held], 0.0)
         gap.flat[held] += overlap
         force = cell_area * float(pressure.sum())
-        length_scale = _length_scale(problem, depth)
+        length_scale = _length_scale(problem, depth, sprung)
         violated = residuals(conditions, gap, nodes, pressure, length_scale, load.error(force))
         return cls(ContactSet(nodes, pressure), depth, force, gap, overlap, length_scale, violated)
 
@@ -125,11 +127,21 @@ class Trial:
         )
 
 
-def _length_scale(problem: Problem, depth: float) -> float:
-    """Return the length with which gaps are compared."""
+def _length_scale(problem: Problem, depth: float, sprung: float) -> float:
+    """Return the length with which gaps are compared.
+
+    Parameters
+    ----------
+    problem : Problem
+        The bodies.
+    depth : float
+        Approach since first touch. [length]
+    sprung : float
+        Largest elastic displacement of the contact, where some of it yields. [length]
+    """
     if problem.operator.zero_mean and not problem.rms_height:
         return 1.0  # even pressure on a flat surface moves nothing
-    approach = max(abs(depth - problem.touch), _LEAST_APPROACH * abs(depth))
+    approach = max(min(abs(depth - problem.touch), sprung), _LEAST_APPROACH * abs(depth))
     return min(problem.rms_height, approach) if problem.rms_height else approach
 
 
