@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
-from roughline.assessment import notes as say
-from roughline.assessment.answers import (
-    broken_assumptions,
-    surface_moments,
-    with_answers,
-)
-from roughline.assessment.assessment import Assessment, PartialSlip
-from roughline.assessment.grid import grid_error_is_estimated, why_without_grid_error
+from roughline.assessment.answers import surface_moments, with_answers
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.grid import grid_error_is_estimated
 from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads, load_with_fields
 from roughline.assessment.misfit import refuse_misfit
-from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
+from roughline.assessment.remarks import notes_of, warnings_of
+from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import (
     interface_of_the_larger_surface,
     of_larger_surface,
@@ -27,13 +24,16 @@ from roughline.assessment.solution import (
 )
 from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.uncertainty import Solution
+from roughline.assessment.variants import (
+    Again,
+    repeats,
+    with_elastic_answers,
+    with_scatter_of_hardness,
+)
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import estimate, memory_for
-from roughline.engineering.formulas import partial_slip
-from roughline.engineering.limits import left_out
-from roughline.files.read import suspicions
-from roughline.spectra.moments import Moments
+from roughline.engineering.intervals import Intervals
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
 
@@ -83,26 +83,27 @@ def assess_body(
         solution, larger = _solved_scan(body, parts, case), None
     else:
         _tell_cost(question, body, case, announce)
-        solution, larger = _solved_body(question, body, parts, case, progress)
+        solution, larger = _solved_body(question, body, case, parts, progress)
     result = Assessment(
         question,
         parts,
         body,
         solution.curve,
-        asked_loads(question, body, case, solution.curve.status.size),
-        solution.stiffness_interval,
-        solution.area_interval,
+        asked_loads(case, solution.curve.status.size),
+        solution.intervals,
         solution.interrupted,
         theories=_theories(question, body, solution.curve),
-        partial_slip=_partial_slip(question, solution.curve, nominal_area(body)),
     )
     spectrum = surface_moments(body) if question.materials is not None else None
     result = with_answers(result, larger, spectrum)
-    return replace(
-        result,
-        warnings=_warnings(result, spectrum, case.grid_error),
-        notes=_notes(result, solution.note),
-    )
+    if case.hardness is not None:
+        solve = partial(_solved_body, replace(question, fields=False), parts=(), progress=progress)
+        again = Again(case, larger, spectrum, solve)
+        result = with_scatter_of_hardness(with_elastic_answers(result, again), again)
+    slip, interrupted = slip_at_largest_load(question, case, result.curve, result.area)
+    result = replace(result, partial_slip=slip, interrupted=result.interrupted or interrupted)
+    warnings = warnings_of(result, spectrum, case.grid_error)
+    return replace(result, warnings=warnings, notes=notes_of(result, solution.note))
 
 
 def _needs_larger_surface(question: Question, body: Body) -> bool:
@@ -128,6 +129,11 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
         cost = str(estimate(body.shape, case.count, periodic=case.periodic))
         if twice:
             cost += f", then {estimate(body.shape, case.count, periodic=True)} for the interface"
+        if more := repeats(question, body):
+            cost += (
+                f"; where points yield, up to {more:g} times as long once more, for elastic bodies "
+                "and for the scatter of the hardness"
+            )
         announce(f"{body.shape[0]} x {body.shape[1]} points, {case.count} loads: {cost}")
 
 
@@ -136,18 +142,19 @@ def _solved_scan(body: Line, parts: Sequence[Topography], case: LoadCase) -> Sol
     second = parts[1].body if len(parts) > 1 else None
     assert second is None or isinstance(second, Line)
     scan = press_scan(body, E_star=case.E_star, forces=case.forces, against=second)
-    return Solution(scan.curve, stiffness_interval=(scan.low, scan.high))
+    ends = scan.low, scan.high
+    return Solution(scan.curve, intervals=Intervals(ends, ends))
 
 
 def _solved_body(
     question: Question,
     body: Body,
-    parts: Sequence[Topography],
     case: LoadCase,
+    parts: Sequence[Topography],
     progress: LoadProgress | None,
 ) -> tuple[Solution, LargerSurface | None]:
     """Press a body, filled in both ways, and periodically where a larger surface is behind it."""
-    kept = [load_with_fields(question, body, case)] if question.fields else []
+    kept = [load_with_fields(case)] if question.fields else []
     solution = solved(case, body, kept, progress)
     if not isinstance(body, Surface):
         return solution, None
@@ -169,53 +176,3 @@ def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]
 
     pressures = curve.force[curve.converged] / body.area
     return [theory(name, body, curve.E_star, pressures) for name in question.theories]
-
-
-def _partial_slip(question: Question, curve: Curve, area: float) -> PartialSlip | None:
-    """Partial slip at the largest load, if it was solved and friction is known.
-
-    Parameters
-    ----------
-    question : Question
-        With friction and the joint, if there is one.
-    curve : Curve
-        Of the body.
-    area : float
-        Nominal area of the body. [m²]
-    """
-    pair, friction, solved_loads = question.pair, question.friction, curve.converged
-    if pair is None or friction is None or not solved_loads[-1]:
-        return None
-    depth, force = curve.depth[solved_loads], curve.force[solved_loads] * question.scale(area)
-    return PartialSlip(friction, *partial_slip(depth, force, pair.E_star, pair.G_star, friction))
-
-
-def _warnings(
-    result: Assessment, spectrum: Moments | None, grid_error_was_tried: bool
-) -> list[str]:
-    """What is suspicious, where assumptions break, and why there is no interval."""
-    bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
-    warnings = [
-        *say.of_each(bodies, suspicions),
-        *broken_assumptions(result, spectrum),
-        *curve.warnings,
-    ]
-    warnings += say.of_joint_and_borders(result, grave=True)
-    if isinstance(body, Surface) and curve.stiffness_error is None:
-        warnings.append(why_without_grid_error(result.question, body, grid_error_was_tried))
-    return warnings
-
-
-def _notes(result: Assessment, of_filling: str) -> list[str]:
-    """What is left out, what was filled, how the loads were meant, and what was cropped."""
-    question, body = result.question, result.body
-    bodies = [each.body for each in result.topographies]
-    notes = []
-    if question.pair is not None:
-        notes += left_out(question.pair, question.frequency_in_hertz)
-        if result.curve.area_fraction is None:
-            notes.append("no contact area: the reduced model of a line does not predict it")
-    notes += say.of_each(bodies, say.filled_points_and_spikes)
-    notes += [of_filling] if of_filling else []
-    notes += say.meaning_of_loads(question, body)
-    return notes + say.of_joint_and_borders(result, grave=False) + say.cropping_and_resampling(body)

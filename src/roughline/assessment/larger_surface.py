@@ -18,10 +18,12 @@ from roughline.assessment.pieces import (
 )
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
-from roughline.engineering.answer import Answer, Ends, ends_at
+from roughline.contact.selection import among
+from roughline.engineering.answer import Answer
 from roughline.engineering.answers import saturated_stiffness
 from roughline.engineering.declared import DECLARED
 from roughline.engineering.formulas import interface_stiffness
+from roughline.engineering.intervals import Ends, Intervals, ends_at
 from roughline.errors import InputError
 from roughline.spectra.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
@@ -38,39 +40,53 @@ class LargerSurface:
     ----------
     stiffness : Answer
         Interface stiffness of as much of it as the piece is large. [N / m]
-    area_interval, shared_area_interval : tuple of ndarray, shape (loads,), or None
+    area, shared_area : tuple of ndarray, shape (loads,), or None
         Ends of its corrected area fraction, and of what other pieces would miss of it in the same
         way; None where the grid's error is not known. [1]
     """
 
     stiffness: Answer
-    area_interval: Ends | None = None
-    shared_area_interval: Ends | None = None
+    area: Ends | None = None
+    shared_area: Ends | None = None
 
     def at(self, loads: Indices) -> LargerSurface:
         """The same at some of the loads, by their numbers."""
-        return LargerSurface(
-            self.stiffness.at(loads),
-            ends_at(self.area_interval, loads),
-            ends_at(self.shared_area_interval, loads),
+        area, shared = (
+            None if ends is None else ends_at(ends, loads) for ends in (self.area, self.shared_area)
         )
+        return LargerSurface(self.stiffness.at(loads), area, shared)
 
     def among(self, solved: Mask) -> LargerSurface:
-        """The same over more loads, of which some were solved: NaN at the others."""
-        place = np.where(solved, np.cumsum(solved) - 1, 0)
-        found = self.at(place)
-        unsolved = np.where(solved, 0.0, np.nan)
-        stiffness, ends = found.stiffness, found.stiffness.ends
+        """The same over more loads, of which these were solved: NaN at the others."""
+
+        def spread(ends: Ends | None) -> Ends | None:
+            return None if ends is None else (among(ends[0], solved), among(ends[1], solved))
+
+        k = self.stiffness
+        low, high = spread(k.ends) or (None, None)
+        values, shared = among(k.values, solved), spread(k.shared)
+        k = replace(k, values=values, low=low, high=high, shared=shared)
+        return LargerSurface(k, spread(self.area), spread(self.shared_area))
+
+    def intervals(self, curve: Curve, *, shared: bool = False) -> Intervals:
+        """Intervals of a periodic piece's curve that hold the larger surface as well.
+
+        The stiffness on loading keeps its share of that on unloading.
+
+        Parameters
+        ----------
+        curve : Curve
+            Of the piece.
+        shared : bool, optional
+            Whether they hold only what other pieces would miss in the same way.
+        """
+        ends = self.stiffness.shared if shared else self.stiffness.ends
         assert ends is not None
-        return replace(
-            found,
-            stiffness=replace(
-                stiffness,
-                values=stiffness.values + unsolved,
-                low=ends[0] + unsolved,
-                high=ends[1] + unsolved,
-            ),
-        )
+        assert curve.unloading_stiffness is not None
+        with np.errstate(invalid="ignore"):  # bodies apart, and no upper end near full contact
+            share = curve.stiffness / curve.unloading_stiffness
+            loading = share * ends[0], share * ends[1]
+        return Intervals(loading, ends, self.shared_area if shared else self.area)
 
 
 def roll_offs_along_a_side(surface: Surface) -> float | None:
@@ -108,9 +124,9 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     curve : Curve
         In the free half-space, or of the reduced model.
     interval : tuple of ndarray, shape (loads,), optional
-        Both ends of its stiffness. [N / m]
+        Both ends of its stiffness on unloading. [N / m]
     """
-    k = curve.stiffness
+    k = curve.stiffness if curve.unloading_stiffness is None else curve.unloading_stiffness
     if isinstance(body, Line):
         saturated, error = curve.E_star * body.length, 0.0
         validity = "of the reduced line alone; waves longer than the scan are missing"
@@ -151,10 +167,12 @@ def larger_surface(
     curve : Curve
         Of the piece in the periodic half-space.
     stiffness, area : tuple of ndarray, shape (loads,), optional
-        Both ends of its stiffness [N / m] and of its corrected area fraction [1].
+        Both ends of its stiffness on unloading [N / m] and of its corrected area fraction [1].
     """
     touching = curve.area_fraction_corrected
+    k = curve.unloading_stiffness
     assert touching is not None
+    assert k is not None
     roll_offs = roll_offs_along_a_side(piece)
 
     def widened(values: Real, ends: Ends | None, of: Share) -> Ends:
@@ -167,12 +185,11 @@ def larger_surface(
         )
     else:
         held = f"it holds {roll_offs:.2g} roll-off wavelengths along a side"
-    k = curve.stiffness
     answer = _interface_stiffness(
         k,
         widened(k, stiffness, STIFFNESS_OF_ONE),
         f"of the larger surface that the map was cut out of; {held}",
-        formula="dF/dd of the map in a periodic half-space under the same force",
+        formula="dF/dd of the map in a periodic half-space under the same force, on unloading",
     )
     answer = replace(answer, shared=widened(k, stiffness, STIFFNESS_OF_MANY))
     if area is None:
@@ -192,7 +209,7 @@ def _widened(values: Real, ends: Ends | None, shares: Ends) -> Ends:
                 sign * np.hypot(half, np.log(end / values))
                 for sign, half, end in zip((-1, 1), halves, ends, strict=True)
             ]
-    low, high = (values * np.exp(half) for half in halves)
+        low, high = (np.where(values == 0, 0.0, values * np.exp(half)) for half in halves)
     return low, high
 
 

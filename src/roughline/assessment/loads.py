@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughline.assessment.hardness import hardness_of, refuse_beyond_hardness
 from roughline.assessment.nominal import nominal_area
-from roughline.assessment.question import DEFAULT_LOADS, Question
-from roughline.computing.arrays import Indices
+from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
+from roughline.computing.arrays import Indices, Mask
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.errors import Interrupted
@@ -31,38 +32,53 @@ class LoadCase:
     E_star : float
         Contact modulus. [Pa]
     forces, depths : list of float
-        Rising; one of them, or both, are empty. [N], [m]
+        In the order in which they are applied; one of them, or both, are empty. [N], [m]
+    asked : tuple of int
+        Which of them were asked for, in the order asked; empty if none was named.
     n_loads : int or None
         Number of spaced forces instead.
     periodic, grid_error
         As for :func:`roughline.press`.
     levelled : bool
         Whether the tilt is removed first, which a periodic half-space cannot have.
+    hardness : float or None
+        Of the softer body; None if both are elastic. [Pa]
     """
 
     E_star: float
     forces: list[float]
     depths: list[float]
+    asked: tuple[int, ...]
     n_loads: int | None
     periodic: bool
     grid_error: bool = False
     levelled: bool = False
+    hardness: float | None = None
 
     @classmethod
     def of(cls, question: Question, body: Body) -> LoadCase:
         """The loads of a question on a body, spaced ones of a line scan included."""
-        asked = question.forces(nominal_area(body))
-        forces = sorted({*asked})
-        if question.whole_curve and asked:
-            forces = _with_curve(asked)
-        n_loads = question.n_loads
-        if isinstance(body, Line) and body.kind == "profile" and not forces:
+        area = nominal_area(body)
+        forces, asked = _path(question, question.forces(area))
+        depths, asked_depths = _path(question, question.heights())
+        n_loads, hardness = question.n_loads, None
+        if isinstance(body, Surface):
+            refuse_beyond_hardness(question, area)
+            known = hardness_of(question)
+            hardness = None if known is None else known.value
+        elif body.kind == "profile" and not forces:
             forces = _forces_of_a_scan(body, question.modulus, n_loads or DEFAULT_LOADS)
             n_loads = None
-        depths = sorted({*question.heights()})
         levelled = question.joint is not None and isinstance(body, Surface) and body.is_cut_out
         return cls(
-            question.modulus, forces, depths, n_loads, question.is_repeated, levelled=levelled
+            question.modulus,
+            forces,
+            depths,
+            asked or asked_depths,
+            n_loads,
+            question.is_repeated,
+            levelled=levelled,
+            hardness=hardness,
         )
 
     @property
@@ -70,10 +86,27 @@ class LoadCase:
         """Number of loads."""
         return len(self.forces) or len(self.depths) or self.n_loads or 0
 
+    @property
+    def largest(self) -> int:
+        """Number of the largest load; of spaced ones, the last."""
+        values = self.forces or self.depths
+        return values.index(max(values)) if values else self.count - 1
+
     def under_forces_of(self, curve: Curve) -> LoadCase:
         """The same under the forces of a curve that were solved."""
         forces = curve.force[curve.converged].tolist()
         return replace(self, forces=forces, depths=[], n_loads=None)
+
+    def of_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
+        """Some of the same loads on a body of another hardness, without the grid's errors.
+
+        Spaced loads are those of the curve that was solved under them.
+        """
+        values = np.array(self.depths or self.forces or curve.force)[loads].tolist()
+        forces, depths = ([], values) if self.depths else (values, [])
+        return replace(
+            self, hardness=hardness, forces=forces, depths=depths, n_loads=None, grid_error=False
+        )
 
     def press(
         self, body: Body, fields: list[int], progress: LoadProgress | None
@@ -85,6 +118,7 @@ class LoadCase:
             curve = press(
                 body,
                 E_star=self.E_star,
+                hardness=self.hardness,
                 n_loads=self.n_loads,
                 forces=self.forces or None,
                 depths=self.depths or None,
@@ -99,17 +133,30 @@ class LoadCase:
         return curve, False
 
 
-def asked_loads(question: Question, body: Body, case: LoadCase, count: int) -> Indices:
+def asked_loads(case: LoadCase, count: int) -> Indices:
     """Which loads of the curve were asked for, in the order asked; all if none was named."""
-    asked = question.forces(nominal_area(body)) or question.heights()
-    levels = case.forces or case.depths
-    return np.array([levels.index(load) for load in asked]) if asked else np.arange(count)
+    return np.array(case.asked) if case.asked else np.arange(count)
 
 
-def load_with_fields(question: Question, body: Body, case: LoadCase) -> int:
+def load_with_fields(case: LoadCase) -> int:
     """The load whose fields are kept: the largest asked for, or one at three quarters of them."""
-    asked = question.forces(nominal_area(body))
-    return case.forces.index(max(asked)) if asked else 3 * case.count // 4
+    return case.largest if case.asked else 3 * case.count // 4
+
+
+def _path(question: Question, asked: list[float]) -> tuple[list[float], tuple[int, ...]]:
+    """Return loads in the order in which they are applied, and where those asked for stand."""
+    if not asked:
+        return [], ()
+    if question.history:
+        before = _with_curve(asked[:1])[:-1] if question.whole_curve and question.loads else []
+        return before + asked, tuple(range(len(before), len(before) + len(asked)))
+    typed = asked[: -len(UNLOADING)] if question.unload else asked
+    rising = sorted({*typed})
+    if question.whole_curve and question.loads:
+        rising = _with_curve(typed)
+    falling = asked[len(typed) :]
+    places = [rising.index(load) for load in typed]
+    return rising + falling, (*places, *range(len(rising), len(rising) + len(falling)))
 
 
 def _with_curve(asked: list[float]) -> list[float]:

@@ -28,6 +28,13 @@ def refuse_misfit(question: Question, body: Body) -> None:
             "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
             "loads, through its spectrum"
         )
+    if isinstance(body, Line) and (
+        question.hardness is not None or question.history or question.unload
+    ):
+        raise InputError(
+            "hardness, history and unload belong to a surface; the reduced model of a line has no "
+            "yield: it may serve while mean contact pressures stay below some 0.4 of the hardness"
+        )
     if question.joint is not None:
         _refuse_as_piece_of_a_joint(body, question.joint)
     if question.theories and not has_spectrum(body):

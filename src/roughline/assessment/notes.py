@@ -8,6 +8,7 @@ import numpy as np
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.given import is_force, several
+from roughline.assessment.hardness import hardness_of
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.engineering.answer import Answer
@@ -18,6 +19,14 @@ from roughline.topography.repetition import border_jump
 from roughline.units import decimal, engineering
 
 _CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
+_MOVED = (  # keys of the answers of which it is told how far the scatter of the hardness moves them
+    "contact_stiffness",
+    "unloading_stiffness",
+    "interface_stiffness",
+    "contact_area",
+    "constriction_resistance",
+)
+_LEAST = 0.05  # change that is told [%]
 _BORDER_OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope from which on it is warned
 
 
@@ -56,9 +65,11 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
         nominal = f"the nominal area, {sides}"
     else:
         nominal = f"the square of the line's length, {engineering(body.length, 'm')}"
-    forces = question.forces(area)
+    loads = question.headings[: len(several(question.loads))]  # unloading speaks for itself
     notes = []
-    for text, force in zip(question.headings[: len(forces)], forces, strict=True):
+    for text, force in dict(zip(loads, question.forces(area), strict=False)).items():
+        if force == 0:
+            continue
         pressure = engineering(force / area, "Pa")
         if question.joint is None:
             notes.append(
@@ -159,3 +170,62 @@ def cropping_and_resampling(body: Body) -> list[str]:
 def _is_map(body: Body) -> bool:
     """Whether it is a surface that a larger one goes on around."""
     return isinstance(body, Surface) and body.is_cut_out
+
+
+def of_yield(result: Assessment) -> list[str]:
+    """Say what yields at the largest load, with which hardness, and how far its scatter matters."""
+    curve, pair, hardness = result.curve, result.question.pair, hardness_of(result.question)
+    if curve.hardness is None or hardness is None or curve.plastic_fraction is None:
+        return []
+    whose = "given" if pair is None or hardness.factor == 1 else "of the softer body"
+    known = f"{engineering(hardness.value, 'Pa')}, {whose}"
+    share = float(curve.plastic_fraction[result.asked[result.largest]])
+    notes = []
+    if share > 0:
+        notes.append(
+            f"{100 * share:.3g}% of the contact yields at the largest load: it bears the hardness, "
+            f"{known}"
+        )
+    elif not np.isnan(share):
+        notes.append(f"nothing yields at the largest load: no point reaches the hardness, {known}")
+    if hardness.factor > 1 and result.answers:
+        notes.append(
+            f"the hardness of the table is known to a factor of {hardness.factor:g}; "
+            f"{_scatter_in_words(result)}"
+        )
+    return notes
+
+
+def _scatter_in_words(result: Assessment) -> str:
+    """Say how far the scatter of the hardness moves answers at the largest load."""
+    load = result.largest
+    moved = {
+        result.answers[key].name: [float(end[load]) for end in result.hardness_scatter[key]]
+        for key in _MOVED
+        if key in result.hardness_scatter
+    }
+    if not moved:
+        return "interrupted before it was known what that moves, so values come without intervals"
+    if np.isnan([*moved.values()]).any():
+        return (
+            "as soft as that, the body does not bear the largest load, so how far the answers move "
+            "is not known there, and they come without intervals"
+        )
+    if np.allclose([*moved.values()], 1, rtol=0, atol=_LEAST / 100):
+        return "that moves no answer at the largest load, as nothing yields"
+    told = [f"{name} {change_in_words(low, high)}" for name, (low, high) in moved.items()]
+    return (
+        f"as soft and as hard as that, at the largest load: {', '.join(told)}; that is in the "
+        "intervals"
+    )
+
+
+def change_in_words(least: float, largest: float) -> str:
+    """Write how far a least and a largest ratio are from one, such as "-11 to +6%"."""
+
+    def signed(ratio: float) -> str:
+        percent = 100 * (ratio - 1)
+        return "0" if abs(percent) < _LEAST else ("+" if percent > 0 else "") + decimal(percent, 2)
+
+    ends = signed(least), signed(largest)
+    return "no change" if ends == ("0", "0") else f"{ends[0]} to {ends[1]}%"

@@ -8,9 +8,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from roughline.assessment.consistency import (
+    refuse_inconsistent_joint,
+    refuse_inconsistent_loads,
+    refuse_inconsistent_maps,
+)
 from roughline.assessment.given import as_si, bodies_or_paths, body_or_path, pair_of, several
+from roughline.assessment.hardness import checked_hardness
 from roughline.assessment.misfit import refuse_misfit
 from roughline.assessment.nominal import area_of_joint
 from roughline.assessment.reading import Reading
@@ -21,6 +25,9 @@ from roughline.topography.preparation import Preparation
 from roughline.units import engineering, load_in_newtons
 
 DEFAULT_LOADS = 20
+
+UNLOADING = (0.75, 0.5, 0.25, 0.1, 0.0)
+"""Loads over the largest one, on the way back to none."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +55,16 @@ class Question:
         the map. The map is pressed at the joint's mean pressure, and answers are the joint's. [m²]
     depths : float or str, or sequence of them, optional
         Depths since first touch instead of loads. [m]
+    hardness : float or str, optional
+        Hardness of the softer body, taken as exact; default: that of the materials, with its
+        scatter, where it is known. What goes beyond it indents the surface for good. [Pa]
+    elastic : bool, optional
+        Whether both bodies are elastic, whatever their hardness.
+    history : bool, optional
+        Whether loads or depths are applied in the order given, each to the surface as the last one
+        left it; default: as they rise.
+    unload : bool, optional
+        Whether the largest load is taken off again, in steps down to zero.
     n_loads : int, optional
         Or so many forces from first touch to saturation; 20 if there is neither of the three.
     against : Surface, Line, str or Path, optional
@@ -98,6 +115,10 @@ class Question:
     whole_curve: bool = False
     fields: bool = True
     joint_area: float | str | None = None
+    hardness: float | str | None = None
+    elastic: bool = False
+    history: bool = False
+    unload: bool = False
 
     def __post_init__(self) -> None:
         checked = {
@@ -106,6 +127,7 @@ class Question:
             "loads": several(self.loads),
             "depths": several(self.depths),
             "theories": several(self.theories),
+            "hardness": checked_hardness(self.hardness, elastic=self.elastic),
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
@@ -113,11 +135,16 @@ class Question:
             isinstance(each, Path) for each in (*self.bodies, self.against)
         ):
             raise InputError("reading= says how files are read, and none is given: leave it out")
-        self._check_joint()
-        self._check_loads()
+        if self.joint_area is not None:
+            object.__setattr__(self, "joint_area", area_of_joint(self.joint_area))
+        if self.n_loads is None and not self.loads and not self.depths:
+            object.__setattr__(self, "n_loads", DEFAULT_LOADS)
+        refuse_inconsistent_joint(self)
+        refuse_inconsistent_loads(self)
+        self.forces(1.0)  # reads and checks them; a pressure waits for its area
+        self.heights()
         self._check_materials()
-        if self.is_of_several:
-            self._check_several()
+        refuse_inconsistent_maps(self)
         if self.theories:
             from roughline.theories.theory import refuse_unknown  # here because it loads slowly
 
@@ -143,8 +170,14 @@ class Question:
 
     @property
     def pair(self) -> MaterialPair | None:
-        """Both materials; None if a contact modulus is given instead."""
-        return None if self.materials is None else MaterialPair(*self.materials)
+        """Both materials, with the hardness that is given; None without materials."""
+        if self.materials is None:
+            return None
+        pair = MaterialPair(*self.materials)
+        if self.hardness is None or self.hardness == math.inf:
+            return pair
+        assert not isinstance(self.hardness, str)
+        return pair.with_hardness(self.hardness)
 
     @property
     def modulus(self) -> float:
@@ -176,7 +209,17 @@ class Question:
         """What each load or depth is called, in its order: as it was typed, or with its unit."""
         named = [(each, "N") for each in several(self.loads)]
         named += [(each, "m") for each in several(self.depths)]
-        return [each if isinstance(each, str) else engineering(each, unit) for each, unit in named]
+        headings = [
+            each if isinstance(each, str) else engineering(each, unit) for each, unit in named
+        ]
+        return headings + [
+            f"unloaded to {share:.0%}" if share else "unloaded" for share in self._unloading
+        ]
+
+    @property
+    def _unloading(self) -> tuple[float, ...]:
+        """Loads that follow the largest one, over it."""
+        return UNLOADING if self.unload else ()
 
     @property
     def joint(self) -> float | None:
@@ -203,51 +246,16 @@ class Question:
             load_in_newtons(load, area * scale) if isinstance(load, str) else float(load)
             for load in several(self.loads)
         ]
-        for load, force in zip(several(self.loads), forces, strict=True):
-            if not 0 < force < math.inf:
-                raise InputError(f'load is "{load}"; give positive ones')
+        for i, (load, force) in enumerate(zip(several(self.loads), forces, strict=True)):
+            if not (0 < force < math.inf or (force == 0 and self.history and i)):
+                to_unload = ", and zero only to unload after others" if self.history else ""
+                raise InputError(f'load is "{load}"; give positive ones{to_unload}')
+        forces += [share * max(forces) for share in self._unloading]
         return [force / scale for force in forces]
 
     def heights(self) -> list[float]:
         """Depths, in their order. [m]"""
         return [as_si(depth, "m", "depth") for depth in several(self.depths)]
-
-    def _check_joint(self) -> None:
-        if self.joint_area is None:
-            return
-        object.__setattr__(self, "joint_area", area_of_joint(self.joint_area))
-        if self.materials is None:
-            raise InputError("answers of a joint (joint_area=) need two materials (materials=)")
-        if self.depths:
-            raise InputError(
-                "a joint (joint_area=) is pressed by loads (loads=): its depth counts from the "
-                "touch of its highest point, which a map does not show"
-            )
-
-    def _check_several(self) -> None:
-        if self.materials is None:
-            raise InputError(
-                "several maps are compared by their answers, which need two materials (materials=)"
-            )
-        if not self.loads and not self.depths:
-            raise InputError("several maps are pressed under the same loads: give them (loads=)")
-        if self.reading.name is not None:
-            raise InputError("the name in reading= is that of one file, and there are several")
-
-    def _check_loads(self) -> None:
-        given = (self.n_loads, self.loads or None, self.depths or None)
-        if all(each is None for each in given):
-            object.__setattr__(self, "n_loads", DEFAULT_LOADS)
-        if sum(each is not None for each in given) > 1:
-            raise InputError("give one of loads=, depths= and n_loads=")
-        if self.n_loads is not None and (
-            not isinstance(self.n_loads, int | np.integer)
-            or isinstance(self.n_loads, bool)
-            or self.n_loads < 2
-        ):
-            raise InputError(f"n_loads is {self.n_loads!r}; a whole number of at least 2 is needed")
-        self.forces(1.0)  # reads and checks them; a pressure waits for its area
-        self.heights()
 
     def _check_materials(self) -> None:
         if self.materials is not None:

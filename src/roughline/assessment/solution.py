@@ -10,7 +10,7 @@ import numpy as np
 from roughline.assessment.larger_surface import LargerSurface, larger_surface
 from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import Topography, pressed_body
-from roughline.assessment.uncertainty import Solution, change
+from roughline.assessment.uncertainty import Changes, Solution, change
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
 
@@ -43,12 +43,13 @@ def with_other_filling(
         again = again.under_forces_of(curve)  # not spaced anew
     moved, interrupted = again.press(other, [], progress)
     stiffness, share = change(curve.stiffness, moved.stiffness)
+    unloading, _ = change(curve.unloading_stiffness, moved.unloading_stiffness)
     area, area_share = change(curve.area_fraction_corrected, moved.area_fraction_corrected)
     note = (
         f"filled by {method} instead: stiffness moves by {_at_most(share)}, "
         f"area by {_at_most(area_share)}"
     )
-    return Solution.of(curve, interrupted, stiffness, area, note)
+    return Solution.of(curve, interrupted, Changes(stiffness, unloading, area), note)
 
 
 def interface_of_the_larger_surface(
@@ -79,16 +80,16 @@ def interface_of_the_larger_surface(
     curve, converged = solution.curve, solution.curve.converged
     periodic = solution
     if not case.periodic and (solution.interrupted or not converged.any()):
-        unknown = replace(curve, stiffness=np.full(converged.size, np.nan))
+        unknown = replace(curve, unloading_stiffness=np.full(converged.size, np.nan))
         periodic = replace(solution, curve=unknown)
     elif not case.periodic:
         case = replace(case.under_forces_of(curve), periodic=True, levelled=True)
         periodic = solved(case, body, [], progress)
         if filled and not periodic.interrupted:
             periodic = with_other_filling(periodic, case, body, filled, progress)
-    larger = larger_surface(
-        body, periodic.curve, periodic.stiffness_interval, periodic.area_interval
-    )
+    known = periodic.intervals
+    unloading, area = (known.unloading, known.area) if known else (None, None)
+    larger = larger_surface(body, periodic.curve, unloading, area)
     if larger.stiffness.values.size < converged.size:  # loads that failed before have no force
         larger = larger.among(converged)
     return larger, solution.interrupted or periodic.interrupted
@@ -100,13 +101,9 @@ def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
     Without the grid's errors there are none: what a piece leaves open is narrower than what is
     unknown.
     """
-    if solution.stiffness_interval is None:
+    if solution.intervals is None:
         return solution
-    return replace(
-        solution,
-        stiffness_interval=larger.stiffness.ends,
-        area_interval=larger.area_interval,
-    )
+    return replace(solution, intervals=larger.intervals(solution.curve))
 
 
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:

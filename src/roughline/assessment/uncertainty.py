@@ -8,7 +8,23 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.engineering.answer import Ends
+from roughline.engineering.intervals import Ends, Intervals
+
+
+@dataclass(frozen=True, eq=False)
+class Changes:
+    """What another choice, such as how points are filled, changes.
+
+    Attributes
+    ----------
+    stiffness, unloading, area : ndarray, shape (loads,), or float
+        By how much, of the stiffness on loading and on unloading [N / m] and of the corrected area
+        fraction [1].
+    """
+
+    stiffness: Real | float = 0.0
+    unloading: Real | float = 0.0
+    area: Real | float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,47 +37,50 @@ class Solution:
         Loads that failed are marked.
     interrupted : bool
         Whether Ctrl-C came.
-    stiffness_interval, area_interval : tuple of ndarray, shape (loads,), or None
-        Both ends, of stiffness [N / m] and of the corrected area fraction [1].
+    intervals : Intervals or None
+        Of the curve; None where the grid's errors are not known.
     note : str
         What another way to fill missing points changes, if that was tried.
     """
 
     curve: Curve
     interrupted: bool = False
-    stiffness_interval: Ends | None = None
-    area_interval: Ends | None = None
+    intervals: Intervals | None = None
     note: str = ""
 
     @classmethod
     def of(
-        cls,
-        curve: Curve,
-        interrupted: bool,
-        stiffness_change: Real | float = 0.0,
-        area_change: Real | float = 0.0,
-        note: str = "",
+        cls, curve: Curve, interrupted: bool, changes: Changes | None = None, note: str = ""
     ) -> Solution:
         """A curve with the intervals of its grid's errors and of further changes.
 
         Without the grid's errors there are no intervals: further changes alone are narrower than
         what is unknown.
         """
+        changes = changes or Changes()
         value, error = curve.area_fraction_corrected, curve.area_fraction_error
-        most = curve.area_fraction_most
+        most, unloading = curve.area_fraction_most, curve.unloading_stiffness
+        unloading_error = curve.unloading_stiffness_error
         if curve.stiffness_error is None or value is None or error is None or most is None:
             return cls(curve, interrupted, note=note)
-        stiffness = interval(curve.stiffness, np.hypot(curve.stiffness_error, stiffness_change))
-        low, high = interval(value, np.hypot(error, area_change))
-        # whole cells overstate an area under summits, and finer waves take away from it
-        area = low, np.minimum(high, most + area_change)
-        return cls(curve, interrupted, stiffness, area, note)
+        assert unloading is not None
+        assert unloading_error is not None
+        low, high = interval(value, np.hypot(error, changes.area))
+        if curve.hardness is not None:  # no area bears more than the hardness
+            low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
+        intervals = Intervals(
+            interval(curve.stiffness, np.hypot(curve.stiffness_error, changes.stiffness)),
+            interval(unloading, np.hypot(unloading_error, changes.unloading)),
+            # whole cells overstate an area under summits, and finer waves take away from it
+            (low, np.minimum(high, most + changes.area)),
+        )
+        return cls(curve, interrupted, intervals, note)
 
 
 def interval(value: Real, error: Real) -> Ends:
     """Both ends of an interval, v / (1 + e / v) and v + e: nothing positive gets below zero."""
     with np.errstate(invalid="ignore"):
-        return value / (1 + error / value), value + error
+        return np.where(value == 0, 0.0, value / (1 + error / value)), value + error
 
 
 def change(before: Real | None, after: Real | None) -> tuple[Real, float]:

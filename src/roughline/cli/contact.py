@@ -4,20 +4,15 @@ from __future__ import annotations
 
 import shlex
 import sys
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from roughline.cli import options
-from roughline.cli.flags import in_flags
-from roughline.cli.options import end_interrupted, interruptible, make_folders, print_json
+from roughline.cli.body import press_body
 from roughline.cli.part import press_part
 from roughline.errors import InputError
-
-if TYPE_CHECKING:
-    from roughline.assessment.assessment import Assessment
 
 LOADS = "Loads"
 BODIES = "Bodies"
@@ -51,6 +46,22 @@ def press_command(
             rich_help_panel=BODIES,
         ),
     ] = None,
+    hardness: Annotated[
+        str | None,
+        typer.Option(
+            help='Hardness of the softer body, "2 GPa", taken as exact [default: that of the '
+            "materials, with its scatter].",
+            rich_help_panel=BODIES,
+        ),
+    ] = None,
+    elastic: Annotated[
+        bool,
+        typer.Option(
+            "--elastic",
+            help="Take both bodies as elastic, whatever their hardness.",
+            rich_help_panel=BODIES,
+        ),
+    ] = False,
     load: Annotated[
         list[str] | None,
         typer.Option(
@@ -79,6 +90,23 @@ def press_command(
             rich_help_panel=LOADS,
         ),
     ] = None,
+    history: Annotated[
+        bool,
+        typer.Option(
+            "--history",
+            help="Apply several --load in the order given, rising and falling, each to the surface "
+            "as the last one left it.",
+            rich_help_panel=LOADS,
+        ),
+    ] = False,
+    unload: Annotated[
+        bool,
+        typer.Option(
+            "--unload",
+            help="Take the largest --load off again, in steps down to zero.",
+            rich_help_panel=LOADS,
+        ),
+    ] = False,
     periodic: Annotated[
         bool,
         typer.Option(
@@ -148,12 +176,15 @@ def press_command(
     goes through its spectrum to the reduced model. A load in newtons is the total force on the
     nominal area; one in pascals is the mean pressure over it. Depth counts from first touch.
 
+    Where the hardness of the materials is known, points of the contact yield at it and are indented
+    for good; elastic values stand beside where that changes them. --elastic leaves it out.
+
     With two materials it prints contact stiffness, real contact area, contact pressure over
     hardness, electrical and thermal contact conductance and tangential stiffness; with --report it
     writes them with their formulas, the surface, the preparation, the assumptions and this command
     on one page, as HTML and PDF. A value is followed by ± or by both ends of its interval: what
-    the grid and filled points, or a single line scan, leave open. A star behind a load marks fewer
-    than ten points in contact, where the grid decides.
+    the grid, filled points and the scatter of a hardness, or a single line scan, leave open. A star
+    behind a load marks fewer than ten points in contact, where the grid decides.
 
     Of several maps it prints each one's answers, their mean, their scatter between places and an
     interval for the part. With --joint-area the map stands for a joint that is alike everywhere and
@@ -174,17 +205,15 @@ def press_command(
 
     roughline press scans/*.x3p --materials steel,copper --load "10 N" --joint-area "2 cm^2"
 
+    roughline press scan.x3p --modulus "110 GPa" --hardness "2 GPa" --load "10 N" --unload
+
     roughline press scan.sur --against other.sur --materials "E=3 GPa nu=0.38, rigid" --load "2 MPa"
 
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.assessment.assess import assess_body
     from roughline.assessment.question import Question
     from roughline.computing.fft import set_threads
-    from roughline.report.json_output import of_assessment
-    from roughline.report.progress import load_progress
-    from roughline.report.terminal import announce, print_assessment
 
     if threads is not None:
         set_threads(threads)
@@ -201,6 +230,10 @@ def press_command(
         loads=load or (),
         joint_area=joint_area,
         depths=depth or (),
+        hardness=hardness,
+        elastic=elastic,
+        history=history,
+        unload=unload,
         n_loads=loads,
         against=against,
         periodic=periodic,
@@ -215,45 +248,7 @@ def press_command(
     )
     if question.is_of_several:
         return press_part(question, report, out, json, _as_typed())
-    with interruptible("there is no result"), load_progress() as progress:
-        make_folders(report, out)  # one that cannot be written is told before the work
-        result = assess_body(question, announce=announce, progress=progress)
-        result = replace(
-            result,
-            warnings=[in_flags(each) for each in result.warnings],
-            notes=[in_flags(each) for each in result.notes],
-        )
-        files = _written(result, report, out)
-    if json:
-        print_json(of_assessment(result, files))
-    else:
-        print_assessment(
-            result,
-            files,
-            long_curves_by="--out DIR or --json",
-            many_answers_by="--json and --report",
-        )
-    if result.interrupted:
-        end_interrupted("the loads solved before are above")
-    if not result.curve.converged.all():
-        raise typer.Exit(1)
-
-
-def _written(result: Assessment, report: Path | None, out: Path | None) -> list[Path]:
-    """Write what is wanted; interrupted, a report gets the curve alone."""
-    files: list[Path] = []
-    if report is None and out is None:
-        return files
-    from roughline.report.contact_figures import write_contact
-    from roughline.report.contact_report import write_contact_report
-
-    if report is not None and result.interrupted:
-        files += write_contact(result, report)  # a curve, but no answers to report yet
-    elif report is not None:
-        files += write_contact_report(result, report, _as_typed())
-    if out is not None:
-        files += write_contact(result, out)
-    return files
+    press_body(question, report, out, json, _as_typed())
 
 
 def _as_typed() -> str:

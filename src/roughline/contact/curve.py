@@ -94,9 +94,10 @@ class Curve:
     area_fraction_most : ndarray, shape (loads,), or None
         Upper bound of the area fraction on finer grids: `area_fraction_corrected` and the whole
         correction, as it would be if all of the outline lay under summits.
-    stiffness_error, area_fraction_error : ndarray, shape (loads,), or None
-        Estimated discretisation errors of `stiffness` and `area_fraction_corrected`, if asked
-        for; a value v with error e lies between v / (1 + e / v) and v + e.
+    stiffness_error, unloading_stiffness_error, area_fraction_error : ndarray or None
+        Estimated discretisation errors of `stiffness`, `unloading_stiffness` and
+        `area_fraction_corrected`, of shape (loads,), if asked for; a value v with error e lies
+        between v / (1 + e / v) and v + e.
     unloading_stiffness : ndarray, shape (loads,), or None
         Exact k = dF/dd on unloading, when all of the contact springs back elastically; without
         a hardness it is `stiffness`. This and the next four are None for a line.
@@ -135,6 +136,7 @@ class Curve:
     convolutions: NDArray[np.int64] | None = None
     area_fraction_most: Real | None = None
     stiffness_error: Real | None = None
+    unloading_stiffness_error: Real | None = None
     area_fraction_error: Real | None = None
     unloading_stiffness: Real | None = None
     plastic_fraction: Real | None = None

@@ -47,8 +47,8 @@ def with_grid_error(
     Returns
     -------
     Curve
-        With ``stiffness_error`` and ``area_fraction_error``: a value v with error e lies between
-        v / (1 + e / v) and v + e. NaN where a grid did not converge.
+        With ``stiffness_error``, ``unloading_stiffness_error`` and ``area_fraction_error``: a value
+        v with error e lies between v / (1 + e / v) and v + e. NaN where a grid did not converge.
 
     References
     ----------
@@ -63,6 +63,7 @@ def with_grid_error(
     return replace(
         curve,
         stiffness_error=_error([each.stiffness for each in curves], _SAFETY_STIFFNESS),
+        unloading_stiffness_error=_error([_unloading(each) for each in curves], _SAFETY_STIFFNESS),
         area_fraction_error=np.maximum(_error(areas, _SAFETY_AREA), most - areas[-1]),
     )
 
@@ -93,6 +94,12 @@ def _area(curve: Curve) -> Real:
     return curve.area_fraction_corrected
 
 
+def _unloading(curve: Curve) -> Real:
+    """Return the unloading stiffness of a surface's curve, which has one."""
+    assert curve.unloading_stiffness is not None
+    return curve.unloading_stiffness
+
+
 def _error(values: Sequence[Real], safety: float) -> Real:
     """Return the error of the last of three grids, each twice as fine as the one before."""
     quarter, half, full = values
@@ -101,4 +108,5 @@ def _error(values: Sequence[Real], safety: float) -> Real:
         # over all loads, for at a single load the ratio is small or large by chance
         growth = np.sqrt(np.nansum(second**2) / np.nansum(first**2))
     change = np.maximum(second, _FASTEST_DECAY * first)
-    return full * np.expm1(safety * change * np.clip(np.nan_to_num(growth), 1.0, _FASTEST_GROWTH))
+    error = full * np.expm1(safety * change * np.clip(np.nan_to_num(growth), 1.0, _FASTEST_GROWTH))
+    return np.where((quarter == 0) & (half == 0) & (full == 0), 0.0, error)  # bodies apart

@@ -78,6 +78,14 @@ _DECLARED = (
         long_name="discretisation error of stiffness",
         column=9,
     ),
+    _of_yielding(
+        "unloading_stiffness_error",
+        "",
+        "force/length",
+        "estimated discretisation error of `unloading_stiffness`",
+        long_name="discretisation error of unloading_stiffness",
+        column=22,
+    ),
     _of_surfaces(
         "area_fraction_error",
         "",

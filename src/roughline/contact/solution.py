@@ -91,6 +91,9 @@ class Solution:
             return cls(Status.NO_TANGENT, contact.residuals.worst, convolutions)
         cells, nodes = int(np.count_nonzero(contact.pressure > 0)), contact.gap.size
         most, overstated = overstated_cells(contact, scaled.spacing, periodic)
+        if hardness is not None:  # an area below F / H would bear more than the hardness
+            borne = contact.force * scaled.force / (hardness * scaled.cell_area)
+            overstated = min(overstated, max(cells - borne, 0.0))
         dents = _dents(contact, scaled)
         indented = dents.depth if dents is not None else np.zeros(1)
         dissipated = (hardness or 0.0) * scaled.cell_area * float(indented.sum())

@@ -29,8 +29,8 @@ def elastic_warnings(answers: Mapping[str, Answer], plasticity: float | None) ->
         if worst > formulas.ELASTIC_UP_TO:
             warnings.append(
                 f"the mean contact pressure reaches {decimal(worst, 2)} of the softer body's "
-                f"hardness; beyond {formulas.ELASTIC_UP_TO:g} the summits yield: area and "
-                "conductance are then larger than these elastic ones, towards the plastic estimates"
+                f"hardness; beyond {formulas.ELASTIC_UP_TO:g} the summits yield, so these elastic "
+                "answers do not hold: leave out elastic=True, or an infinite hardness="
             )
     if plasticity is not None and plasticity > 1:
         warnings.append(
@@ -51,7 +51,6 @@ def left_out(pair: MaterialPair, frequency: float | None) -> list[str]:
         Of an ultrasonic wave, if its reflection is wanted. [Hz]
     """
     needed = {
-        "hardness": "no contact pressure over hardness, and no estimates with it",
         "resistivity": "no constriction resistance",
         "conductivity": "no thermal conductance",
     }
@@ -60,6 +59,15 @@ def left_out(pair: MaterialPair, frequency: float | None) -> list[str]:
         notes.append("no reflection: a rigid or an incompressible body carries no such wave")
     elif frequency is not None:
         needed["density"] = "no reflection"
+    if (lacking := pair.lacking("hardness")) and pair.hardness is None:
+        notes.append(
+            f"the hardness of {' and of '.join(lacking)} is not known, so both bodies are taken as "
+            'elastic, whatever the pressure; give it with the material, as "hardness=..."'
+        )
+    elif lacking:
+        notes.append(
+            f"the hardness of {lacking[0]} is not known; that of the other is taken as the softer's"
+        )
     for quantity, answer in needed.items():
         if lacking := pair.lacking(quantity):
             notes.append(

@@ -20,6 +20,9 @@ _UNITS = {
     "conductivity": "W/m/K",
     "density": "kg/m**3",
 }
+TABLE_FACTOR = 1.5
+"""By how much hardnesses of the table are uncertain: published ones scatter by a factor of two."""
+
 _SETTING = re.compile(r"(\w+)\s*=\s*([^=;]+?)\s*(?=;|\s\w+\s*=|$)")
 
 
@@ -45,6 +48,10 @@ class Material:
         Mass density. [kg / m³]
     source : str, optional
         Where the values come from.
+    hardness_factor : float, optional
+        By how much the hardness is uncertain: it lies between H over this factor and H times it.
+        That of the table scatters, as hardness does with treatment, work and depth; a given one is
+        taken as exact. [1]
 
     Raises
     ------
@@ -60,6 +67,7 @@ class Material:
     conductivity: float | None = None
     density: float | None = None
     source: str = "given by the user"
+    hardness_factor: float = 1.0
 
     def __post_init__(self) -> None:
         if not self.E > 0:
@@ -72,6 +80,11 @@ class Material:
                 raise InputError(
                     f"{name} of {self.name} is {value}; a positive, finite number is needed"
                 )
+
+        if not 1 <= self.hardness_factor < math.inf:
+            raise InputError(
+                f"hardness_factor of {self.name} is {self.hardness_factor}; 1 or more is needed"
+            )
 
     @property
     def shear_modulus(self) -> float:
@@ -136,7 +149,8 @@ def material(description: str) -> Material:
         )
     changed = ", ".join(given)
     source = f"{known[name].source}; {changed} given" if given else known[name].source
-    return replace(known[name], **given, source=source)  # type: ignore[arg-type]
+    factor = 1.0 if "hardness" in given else known[name].hardness_factor
+    return replace(known[name], **given, source=source, hardness_factor=factor)  # type: ignore[arg-type]
 
 
 def _settings(text: str, description: str) -> dict[str, float]:
@@ -168,12 +182,14 @@ def _table() -> dict[str, Material]:
         .joinpath("materials.csv")
         .read_text(encoding="utf-8")
     )
-    numbers = [item.name for item in fields(Material) if item.name not in ("name", "source")]
+    others = ("name", "source", "hardness_factor")
+    numbers = [item.name for item in fields(Material) if item.name not in others]
     rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
     return {
         row["name"]: Material(
             name=row["name"],
             source=row["source"],
+            hardness_factor=TABLE_FACTOR,
             **{key: float(row[key]) if row[key] else None for key in numbers},  # type: ignore[arg-type]
         )
         for row in rows

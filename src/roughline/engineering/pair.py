@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from operator import itemgetter
 
 from roughline.engineering.materials import Material
 from roughline.errors import InputError
@@ -34,12 +35,33 @@ class MaterialPair:
 
     @property
     def hardness(self) -> float | None:
-        """Hardness of the softer body, None if it is not known of both. [Pa]
+        """Hardness of the softer body, of those that are known; None if none is. [Pa]
 
         A rigid body never yields.
         """
-        known = [each.hardness for each in (self.first, self.second) if not math.isinf(each.E)]
-        return min(value for value in known if value) if known and all(known) else None
+        softer = self._softer
+        return None if softer is None else softer.hardness
+
+    @property
+    def hardness_factor(self) -> float:
+        """By how much that hardness is uncertain. [1]"""
+        return 1.0 if self._softer is None else self._softer.hardness_factor
+
+    @property
+    def _softer(self) -> Material | None:
+        """The body of lower hardness, among those that can yield."""
+        yielding = [each for each in (self.first, self.second) if not math.isinf(each.E)]
+        known = [(each.hardness, each) for each in yielding if each.hardness is not None]
+        return min(known, key=itemgetter(0))[1] if known else None
+
+    def with_hardness(self, hardness: float) -> MaterialPair:
+        """Return the pair with another hardness of the softer body, known exactly. [Pa]"""
+        return MaterialPair(
+            *(
+                replace(each, hardness=hardness, hardness_factor=1.0)
+                for each in (self.first, self.second)
+            )
+        )
 
     def lacking(self, quantity: str) -> list[str]:
         """Name the bodies whose property is not known; a rigid one needs no hardness."""

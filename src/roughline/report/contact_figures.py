@@ -7,11 +7,15 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from roughline.assessment.assessment import Assessment, PartialSlip
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.slip import PartialSlip
 from roughline.computing.arrays import Real
+from roughline.contact.curve import Curve
+from roughline.engineering.intervals import Ends
 from roughline.report.folder import make_folder
 from roughline.report.pixels import any_marked, thinned
 from roughline.report.style import PAGE, new_figure, save, styled
@@ -20,6 +24,7 @@ from roughline.spectra.roughness import Roughness
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering, prefix
 
+_GAP_ELASTIC_PLASTIC = ListedColormap(["white", "black", "tab:red"])
 _DASHES = ("--", ":", "-.")
 
 
@@ -60,7 +65,7 @@ def curve_figure(assessment: Assessment) -> Figure:
     curve = assessment.curve
     depth_unit, depth = _prefixed(curve.depth, "m")
     force_unit, force = _prefixed(curve.force, "N", assessment.scale)
-    _draw_loads(left, curve.depth * depth, curve.force * force, curve.resolved)
+    _draw_loads(left, curve.depth * depth, curve.force * force, curve)
     left.set(
         xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=_force_label(assessment, force_unit)
     )
@@ -92,10 +97,16 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     curve, area, scale = assessment.curve, assessment.area, assessment.scale
     force_unit, force = _prefixed(curve.force, "N", scale)
     unit, stiffness = _prefixed(curve.stiffness, "N/m", scale)
-    _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve.resolved)
-    if assessment.stiffness_interval is not None:
-        low, high = (end * stiffness for end in assessment.stiffness_interval)
-        axes.fill_between(curve.force * force, low, high, color="0.85", zorder=-5)
+    _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve)
+    _draw_interval(axes, curve, assessment.stiffness_interval, (force, stiffness))
+    if curve.hardness is not None and curve.unloading_stiffness is not None:
+        rising = _rising(curve)
+        unloading = curve.unloading_stiffness[rising] * stiffness
+        axes.loglog(
+            curve.force[rising] * force, unloading, "--.", color="tab:red", label="unloading $k_u$"
+        )
+        _draw_interval(axes, curve, assessment.unloading_interval, (force, stiffness), "tab:red")
+        axes.legend()
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         if theory.stiffness is not None:
             axes.plot(
@@ -114,9 +125,8 @@ def draw_area(axes: Axes, assessment: Assessment) -> None:
     curve, area = assessment.curve, assessment.area
     assert curve.area_fraction_corrected is not None
     force_unit, force = _prefixed(curve.force, "N", assessment.scale)
-    _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve.resolved)
-    if assessment.area_interval is not None:
-        axes.fill_between(curve.force * force, *assessment.area_interval, color="0.85", zorder=-5)
+    _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve)
+    _draw_interval(axes, curve, assessment.area_interval, (force, 1.0))
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
         axes.legend()
@@ -173,7 +183,7 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
 
 
 def draw_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
-    """Real contact area at the last load whose fields are there; the load is the joint's."""
+    """Real contact area at the last load whose fields are there; red where it yields."""
     curve = assessment.curve
     _label_sides(axes, surface)
     for i in range(len(curve.fields) - 1, -1, -1):
@@ -181,10 +191,12 @@ def draw_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
         if fields is None:
             continue
         axes.imshow(
-            fields.contact.T,
+            fields.contact.T.astype(int) + fields.plastic.T,
             origin="lower",
             extent=_extent(surface),
-            cmap="binary",
+            cmap=_GAP_ELASTIC_PLASTIC,
+            vmin=0,
+            vmax=2,
             interpolation="nearest",
         )
         assert curve.area_fraction_corrected is not None
@@ -212,10 +224,32 @@ def draw_spectrum(axes: Axes, parameters: Roughness) -> None:
         axes.set_title(f"H = {fit.hurst:.2f} ({low:.2f} to {high:.2f})", fontsize=9)
 
 
-def _draw_loads(axes: Axes, x: Real, y: Real, resolved: NDArray[np.bool_]) -> None:
-    axes.loglog(x, y, color="0.5", linewidth=0.8)
-    axes.loglog(x[resolved], y[resolved], "o", color="k")
-    axes.loglog(x[~resolved], y[~resolved], "o", color="k", fillstyle="none")
+def _draw_loads(axes: Axes, x: Real, y: Real, curve: Curve) -> None:
+    """Draw the loads of a curve in their order; those after a larger one in blue."""
+    rising, resolved = _rising(curve), curve.resolved
+    shown = (x > 0) & (y > 0)  # scales are logarithmic: bodies just apart have no place
+    axes.loglog(x[shown], y[shown], color="0.5", linewidth=0.8)
+    for when, colour in ((rising, "k"), (~rising, "tab:blue")):
+        for which, fill in ((resolved, "full"), (~resolved, "none")):
+            points = shown & when & which
+            axes.loglog(x[points], y[points], "o", color=colour, fillstyle=fill)
+
+
+def _draw_interval(
+    axes: Axes, curve: Curve, ends: Ends | None, units: tuple[float, float], colour: str = "0.35"
+) -> None:
+    """Draw an interval over the force on loading; units are the factors of both axes."""
+    if ends is not None:
+        rising = _rising(curve)
+        low, high = (end[rising] * units[1] for end in ends)
+        x = curve.force[rising] * units[0]
+        axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0, zorder=-5)
+
+
+def _rising(curve: Curve) -> NDArray[np.bool_]:
+    """Which loads are at least as large as all before them."""
+    force = np.nan_to_num(curve.force)
+    return force >= np.maximum.accumulate(force)
 
 
 def _extent(surface: Surface) -> tuple[float, float, float, float]:

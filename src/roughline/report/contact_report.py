@@ -6,7 +6,6 @@ from datetime import date
 from functools import partial
 from pathlib import Path
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from roughline._version import __version__
@@ -24,6 +23,7 @@ from roughline.report.contact_figures import (
 from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
+    elastic_in_words,
     formula_table,
     leading_keys,
     material_in_words,
@@ -39,14 +39,15 @@ from roughline.units import engineering
 _ABREAST = 4  # loads that fit beside each other on a page
 
 ASSUMPTIONS = (
-    "Linear elastic half-spaces, small slopes, no friction in the normal problem, no adhesion, "
-    "static loads.",
+    "Half-spaces that are linear elastic up to the hardness of the softer body and perfectly "
+    "plastic there, if that is known; small slopes, no friction in the normal problem, no "
+    "adhesion, static loads.",
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less.",
-    "Intervals, where given, are those of the grid and of filled points, or of what a line scan "
-    "leaves open; those of k_i, h_c and |R| of a map hold the surface behind it as well. The "
-    "scatter of material data, and for all other answers that of other places on the part, comes "
-    "on top.",
+    "Intervals, where given, are those of the grid, of filled points and of the scatter of the "
+    "hardness, or of what a line scan leaves open; those of k_i, h_c and |R| of a map hold the "
+    "surface behind it as well. The scatter of other material data, and for all other answers that "
+    "of other places on the part, comes on top.",
 )
 ASSUMPTIONS_OF_JOINT = (
     *ASSUMPTIONS[:2],
@@ -55,9 +56,9 @@ ASSUMPTIONS_OF_JOINT = (
     "is per area is multiplied by the joint's area. Answers are those of the interface; waviness "
     "longer than the map, bending, and the constriction of the bodies to the joint's outline are "
     "left out.",
-    "Intervals, where given, are those of the grid, of filled points and of what one map leaves "
-    "open of the surface around it. The scatter of material data, and that of places which are "
-    "not alike, comes on top.",
+    "Intervals, where given, are those of the grid, of filled points, of the scatter of the "
+    "hardness and of what one map leaves open of the surface around it. The scatter of other "
+    "material data, and that of places which are not alike, comes on top.",
 )
 
 
@@ -94,10 +95,11 @@ def _lead(assessment: Assessment) -> str:
     """The answers at the largest load, by the names that they have in the table."""
     pair, curve = assessment.question.pair, assessment.curve_as_asked
     assert pair is not None
-    largest = int(np.argmax(assessment.asked))
+    largest = assessment.largest
     answers = assessment.answers
     shown = {key: quantity(each, largest) for key, each in answers.items()}
     leading = [f"{answers[key].name} {shown[key]}" for key in leading_keys(assessment)]
+    elastic = elastic_in_words(assessment)
     joint = assessment.question.joint
     over = "the nominal area" if joint is None else f"a joint of {engineering(joint, 'm²')}"
     unsure = curve.converged[largest] and not curve.resolved[largest]
@@ -105,6 +107,7 @@ def _lead(assessment: Assessment) -> str:
         f"{pair.first.name} on {pair.second.name} under {shown['normal_force']}, "
         f"{shown['mean_pressure']} over {over}: {', '.join(leading)}"
         + (f" ({UNRESOLVED})" if unsure else "")
+        + (f"; {elastic}" if elastic else "")
     )
 
 
@@ -134,6 +137,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
     pair = assessment.question.pair
     assert pair is not None
     settings = "; ".join(f"{key} = {_shown(value)}" for key, value in assessment.settings.items())
+    table_of = partial(answer_table, assessment, with_elastic=True)
     legend = [f"A star behind a load: {UNRESOLVED}."] if star_is_shown(assessment) else []
     return [
         Section(
@@ -142,7 +146,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
             notes=[*legend, *map(sentence, assessment.remarks)],
             tables=[
                 Table(header, rows, numbers=range(1, len(header)))
-                for header, rows in map(partial(answer_table, assessment), _abreast(assessment))
+                for header, rows in map(table_of, _abreast(assessment))
             ],
         ),
         Section(
@@ -172,21 +176,26 @@ def _abreast(assessment: Assessment) -> list[slice]:
 
 
 def _caption(assessment: Assessment) -> str:
+    question, yields = assessment.question, assessment.curve.hardness is not None
     marked = any(part.filled_region is not None for part in assessment.topographies)
-    return (
-        ("Heights of the map" if assessment.question.joint is not None else "Heights")
-        + (" (red: filled points)" if marked else "")
-        + ", spectrum with the nearest self-affine law, stiffness over force (open marks: fewer "
-        "than ten points in contact)"
-        + (", and theories for the same spectrum" if assessment.theories else "")
-        + (
-            ", and the points in contact at the largest load; their area is corrected for the "
+    marks = ["open marks: fewer than ten points in contact"]
+    marks += ["dashed: on unloading"] if yields else []
+    marks += ["blue: after a larger load"] if question.history or question.unload else []
+    shown = [
+        ("Heights of the map" if question.joint is not None else "Heights")
+        + (" (red: filled points)" if marked else ""),
+        "spectrum with the nearest self-affine law",
+        f"stiffness over force ({'; '.join(marks)})",
+    ]
+    if assessment.theories:
+        shown.append("and theories for the same spectrum")
+    if isinstance(assessment.body, Surface):
+        red = " (red: at the hardness)" if yields else ""
+        shown.append(
+            f"and the points in contact at the largest load{red}; their area is corrected for the "
             "outline's steps, as in the table"
-            if isinstance(assessment.body, Surface)
-            else ""
         )
-        + "."
-    )
+    return f"{', '.join(shown)}."
 
 
 def _shown(value: object) -> str:

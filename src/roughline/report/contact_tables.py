@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.notes import change_in_words
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Status
 from roughline.contact.quantities import QUANTITIES
-from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answer import Answer
+from roughline.engineering.intervals import Ends
 from roughline.engineering.materials import Material
 from roughline.report.values import with_interval
 from roughline.units import engineering
@@ -15,6 +20,7 @@ _SHARES = ("contact_area_fraction",)  # keys of what is written in per cent
 # keys of the answers that the page begins with
 _LEADING = (
     "contact_stiffness",
+    "unloading_stiffness",  # where something yields
     "interface_stiffness",  # of a joint, which has no contact stiffness
     "contact_area_fraction",
     "constriction_resistance",
@@ -24,6 +30,9 @@ _OF_JOINT = ("specific_contact_resistance",)
 
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
+IF_ELASTIC = "if nothing yielded"
+"""Begins what elastic bodies would give."""
+
 UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
 """What the star behind a load means."""
 
@@ -31,16 +40,19 @@ UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surfac
 def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of a curve in SI units; a star marks loads that the grid decides.
 
-    Force and stiffness are the joint's, where its area is given.
+    Force and stiffness are the joint's, where its area is given. Where metals yield, the stiffness
+    on unloading stands in the place of the raw area.
     """
-    curve, scale = assessment.curve_as_asked, assessment.scale
-    force, stiffness = curve.force * scale, curve.stiffness * scale
-    ends = assessment.stiffness_interval_as_asked
-    if ends is not None:
-        ends = ends[0] * scale, ends[1] * scale
-    area = assessment.area_interval_as_asked
+    curve, scale, known = assessment.curve_as_asked, assessment.scale, assessment.intervals_as_asked
+    loading: Ends | None = None
+    unloading: Ends | None = None
+    area: Ends | None = None
+    if known is not None:
+        loading, unloading, area = known.stiffness, known.unloading, known.area
     header = ["load", "depth", "force", "stiffness k"]
-    if curve.area_fraction is not None:
+    if curve.hardness is not None:
+        header += ["unloading k_u", "corrected A/A_0"]
+    elif curve.area_fraction is not None:
         header += ["raw area", "corrected A/A_0"]
     rows = []
     for i, heading in enumerate(starred(assessment)):
@@ -51,47 +63,101 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
         row = [
             heading,
             engineering(curve.depth[i], _SI["depth"]),
-            engineering(force[i], _SI["force"]),
-            with_interval(stiffness[i], _at(ends, i), _SI["stiffness"]),
+            engineering(scale * curve.force[i], _SI["force"]),
+            _stiffness(curve.stiffness, loading, i, scale),
         ]
-        if curve.area_fraction is not None and curve.area_fraction_corrected is not None:
-            corrected = with_interval(curve.area_fraction_corrected[i], _at(area, i), "%")
-            row += [f"{curve.area_fraction[i]:.3%}", corrected]
+        if curve.hardness is not None and curve.unloading_stiffness is not None:
+            row.append(_stiffness(curve.unloading_stiffness, unloading, i, scale))
+        elif curve.area_fraction is not None:
+            row.append(f"{curve.area_fraction[i]:.3%}")
+        if curve.area_fraction_corrected is not None:
+            share = float(curve.area_fraction_corrected[i])
+            row.append(with_interval(share, _at(area, i), "%"))
         rows.append(row)
     return header, rows
 
 
-def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of the answers at some of the loads that were asked for."""
+def answer_table(
+    assessment: Assessment, loads: slice, *, with_elastic: bool = False
+) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of the answers at some of the loads that were asked for.
+
+    Parameters
+    ----------
+    assessment : Assessment
+        With answers.
+    loads : slice
+        Which of the loads.
+    with_elastic : bool, optional
+        Whether the answer of elastic bodies stands below where yield changes it by more than its
+        interval.
+    """
     header = ["", *starred(assessment)[loads]]
-    rows = [
-        [f"{each.name} {each.symbol}", *(quantity(each, i) for i in _numbers(assessment, loads))]
-        for each in assessment.answers.values()
-    ]
+    numbers = range(assessment.asked.size)[loads]
+    rows = []
+    for key, each in assessment.answers.items():
+        rows.append([f"{each.name} {each.symbol}", *(quantity(each, i) for i in numbers)])
+        elastic = assessment.elastic.get(key) if with_elastic else None
+        if elastic is not None and any(_differs(elastic, each, i) for i in numbers):
+            rows.append([IF_ELASTIC, *(quantity(elastic, i) for i in numbers)])
     return header, rows
 
 
+def elastic_in_words(assessment: Assessment) -> str:
+    """Say what the leading answers would be of elastic bodies, at the largest load.
+
+    Nothing is said of those that yield does not change by more than their interval.
+    """
+    i = assessment.largest
+    shown = []
+    for key in leading_keys(assessment):
+        elastic = assessment.elastic.get(key)
+        if elastic is not None and _differs(elastic, assessment.answers[key], i):
+            shown.append(f"{elastic.name} {quantity(elastic, i)}")
+    return f"{IF_ELASTIC}: {', '.join(shown)}" if shown else ""
+
+
+def _differs(elastic: Answer, yielding: Answer, i: int) -> bool:
+    """Whether elastic bodies give something else: beyond the interval, or a per cent without."""
+    value, other = yielding.values[i], elastic.values[i]
+    low, high = _at(yielding.ends, i) or (np.nan, np.nan)
+    if np.isnan([low, high]).any():
+        low, high = 0.99 * value, 1.01 * value
+    return bool(other < low or other > high)
+
+
 def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of how the answers follow, where they hold and where from."""
-    header = ["", "formula", "holds", "source"]
-    return header, [
+    """Return header and rows of how the answers follow, where they hold and where from.
+
+    Where the hardness scatters, a column says how far that moves each at the largest load.
+    """
+    header, i = ["", "formula", "holds", "source"], assessment.largest
+    rows = [
         [f"{each.name} {each.symbol}", each.formula, each.validity, each.source]
         for each in assessment.answers.values()
     ]
+    if assessment.hardness_scatter:
+        header.append("hardness moves it by")
+        for row, ratios in zip(rows, assessment.hardness_scatter.values(), strict=True):
+            low, high = (float(end[i]) for end in ratios)
+            row.append("not known" if np.isnan(low) else change_in_words(low, high))
+    return header, rows
 
 
 def leading_keys(assessment: Assessment) -> list[str]:
     """Keys of the answers that a page begins with."""
     of_joint = assessment.question.joint is not None
-    left_out = "contact_stiffness" if of_joint else "interface_stiffness"
+    left_out = {"contact_stiffness" if of_joint else "interface_stiffness"}
+    plastic = assessment.answers.get("plastic_fraction")
+    if plastic is None or not plastic.values[assessment.largest] > 0:
+        left_out.add("unloading_stiffness")
     keys = (*_LEADING, *_OF_JOINT) if of_joint else _LEADING
-    return [key for key in keys if key in assessment.answers and key != left_out]
+    return [key for key in keys if key in assessment.answers and key not in left_out]
 
 
 def star_is_shown(assessment: Assessment) -> bool:
     """Whether the grid decides one of the loads that were asked for."""
-    curve = assessment.curve_as_asked
-    return not curve.resolved[curve.converged].all()
+    return any(_decided_by_grid(assessment))
 
 
 def quantity(answer: Answer, i: int) -> str:
@@ -109,21 +175,31 @@ def material_in_words(material: Material) -> str:
     """Name, moduli and hardness of a material, and where they are from."""
     parts = [f"E = {engineering(material.E, 'Pa')}", f"nu = {material.nu:g}"]
     if material.hardness:
-        parts.append(f"H = {engineering(material.hardness, 'Pa')}")
+        factor = material.hardness_factor
+        known = f" to a factor of {factor:g}" if factor > 1 else ""
+        parts.append(f"H = {engineering(material.hardness, 'Pa')}{known}")
     return f"{material.name} ({', '.join(parts)}; {material.source})"
 
 
 def starred(assessment: Assessment) -> list[str]:
     """What each load is called, with a star where the grid decides."""
-    curve = assessment.curve_as_asked
-    stars = curve.converged & ~curve.resolved
+    stars = _decided_by_grid(assessment)
     return [
         f"{name} *" if star else name for name, star in zip(assessment.headings, stars, strict=True)
     ]
 
 
-def _numbers(assessment: Assessment, loads: slice) -> range:
-    return range(assessment.asked.size)[loads]
+def _decided_by_grid(assessment: Assessment) -> list[bool]:
+    """Which of the loads that were asked for have too few points in contact."""
+    curve = assessment.curve_as_asked
+    return list(curve.converged & ~curve.resolved & (curve.force > 0))
+
+
+def _stiffness(values: Real, ends: Ends | None, i: int, scale: float) -> str:
+    """Write a stiffness of the curve, times the scale of a joint, with its interval."""
+    if ends is not None:
+        ends = ends[0] * scale, ends[1] * scale
+    return with_interval(scale * float(values[i]), _at(ends, i), _SI["stiffness"])
 
 
 def _at(ends: Ends | None, i: int) -> tuple[float, float] | None:

@@ -1,0 +1,90 @@
+"""The hardness that a question is answered with, and how far its scatter moves the answers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from roughline.assessment.given import as_si
+from roughline.errors import InputError
+from roughline.units import engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.question import Question
+
+
+@dataclass(frozen=True)
+class Hardness:
+    """Hardness of the softer body.
+
+    Attributes
+    ----------
+    value : float
+        [Pa]
+    factor : float
+        By how much it is uncertain: it lies between value / factor and value * factor. [1]
+    """
+
+    value: float
+    factor: float
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """The softest and the hardest that the body may be. [Pa]"""
+        return self.value / self.factor, self.value * self.factor
+
+
+def checked_hardness(given: float | str | None, *, elastic: bool) -> float | None:
+    """Read a hardness; None if none was given. [Pa]
+
+    Raises
+    ------
+    InputError
+        If it is no positive pressure, or given of bodies that are to be elastic.
+    """
+    if given is None:
+        return None
+    hardness = as_si(given, "Pa", "hardness")
+    if not hardness > 0:
+        raise InputError(
+            f'hardness is "{given}"; a positive pressure is needed, or elastic=True for none'
+        )
+    if elastic:
+        raise InputError("hardness= and elastic=True contradict each other; give one of them")
+    return hardness
+
+
+def hardness_of(question: Question) -> Hardness | None:
+    """Return the hardness that a question is answered with; None if the bodies are elastic."""
+    if question.elastic:
+        return None
+    if question.hardness is not None:
+        assert not isinstance(question.hardness, str)
+        return Hardness(question.hardness, 1.0) if question.hardness < float("inf") else None
+    pair = question.pair
+    if pair is None or pair.hardness is None:
+        return None
+    return Hardness(pair.hardness, pair.hardness_factor)
+
+
+def refuse_beyond_hardness(question: Question, area: float) -> None:
+    """Refuse loads that a body of some nominal area [m²] does not bear.
+
+    Raises
+    ------
+    InputError
+        If all of the area would yield.
+    """
+    hardness = hardness_of(question)
+    if hardness is None:
+        return
+    for heading, force in zip(question.headings, question.forces(area), strict=False):
+        if force >= hardness.value * area * (1 - 1e-12):  # of a joint it is rounded
+            most = engineering(hardness.value * area * question.scale(area), "N")
+            on = "the map" if question.joint is None else "the joint"
+            raise InputError(
+                f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and the "
+                f"softer body, of hardness {engineering(hardness.value, 'Pa')}, bears less than "
+                f"{most} on {on} (H A_0): give smaller loads, or its hardness (hardness=) if that "
+                "is larger"
+            )
