@@ -70,11 +70,11 @@ export class Plots {
     this.set(name, {image: [ndarray(values, {dtype, shape})], x: [0], y: [0], dw: [width], dh: [height]});
   }
 
-  // Give a map a palette: one of Bokeh's, or "marks", paper and ink.
+  // Give a map a palette: one of Bokeh's, or "marks": gap, contact, contact at the hardness.
   colours(name, palette) {
     if (this.#palette[name] === `${palette} ${colour("paper")}`) return;
     this.#palette[name] = `${palette} ${colour("paper")}`;
-    const wanted = palette === "marks" ? [colour("paper"), colour("ink")] : this.palettes[palette];
+    const wanted = palette === "marks" ? [colour("paper"), colour("ink"), colour("plastic")] : this.palettes[palette];
     this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper")});
     this.model(`${name} bar`).visible = palette !== "marks";
   }
@@ -111,6 +111,16 @@ export class Plots {
   onMove(name, moved) {
     this.model(name).properties.location.change.connect(() => moved(this.model(name).location));
   }
+}
+
+// Say what the colours of a map of marks mean; points at the hardness only where there may be any.
+export function markKeys(place, yields) {
+  const key = (name, text) => {
+    const patch = document.createElement("span");
+    patch.className = `patch ${name}`;
+    return [patch, ` ${text} `];
+  };
+  place.replaceChildren(...key("ink", "in contact"), ...(yields ? key("plastic", "of it at the hardness: indented for good") : []));
 }
 
 // Put rows below a plot.
