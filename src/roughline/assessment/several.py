@@ -148,7 +148,7 @@ def _press(
     try:
         result = answer(question)
     except InputError as error:
-        done.refused[name] = str(error)
+        done.refused[name] = str(error).replace(str(question.body), name)  # without folders
         return True
     except KeyboardInterrupt:
         return False

@@ -51,12 +51,27 @@ def load_progress() -> Iterator[Callable[[int, int], None]]:
 
 @contextmanager
 def part_progress() -> Iterator[tuple[Callable[[int, int], None], Callable[[int, int], None]]]:
-    """Show bars over the maps of a part, and over the loads of each; gives both callbacks."""
+    """Show bars over the maps of a part, and over the loads of each; gives both callbacks.
+
+    Nothing is drawn before a map is pressed, so that a refusal of all stays one line.
+    """
     with _bars() as show:
-        yield (
-            lambda done, total: show("maps", done, total, key="maps"),
-            lambda done, total: show("loads of this map", done, total, key="loads"),
-        )
+        told = (0, 1)
+        is_pressing = False
+
+        def maps(done: int, total: int) -> None:
+            nonlocal told
+            told = done, total
+            if is_pressing:
+                show("maps", done, total, key="maps")
+
+        def loads(done: int, total: int) -> None:
+            nonlocal is_pressing
+            is_pressing = True
+            maps(*told)
+            show("loads of this map", done, total, key="loads")
+
+        yield maps, loads
 
 
 class _Show(Protocol):

@@ -1,0 +1,211 @@
+"""Several maps of one part: each pressed alone, and what they say together."""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.assessment import loads as load_cases
+from roughline.assessment.pieces import (
+    AREA_OF_MANY,
+    AREA_OF_ONE,
+    STIFFNESS_OF_MANY,
+    STIFFNESS_OF_ONE,
+    share_of_the_whole,
+)
+
+ASKED = {"materials": "steel,copper", "grid_error": False, "fields": False}
+SURFACE = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6, q_roll=math.tau / 25e-6)
+
+
+@pytest.fixture(scope="module")
+def maps():
+    """Four maps of 0.1 mm of one part."""
+    part = SURFACE.surface(128, 3)
+    return [part.cropped((i, i + 32), (0, 32)).detrended() for i in range(0, 128, 32)]
+
+
+def pressed(bodies, **asked):
+    return rl.assess(rl.Question(bodies, **{"loads": "5 MPa", **ASKED, **asked}))
+
+
+def test_mean_scatter_and_interval_are_those_of_the_maps(maps):
+    part = pressed(maps)
+    assert part.names == ["map 1", "map 2", "map 3", "map 4"]
+    alone = [rl.assess(rl.Question(each, loads="5 MPa", **ASKED)) for each in maps]
+    for key, answer in part.answers.items():
+        values = np.array([each.answers[key].values[0] for each in alone])
+        assert [each.values[0] for each in answer.of_maps] == values.tolist(), key
+        assert answer.mean == pytest.approx([np.exp(np.log(values).mean())], rel=1e-12), key
+    k = part.answers["contact_stiffness"]
+    logs = np.log([each.values[0] for each in k.of_maps])
+    assert k.scatter == pytest.approx([np.exp(logs.std(ddof=1))], rel=1e-12)
+    student = 3.182446  # of three degrees of freedom, 97.5 %
+    half = student * logs.std(ddof=1) / 2
+    assert [k.low, k.high] == [
+        pytest.approx(k.mean * np.exp(-half), rel=1e-6),
+        pytest.approx(k.mean * np.exp(half), rel=1e-6),
+    ]
+    assert part.answers["mean_pressure"].scatter == 1.0
+    assert np.isnan(part.answers["mean_pressure"].low)
+
+
+def test_resistance_and_conductance_say_the_same(maps):
+    answers = pressed(maps).answers
+    resistance, conductance = (
+        answers[key] for key in ("constriction_resistance", "thermal_conductance")
+    )
+    product = resistance.mean * conductance.mean
+    assert resistance.low * conductance.high == pytest.approx(product, rel=1e-12)
+    assert resistance.scatter == pytest.approx(conductance.scatter, rel=1e-12)
+
+
+def test_the_interval_of_a_part_holds_what_its_maps_miss_alike(maps):
+    """With the grid's error known, which is one for all; the other end of none is nearer."""
+    without, known = (pressed(maps, grid_error=each).answers for each in (False, True))
+    for key in ("contact_stiffness", "constriction_resistance"):
+        assert known[key].low < without[key].low < without[key].mean
+        assert known[key].high > without[key].high > without[key].mean
+    own = known["contact_stiffness"]
+    for i, end in enumerate((own.low, own.high)):
+        nearest = min(abs(np.log(each.rows[1 + i] / each.values)) for each in own.of_maps)
+        assert abs(np.log(end / own.mean)) >= nearest
+
+
+@pytest.mark.parametrize("roll_offs", [None, 1.0, 4.0, 16.0])
+def test_more_maps_tell_more_of_the_surface_around_them_than_one(roll_offs):
+    share = np.array([1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9])
+    for one, many in ((STIFFNESS_OF_ONE, STIFFNESS_OF_MANY), (AREA_OF_ONE, AREA_OF_MANY)):
+        low, high = share_of_the_whole(share, roll_offs, one)
+        shared_low, shared_high = share_of_the_whole(share, roll_offs, many)
+        assert (low <= shared_low).all()
+        assert (shared_low < 1).all()
+        assert (shared_high > 1).all()
+        assert (shared_high < high).all()
+    longer = share_of_the_whole(share, None, STIFFNESS_OF_MANY)[0]
+    assert longer == pytest.approx(share_of_the_whole(share, None)[0])  # no map has seen them
+
+
+def test_a_refused_map_is_named_and_the_others_go_on(maps, tmp_path):
+    files = [tmp_path / f"{i}.nc" for i in range(3)]
+    for file, each in zip(files[:2], maps, strict=False):
+        rl.write(replace(each, unit="m"), file)
+    (tmp_path / "bad.txt").write_text("no heights")
+    (tmp_path / "copy.nc").write_bytes(files[0].read_bytes())
+    part = pressed([files[0], tmp_path / "bad.txt", files[1], tmp_path / "copy.nc", files[2]])
+    assert part.names == ["0.nc", "1.nc"]
+    assert list(part.refused) == ["bad.txt", "copy.nc", "2.nc"]
+    assert "heights are those of 0.nc" in part.refused["copy.nc"]
+    assert "2.nc does not exist" in part.refused["2.nc"]
+    assert [text.startswith("refused: ") for text in part.warnings[:4]] == [True] * 3 + [False]
+    assert part.answers["contact_stiffness"].count == 2
+    with pytest.raises(rl.InputError, match="none of the 2 maps can be pressed: bad.txt.*; 2.nc"):
+        pressed([tmp_path / "bad.txt", files[2]])
+
+
+def test_a_single_map_gives_no_interval_of_the_part(maps):
+    part = pressed(maps[:1], grid_error=True)
+    answer = part.answers["contact_stiffness"]
+    assert answer.mean == pytest.approx(answer.of_maps[0].values, rel=1e-12)
+    assert answer.of_maps[0].low is not None
+    assert np.isnan([answer.low, answer.high, answer.scatter]).all()
+    assert any("a single map shows no scatter between places" in note for note in part.notes)
+
+
+def test_interrupted_the_maps_that_were_done_are_kept(maps, monkeypatch):
+    done = []
+    original = load_cases.press
+
+    def press(body, **named):
+        done.append(body)
+        if len(done) > 4:  # each map is pressed twice
+            raise KeyboardInterrupt
+        return original(body, **named)
+
+    monkeypatch.setattr(load_cases, "press", press)
+    part = pressed(maps)
+    assert part.interrupted
+    assert (part.names, part.left) == (["map 1", "map 2"], ["map 3", "map 4"])
+    assert part.answers["contact_stiffness"].count == 2
+    assert "not pressed, because of Ctrl-C: map 3, map 4" in part.warnings
+    done[:] = maps * 2
+    with pytest.raises(KeyboardInterrupt):
+        pressed(maps)
+
+
+def test_maps_of_another_kind_are_pointed_out(maps):
+    alike = " ".join(pressed(maps).warnings)
+    assert "not of one kind" not in alike
+    rough, fine = maps[0].scaled(5.0), rl.Surface(maps[1].heights, (5e-5, 5e-5))
+    warnings = pressed([*maps[2:], rough, fine]).warnings
+    told = [text for text in warnings if text.startswith("not of one kind")]
+    for what, name in (("rms heights", "map 3"), ("pixels", "map 4"), ("sides", "map 4")):
+        (text,) = (text for text in told if what in text)
+        assert f"({name})" in text
+        assert "more than a factor of" in text
+
+
+def test_maps_of_different_size_share_what_is_per_area(maps):
+    small = maps[0].cropped((0, 24), (0, 24)).detrended()
+    by_pressure, by_force = (pressed([small, *maps[1:]], loads=load) for load in ("5 MPa", "1 N"))
+    assert "thermal_conductance_per_area" in by_pressure.answers
+    assert "contact_stiffness" not in by_pressure.answers
+    assert by_force.answers == {}
+    assert any("give mean pressures" in text for text in by_force.warnings)
+    joint = pressed([small, *maps[1:]], loads="1 N", joint_area="2 cm^2").answers
+    assert joint["normal_force"].mean == pytest.approx([1.0])
+    assert "constriction_resistance" in joint
+
+
+def test_remarks_stand_once_with_the_maps_that_they_are_of(maps):
+    part = pressed([maps[0], maps[1].scaled(0.01)])
+    pressure = [text for text in part.warnings if "hardness; beyond" in text]
+    assert len(pressure) == 1
+    assert pressure[0].startswith("of map 1: ") or "numbers of map 1" in pressure[0]
+    (load,) = (text for text in part.notes if "in all" in text)
+    assert load.startswith("load 5 MPa: ")  # the same for both
+
+
+def test_progress_is_told_map_by_map(maps):
+    told = []
+    question = rl.Question(maps[:2], loads="5 MPa", **ASKED)
+    rl.assess(question, map_progress=lambda done, total: told.append((done, total)))
+    assert told == [(0, 2), (1, 2), (2, 2)]
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"body": []}, "body holds no map"),
+        ({"materials": None, "E_star": 1e9}, "need two materials"),
+        ({"loads": ()}, "pressed under the same loads: give them (loads=)"),
+        ({"reading": rl.Reading(name="x")}, "the name in reading= is that of one file"),
+        ({"body": ["a.x3p", "b.x3p", "./a.x3p"]}, "a.x3p is given twice"),
+        ({"body": ["a.x3p", 3]}, "body is a int; give a Surface"),
+    ],
+)
+def test_questions_of_several_maps_that_cannot_be(asked, message):
+    asked = {"body": ["a.x3p", "b.x3p"], "materials": "steel,copper", "loads": "1 N", **asked}
+    with pytest.raises(rl.InputError, match=re.escape(message)):
+        rl.Question(**asked)
+
+
+def test_the_maps_of_a_part_are_asked_the_same(maps):
+    questions = [rl.Question(each, loads="5 MPa", **ASKED) for each in maps[:2]]
+    other = rl.Question(maps[2], loads="6 MPa", **ASKED)
+    with pytest.raises(rl.InputError, match="asked the same, and loads differs"):
+        rl.assess_part([*questions, other])
+    named = rl.assess_part(questions, names=["left", "right"])
+    assert named.names == ["left", "right"]
+
+
+def test_files_of_one_name_are_told_apart_by_their_folders(maps, tmp_path):
+    files = []
+    for folder, each in zip(("left", "right"), maps, strict=False):
+        (tmp_path / folder).mkdir()
+        files.append(tmp_path / folder / "scan.nc")
+        rl.write(replace(each, unit="m"), files[-1])
+    assert pressed(files).names == ["left/scan.nc", "right/scan.nc"]
