@@ -23,6 +23,7 @@ TASKS: Mapping[str, Place] = {
     "explore.code": _place("explore.code", "code", is_quick=True),
     "explore.download": _place("explore.downloads", "download"),
     "measured.look": _place("measured.file", "look", reads_files=True),
+    "measured.maps": _place("measured.part", "maps", reads_files=True),
     "measured.prepare": _place("measured.file", "prepare", reads_files=True),
     "measured.bodies": _place("measured.bodies", "bodies", is_quick=True),
     "measured.answer": _place("measured.answers", "answer", reads_files=True),

@@ -66,7 +66,8 @@ def state_of(said: Mapping[str, str], most_points: int) -> ExploreState:
         )
     state = replace(state, hardness_bar=_hardness_bar(said.get("hardness_bar", ""), state))
     state = replace(state, F=_force_bar(said.get("F", str(c.FORCE.default)), state))
-    if state.F >= (most := most_force_bar(state)):
+    most = most_force_bar(state)
+    if most <= state.F:
         raise ControlError(
             f"the surface bears less than its hardness everywhere, F̄ = {most:.3g}: give a smaller "
             "load, or a larger hardness",
@@ -116,7 +117,7 @@ def _in_sides(said: Mapping[str, str], control: Control, side: float) -> float:
 
 
 def _in_scales(text: str, control: Control, unit: str, scale: float, called: str) -> float:
-    """A quantity as a share of a scale, whose plural it is called by; one with a unit is divided."""
+    """A quantity over a scale, which is called by its plural; one with a unit is divided by it."""
     if not _HAS_UNIT.match(text):
         return control.read(text)
     try:

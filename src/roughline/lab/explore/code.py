@@ -13,7 +13,7 @@ from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.server.tasks import Progress
 
-_OF_YIELD = """print("unloading over loading stiffness", curve.unloading_stiffness[0] / curve.stiffness[0])
+_OF_YIELD = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
 print("plastic_fraction", curve.plastic_fraction[0])
 print("largest indentation over rms height", curve.indentation[0] / surface.rms_height)
 """

@@ -104,12 +104,12 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     state = _state(arguments)
     n = min(state.n, _CURVE_POINTS)
     surface = surface_of(state, n)
-    borne = _CURVE_FORCES < _MOST_OF_HARDNESS * most_force_bar(state)
+    most = _MOST_OF_HARDNESS * most_force_bar(state)
     pressed = rl.press(
         surface,
         E_star=state.E_star,
         hardness=hardness(state),
-        forces=_force(state, _CURVE_FORCES[borne]),
+        forces=_force(state, _CURVE_FORCES[most > _CURVE_FORCES]),
         periodic=state.periodic,
         throw=False,
         progress=progress,

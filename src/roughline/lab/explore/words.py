@@ -144,9 +144,7 @@ def _of_yield(pressed: rl.Curve, intervals: Solution, surface: rl.Surface) -> li
 def unloading_bar(pressed: rl.Curve) -> NDArray[np.float64]:
     """Stiffness on unloading, dimensionless as that on loading. [1]"""
     assert pressed.unloading_stiffness is not None
-    return stiffness_bar(
-        pressed.unloading_stiffness, pressed.E_star, pressed.length, PAPER_PUNCH
-    )
+    return stiffness_bar(pressed.unloading_stiffness, pressed.E_star, pressed.length, PAPER_PUNCH)
 
 
 def _roughness(surface: rl.Surface) -> Item:

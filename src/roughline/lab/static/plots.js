@@ -118,7 +118,7 @@ export function markKeys(place, yields) {
   const key = (name, text) => {
     const patch = document.createElement("span");
     patch.className = `patch ${name}`;
-    return [patch, ` ${text} `];
+    return [patch, text];
   };
   place.replaceChildren(...key("ink", "in contact"), ...(yields ? key("plastic", "of it at the hardness: indented for good") : []));
 }
@@ -164,6 +164,7 @@ function recolour(made) {
     Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: paper, outline_line_color: line},
     LinearAxis: labels,
     LogAxis: labels,
+    CategoricalAxis: labels,
     Grid: {grid_line_color: grid},
     Legend: {label_text_color: text, title_text_color: text, background_fill_color: paper, background_fill_alpha: 0.85,
       border_line_color: null, label_text_font_size: "11px", spacing: 0, padding: 4},
