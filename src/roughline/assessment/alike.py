@@ -78,7 +78,7 @@ def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
             f"; {_FEW} maps have {more:.3g}, and intervals narrower by a factor of "
             f"{student / more * (_FEW / count) ** 0.5:.2g} for the same scatter"
         )
-    if any(each.stiffness_interval is None for each in results):
+    if any(each.intervals is None for each in results):
         notes.append(
             "a map has no interval of its own, so the part's is that of the scatter alone there "
             "(grid_error=True gives the maps theirs)"

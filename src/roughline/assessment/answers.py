@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.larger_surface import LargerSurface, stiffness_of_the_piece
 from roughline.assessment.nominal import has_spectrum
-from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answer import Answer
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
+from roughline.engineering.intervals import Intervals
 from roughline.engineering.joint import of_joint
 from roughline.engineering.limits import elastic_warnings
 from roughline.engineering.pair import MaterialPair
@@ -43,23 +42,17 @@ def with_answers(
     if pair is None:
         return result
     interface = _interface_stiffness(result, larger)
-    stiffness, area = result.stiffness_interval_as_asked, result.area_interval_as_asked
-    unloading = result.unloading_interval_as_asked
-    given = _answers(result, pair, interface, (stiffness, unloading, area), spectrum)
-    if larger is not None and stiffness is not None:
+    intervals = result.intervals_as_asked
+    given = _answers(result, pair, interface, intervals, spectrum)
+    if larger is not None and intervals is not None:
         larger = larger.at(result.asked)
         shared = larger.stiffness.shared
         assert interface is not None
         assert shared is not None
         interface = replace(interface, low=shared[0], high=shared[1])
         if question.joint is not None:  # the surface is pressed as a part of the larger one
-            curve = result.curve_as_asked
-            assert curve.unloading_stiffness is not None
-            with np.errstate(invalid="ignore"):
-                share = curve.stiffness / curve.unloading_stiffness
-            stiffness = share * shared[0], share * shared[1]
-            unloading, area = shared, larger.shared_area_interval
-        missed_by_all = _answers(result, pair, interface, (stiffness, unloading, area), spectrum)
+            intervals = larger.intervals(result.curve_as_asked, shared=True)
+        missed_by_all = _answers(result, pair, interface, intervals, spectrum)
         given = [
             replace(each, shared=other.ends)
             for each, other in zip(given, missed_by_all, strict=True)
@@ -73,11 +66,10 @@ def _answers(
     result: Assessment,
     pair: MaterialPair,
     interface_stiffness: Answer | None,
-    intervals: tuple[Ends | None, Ends | None, Ends | None],
+    intervals: Intervals | None,
     spectrum: Moments | None,
 ) -> list[Answer]:
-    """What follows from the curve, with intervals of k, k_u and the area as they are given."""
-    stiffness_interval, unloading_interval, area_interval = intervals
+    """What follows from the curve, with intervals as they are given."""
     return answers(
         result.curve_as_asked,
         result.area,
@@ -85,9 +77,7 @@ def _answers(
         interface_stiffness=interface_stiffness,
         amplitudes=(result.body.rms_height, spectrum.rms_slope if spectrum else None),
         frequency=result.question.frequency_in_hertz,
-        stiffness_interval=stiffness_interval,
-        unloading_interval=unloading_interval,
-        area_interval=area_interval,
+        intervals=intervals,
     )
 
 
@@ -113,13 +103,12 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
 
 def _interface_stiffness(result: Assessment, larger: LargerSurface | None) -> Answer | None:
     """Stiffness of the interface alone; None where the contact stiffness is that already."""
-    ends = result.unloading_interval_as_asked
-    if result.curve.unloading_stiffness is None:
-        ends = result.stiffness_interval_as_asked
+    intervals = result.intervals_as_asked
     if larger is not None:
         answer = larger.stiffness.at(result.asked)
         # what one piece leaves open is narrower than what is unknown without the grid's error
-        return replace(answer, low=None, high=None) if ends is None else answer
+        return replace(answer, low=None, high=None) if intervals is None else answer
     if result.question.periodic:
         return None
+    ends = intervals.unloading if intervals else None
     return stiffness_of_the_piece(result.body, result.curve_as_asked, ends)

@@ -6,22 +6,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
-from roughline.assessment import notes as say
-from roughline.assessment.answers import (
-    broken_assumptions,
-    surface_moments,
-    with_answers,
-)
-from roughline.assessment.assessment import Assessment, PartialSlip
-from roughline.assessment.grid import grid_error_is_estimated, why_without_grid_error
+from roughline.assessment.answers import surface_moments, with_answers
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.grid import grid_error_is_estimated
 from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads, load_with_fields
 from roughline.assessment.misfit import refuse_misfit
-from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
+from roughline.assessment.remarks import notes_of, warnings_of
+from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import (
     interface_of_the_larger_surface,
     of_larger_surface,
@@ -30,15 +24,16 @@ from roughline.assessment.solution import (
 )
 from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.uncertainty import Solution
-from roughline.assessment.variants import with_elastic_answers, with_scatter_of_hardness
+from roughline.assessment.variants import (
+    Again,
+    repeats,
+    with_elastic_answers,
+    with_scatter_of_hardness,
+)
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import estimate, memory_for
-from roughline.contact.press import press
-from roughline.engineering.formulas import partial_slip
-from roughline.engineering.limits import left_out
-from roughline.files.read import suspicions
-from roughline.spectra.moments import Moments
+from roughline.engineering.intervals import Intervals
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
 
@@ -46,7 +41,6 @@ Announce = Callable[[str], None]
 """Told what a large run will cost, before it starts."""
 
 _LARGE = 2**20  # points from which on the cost is told
-_LIGHTEST, _SLIP_LOADS = 1e-3, 16  # first of the loads of partial slip, and their number
 _MANY = 1000  # loads from which on the cost is told
 
 
@@ -89,47 +83,30 @@ def assess_body(
         solution, larger = _solved_scan(body, parts, case), None
     else:
         _tell_cost(question, body, case, announce)
-        solution, larger = _solved_body(question, body, parts, case, progress)
+        solution, larger = _solved_body(question, body, case, parts, progress)
     result = Assessment(
         question,
         parts,
         body,
         solution.curve,
         asked_loads(case, solution.curve.status.size),
-        solution.stiffness_interval,
-        solution.unloading_interval,
-        solution.area_interval,
+        solution.intervals,
         solution.interrupted,
         theories=_theories(question, body, solution.curve),
-        partial_slip=_partial_slip(question, solution.curve, nominal_area(body)),
     )
     spectrum = surface_moments(body) if question.materials is not None else None
     result = with_answers(result, larger, spectrum)
     if case.hardness is not None:
-        solve = partial(_solved_again, question, body, parts, progress=progress)
-        result = with_elastic_answers(result, case, spectrum, solve)
-        result = with_scatter_of_hardness(result, case, spectrum, solve)
+        solve = partial(_solved_body, replace(question, fields=False), parts=(), progress=progress)
+        again = Again(case, larger, spectrum, solve)
+        result = with_scatter_of_hardness(with_elastic_answers(result, again), again)
+    slip, interrupted = slip_at_largest_load(question, case, result.curve, result.area)
+    result = replace(result, partial_slip=slip, interrupted=result.interrupted or interrupted)
     return replace(
         result,
-        warnings=_warnings(result, spectrum, case.grid_error),
-        notes=_notes(result, solution.note),
+        warnings=warnings_of(result, spectrum, case.grid_error),
+        notes=notes_of(result, solution.note),
     )
-
-
-def _solved_again(
-    question: Question,
-    body: Body,
-    parts: Sequence[Topography],
-    case: LoadCase,
-    *,
-    progress: LoadProgress | None,
-) -> tuple[Solution, LargerSurface | None]:
-    """Press a body with another hardness: without fields, and filled in one way."""
-    whole = [replace(each, measurement=None) for each in parts]
-    question = replace(
-        question, fields=False, elastic=case.hardness is None, hardness=case.hardness
-    )
-    return _solved_body(question, body, whole, case, progress)
 
 
 def _needs_larger_surface(question: Question, body: Body) -> bool:
@@ -155,6 +132,11 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
         cost = str(estimate(body.shape, case.count, periodic=case.periodic))
         if twice:
             cost += f", then {estimate(body.shape, case.count, periodic=True)} for the interface"
+        if more := repeats(question, body):
+            cost += (
+                f"; where points yield, up to {more:g} times as long once more, for elastic bodies "
+                "and for the scatter of the hardness"
+            )
         announce(f"{body.shape[0]} x {body.shape[1]} points, {case.count} loads: {cost}")
 
 
@@ -163,14 +145,15 @@ def _solved_scan(body: Line, parts: Sequence[Topography], case: LoadCase) -> Sol
     second = parts[1].body if len(parts) > 1 else None
     assert second is None or isinstance(second, Line)
     scan = press_scan(body, E_star=case.E_star, forces=case.forces, against=second)
-    return Solution(scan.curve, stiffness_interval=(scan.low, scan.high))
+    ends = scan.low, scan.high
+    return Solution(scan.curve, intervals=Intervals(ends, ends))
 
 
 def _solved_body(
     question: Question,
     body: Body,
-    parts: Sequence[Topography],
     case: LoadCase,
+    parts: Sequence[Topography],
     progress: LoadProgress | None,
 ) -> tuple[Solution, LargerSurface | None]:
     """Press a body, filled in both ways, and periodically where a larger surface is behind it."""
@@ -196,72 +179,3 @@ def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]
 
     pressures = curve.force[curve.converged] / body.area
     return [theory(name, body, curve.E_star, pressures) for name in question.theories]
-
-
-def _partial_slip(question: Question, curve: Curve, area: float) -> PartialSlip | None:
-    """Partial slip at the largest load, if it was solved and friction is known.
-
-    Parameters
-    ----------
-    question : Question
-        With friction and the joint, if there is one.
-    curve : Curve
-        Of the body.
-    area : float
-        Nominal area of the body. [m²]
-    """
-    pair, friction = question.pair, question.friction
-    if pair is None or friction is None:
-        return None
-    largest = int(np.nanargmax(np.where(np.isnan(curve.force), 0.0, curve.force)))
-    if not curve.converged[-1] or not curve.converged[largest]:
-        return None
-    if curve.hardness is not None:
-        # under a shear the contact slides back along its unloading, which is elastic
-        curve = press(
-            curve.surface_after(largest),
-            E_star=curve.E_star,
-            forces=curve.force[largest] * np.geomspace(_LIGHTEST, 1.0, _SLIP_LOADS),
-            periodic=curve.settings["boundary"] == "periodic",
-            throw=False,
-        )
-    rising = np.argsort(curve.force[curve.converged])
-    depth, force = (each[curve.converged][rising] for each in (curve.depth, curve.force))
-    force = force * question.scale(area)
-    return PartialSlip(friction, *partial_slip(depth, force, pair.E_star, pair.G_star, friction))
-
-
-def _warnings(
-    result: Assessment, spectrum: Moments | None, grid_error_was_tried: bool
-) -> list[str]:
-    """What is suspicious, where assumptions break, and why there is no interval."""
-    bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
-    warnings = [
-        *say.of_each(bodies, suspicions),
-        *broken_assumptions(result, spectrum),
-        *curve.warnings,
-    ]
-    warnings += say.of_joint_and_borders(result, grave=True)
-    if isinstance(body, Surface) and curve.stiffness_error is None:
-        warnings.append(why_without_grid_error(result.question, body, grid_error_was_tried))
-    return warnings
-
-
-def _notes(result: Assessment, of_filling: str) -> list[str]:
-    """What is left out, what was filled, how the loads were meant, and what was cropped."""
-    question, body = result.question, result.body
-    bodies = [each.body for each in result.topographies]
-    notes = say.of_yield(result)
-    if isinstance(body, Line) and question.pair is not None and question.pair.hardness is not None:
-        notes.append(
-            "the reduced model has no yield: it may serve while mean contact pressures stay below "
-            "some 0.4 of the hardness, which rms slopes over 0.8 H / E* exceed"
-        )
-    if question.pair is not None:
-        notes += left_out(question.pair, question.frequency_in_hertz)
-        if result.curve.area_fraction is None:
-            notes.append("no contact area: the reduced model of a line does not predict it")
-    notes += say.of_each(bodies, say.filled_points_and_spikes)
-    notes += [of_filling] if of_filling else []
-    notes += say.meaning_of_loads(question, body)
-    return notes + say.of_joint_and_borders(result, grave=False) + say.cropping_and_resampling(body)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -12,31 +12,17 @@ import numpy as np
 from roughline._version import __version__
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
+from roughline.assessment.slip import PartialSlip
 from roughline.assessment.source import Topography
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import Indices
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
-from roughline.engineering.answer import Answer, Ends, ends_at
+from roughline.contact.selection import at_loads
+from roughline.engineering.answer import Answer
+from roughline.engineering.intervals import Ends, Intervals
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
-
-
-@dataclass(frozen=True, eq=False)
-class PartialSlip:
-    """Tangential loading at the largest normal load, from no load to full sliding.
-
-    Attributes
-    ----------
-    friction : float
-        Coefficient of friction. [1]
-    displacement, force : ndarray
-        Slip displacement [m] and tangential force [N].
-    """
-
-    friction: float
-    displacement: Real
-    force: Real
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,11 +42,9 @@ class Assessment:
         asked for.
     asked : ndarray of int
         Which loads of the curve were asked for, in the order in which they were.
-    stiffness_interval, unloading_interval, area_interval : tuple of ndarray, or None
-        Both ends, of shape (loads,), over the loads of the curve: what the grid, filled points and
-        the scatter of hardness, or a single line scan, leave open of the stiffness on loading and
-        on unloading [N / m] and of the corrected area fraction [1]. None where the grid's error is
-        not known.
+    intervals : Intervals or None
+        Of the curve, over its loads: what the grid, filled points and the scatter of the hardness,
+        or a single line scan, leave open. None where the grid's error is not known.
     interrupted : bool
         Whether Ctrl-C came before the last load was solved, or its errors estimated.
     answers : mapping of str to Answer
@@ -86,9 +70,7 @@ class Assessment:
     body: Body
     curve: Curve
     asked: Indices
-    stiffness_interval: Ends | None = None
-    unloading_interval: Ends | None = None
-    area_interval: Ends | None = None
+    intervals: Intervals | None = None
     interrupted: bool = False
     answers: Mapping[str, Answer] = field(default_factory=dict)
     elastic: Mapping[str, Answer] = field(default_factory=dict)
@@ -128,10 +110,8 @@ class Assessment:
     @property
     def largest(self) -> int:
         """Which of the loads that were asked for is the largest, by its number among them."""
-        force = self.curve.force[self.asked]
-        if np.isnan(force).all():
-            return int(np.argmax(self.asked))
-        return int(np.nanargmax(force))
+        named = self.question.forces(self.area) or self.question.heights()
+        return int(np.argmax(named)) if named else self.asked.size - 1
 
     @property
     def fields(self) -> Fields | None:
@@ -141,27 +121,27 @@ class Assessment:
     @property
     def curve_as_asked(self) -> Curve:
         """The curve at the loads that were asked for, in their order, without fields."""
-        taken = {
-            item.name: getattr(self.curve, item.name)[self.asked]
-            for item in fields(Curve)
-            if isinstance(getattr(self.curve, item.name), np.ndarray)
-        }
-        return replace(self.curve, **taken, fields=(), dents=())
+        return at_loads(self.curve, self.asked)
 
     @property
-    def stiffness_interval_as_asked(self) -> Ends | None:
-        """Both ends of the stiffness at the loads that were asked for. [N / m]"""
-        return ends_at(self.stiffness_interval, self.asked)
+    def intervals_as_asked(self) -> Intervals | None:
+        """Intervals of the curve at the loads that were asked for."""
+        return None if self.intervals is None else self.intervals.at(self.asked)
 
     @property
-    def unloading_interval_as_asked(self) -> Ends | None:
-        """Both ends of the stiffness on unloading at the loads that were asked for. [N / m]"""
-        return ends_at(self.unloading_interval, self.asked)
+    def stiffness_interval(self) -> Ends | None:
+        """Both ends of the stiffness on further loading, over the loads of the curve. [N / m]"""
+        return None if self.intervals is None else self.intervals.stiffness
 
     @property
-    def area_interval_as_asked(self) -> Ends | None:
-        """Both ends of the corrected area fraction at the loads that were asked for. [1]"""
-        return ends_at(self.area_interval, self.asked)
+    def unloading_interval(self) -> Ends | None:
+        """Both ends of the stiffness on unloading, over the loads of the curve. [N / m]"""
+        return None if self.intervals is None else self.intervals.unloading
+
+    @property
+    def area_interval(self) -> Ends | None:
+        """Both ends of the corrected area fraction, over the loads of the curve. [1]"""
+        return None if self.intervals is None else self.intervals.area
 
     @property
     def settings(self) -> dict[str, Any]:

@@ -18,10 +18,12 @@ from roughline.assessment.pieces import (
 )
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
-from roughline.engineering.answer import Answer, Ends, ends_at
+from roughline.contact.selection import among
+from roughline.engineering.answer import Answer
 from roughline.engineering.answers import saturated_stiffness
 from roughline.engineering.declared import DECLARED
 from roughline.engineering.formulas import interface_stiffness
+from roughline.engineering.intervals import Ends, Intervals, ends_at
 from roughline.errors import InputError
 from roughline.spectra.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
@@ -38,39 +40,53 @@ class LargerSurface:
     ----------
     stiffness : Answer
         Interface stiffness of as much of it as the piece is large. [N / m]
-    area_interval, shared_area_interval : tuple of ndarray, shape (loads,), or None
+    area, shared_area : tuple of ndarray, shape (loads,), or None
         Ends of its corrected area fraction, and of what other pieces would miss of it in the same
         way; None where the grid's error is not known. [1]
     """
 
     stiffness: Answer
-    area_interval: Ends | None = None
-    shared_area_interval: Ends | None = None
+    area: Ends | None = None
+    shared_area: Ends | None = None
 
     def at(self, loads: Indices) -> LargerSurface:
         """The same at some of the loads, by their numbers."""
-        return LargerSurface(
-            self.stiffness.at(loads),
-            ends_at(self.area_interval, loads),
-            ends_at(self.shared_area_interval, loads),
+        area, shared = (
+            None if ends is None else ends_at(ends, loads) for ends in (self.area, self.shared_area)
         )
+        return LargerSurface(self.stiffness.at(loads), area, shared)
 
     def among(self, solved: Mask) -> LargerSurface:
-        """The same over more loads, of which some were solved: NaN at the others."""
-        place = np.where(solved, np.cumsum(solved) - 1, 0)
-        found = self.at(place)
-        unsolved = np.where(solved, 0.0, np.nan)
-        stiffness, ends = found.stiffness, found.stiffness.ends
+        """The same over more loads, of which these were solved: NaN at the others."""
+
+        def spread(ends: Ends | None) -> Ends | None:
+            return None if ends is None else (among(ends[0], solved), among(ends[1], solved))
+
+        k = self.stiffness
+        low, high = spread(k.ends) or (None, None)
+        values, shared = among(k.values, solved), spread(k.shared)
+        k = replace(k, values=values, low=low, high=high, shared=shared)
+        return LargerSurface(k, spread(self.area), spread(self.shared_area))
+
+    def intervals(self, curve: Curve, *, shared: bool = False) -> Intervals:
+        """Intervals of a periodic piece's curve that hold the larger surface as well.
+
+        The stiffness on loading keeps its share of that on unloading.
+
+        Parameters
+        ----------
+        curve : Curve
+            Of the piece.
+        shared : bool, optional
+            Whether they hold only what other pieces would miss in the same way.
+        """
+        ends = self.stiffness.shared if shared else self.stiffness.ends
         assert ends is not None
-        return replace(
-            found,
-            stiffness=replace(
-                stiffness,
-                values=stiffness.values + unsolved,
-                low=ends[0] + unsolved,
-                high=ends[1] + unsolved,
-            ),
-        )
+        assert curve.unloading_stiffness is not None
+        with np.errstate(invalid="ignore"):
+            share = curve.stiffness / curve.unloading_stiffness
+        loading = share * ends[0], share * ends[1]
+        return Intervals(loading, ends, self.shared_area if shared else self.area)
 
 
 def roll_offs_along_a_side(surface: Surface) -> float | None:

@@ -10,7 +10,7 @@ import numpy as np
 from roughline.assessment.hardness import hardness_of, refuse_beyond_hardness
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
-from roughline.computing.arrays import Indices
+from roughline.computing.arrays import Indices, Mask
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.errors import Interrupted
@@ -86,10 +86,27 @@ class LoadCase:
         """Number of loads."""
         return len(self.forces) or len(self.depths) or self.n_loads or 0
 
+    @property
+    def largest(self) -> int:
+        """Number of the largest load; of spaced ones, the last."""
+        values = self.forces or self.depths
+        return values.index(max(values)) if values else self.count - 1
+
     def under_forces_of(self, curve: Curve) -> LoadCase:
         """The same under the forces of a curve that were solved."""
         forces = curve.force[curve.converged].tolist()
         return replace(self, forces=forces, depths=[], n_loads=None)
+
+    def of_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
+        """Some of the same loads on a body of another hardness, without the grid's errors.
+
+        Spaced loads are those of the curve that was solved under them.
+        """
+        values = np.array(self.depths or self.forces or curve.force)[loads].tolist()
+        forces, depths = ([], values) if self.depths else (values, [])
+        return replace(
+            self, hardness=hardness, forces=forces, depths=depths, n_loads=None, grid_error=False
+        )
 
     def press(
         self, body: Body, fields: list[int], progress: LoadProgress | None
@@ -123,8 +140,7 @@ def asked_loads(case: LoadCase, count: int) -> Indices:
 
 def load_with_fields(case: LoadCase) -> int:
     """The load whose fields are kept: the largest asked for, or one at three quarters of them."""
-    values = case.forces or case.depths
-    return max(case.asked, key=values.__getitem__) if case.asked else 3 * case.count // 4
+    return case.largest if case.asked else 3 * case.count // 4
 
 
 def _path(question: Question, asked: list[float]) -> tuple[list[float], tuple[int, ...]]:

@@ -11,8 +11,9 @@ from roughline.assessment.given import is_force, several
 from roughline.assessment.hardness import hardness_of
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
-from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answer import Answer
 from roughline.engineering.formulas import electrical_resistance
+from roughline.engineering.intervals import Ends
 from roughline.engineering.joint import constriction_of_disc
 from roughline.topography.body import Body, Surface
 from roughline.topography.repetition import border_jump
@@ -64,9 +65,9 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
         nominal = f"the nominal area, {sides}"
     else:
         nominal = f"the square of the line's length, {engineering(body.length, 'm')}"
-    forces = question.forces(area)
+    loads = question.headings[: len(several(question.loads))]  # unloading speaks for itself
     notes = []
-    for text, force in zip(question.headings[: len(forces)], forces, strict=True):
+    for text, force in dict(zip(loads, question.forces(area), strict=False)).items():
         pressure = engineering(force / area, "Pa")
         if question.joint is None:
             notes.append(

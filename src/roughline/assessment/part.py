@@ -123,4 +123,4 @@ class PartAssessment:
     @property
     def largest(self) -> int:
         """Number of the largest load among those that were asked for."""
-        return int(np.argmax(self.assessments[0].asked))
+        return self.assessments[0].largest

@@ -8,8 +8,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from roughline.assessment.consistency import (
+    refuse_inconsistent_joint,
+    refuse_inconsistent_loads,
+    refuse_inconsistent_maps,
+)
 from roughline.assessment.given import as_si, bodies_or_paths, body_or_path, pair_of, several
 from roughline.assessment.hardness import checked_hardness
 from roughline.assessment.misfit import refuse_misfit
@@ -132,11 +135,16 @@ class Question:
             isinstance(each, Path) for each in (*self.bodies, self.against)
         ):
             raise InputError("reading= says how files are read, and none is given: leave it out")
-        self._check_joint()
-        self._check_loads()
+        if self.joint_area is not None:
+            object.__setattr__(self, "joint_area", area_of_joint(self.joint_area))
+        if self.n_loads is None and not self.loads and not self.depths:
+            object.__setattr__(self, "n_loads", DEFAULT_LOADS)
+        refuse_inconsistent_joint(self)
+        refuse_inconsistent_loads(self)
+        self.forces(1.0)  # reads and checks them; a pressure waits for its area
+        self.heights()
         self._check_materials()
-        if self.is_of_several:
-            self._check_several()
+        refuse_inconsistent_maps(self)
         if self.theories:
             from roughline.theories.theory import refuse_unknown  # here because it loads slowly
 
@@ -204,7 +212,9 @@ class Question:
         headings = [
             each if isinstance(each, str) else engineering(each, unit) for each, unit in named
         ]
-        return headings + [f"back at {share:.0%}" for share in self._unloading]
+        return headings + [
+            f"unloaded to {share:.0%}" if share else "unloaded" for share in self._unloading
+        ]
 
     @property
     def _unloading(self) -> tuple[float, ...]:
@@ -236,59 +246,16 @@ class Question:
             load_in_newtons(load, area * scale) if isinstance(load, str) else float(load)
             for load in several(self.loads)
         ]
-        for load, force in zip(several(self.loads), forces, strict=True):
-            if not 0 <= force < math.inf or (force == 0 and not self.history):
-                raise InputError(f'load is "{load}"; give positive ones')
+        for i, (load, force) in enumerate(zip(several(self.loads), forces, strict=True)):
+            if not (0 < force < math.inf or (force == 0 and self.history and i)):
+                to_unload = ", and zero only to unload after others" if self.history else ""
+                raise InputError(f'load is "{load}"; give positive ones{to_unload}')
         forces += [share * max(forces) for share in self._unloading]
         return [force / scale for force in forces]
 
     def heights(self) -> list[float]:
         """Depths, in their order. [m]"""
         return [as_si(depth, "m", "depth") for depth in several(self.depths)]
-
-    def _check_joint(self) -> None:
-        if self.joint_area is None:
-            return
-        object.__setattr__(self, "joint_area", area_of_joint(self.joint_area))
-        if self.materials is None:
-            raise InputError("answers of a joint (joint_area=) need two materials (materials=)")
-        if self.depths:
-            raise InputError(
-                "a joint (joint_area=) is pressed by loads (loads=): its depth counts from the "
-                "touch of its highest point, which a map does not show"
-            )
-
-    def _check_several(self) -> None:
-        if self.materials is None:
-            raise InputError(
-                "several maps are compared by their answers, which need two materials (materials=)"
-            )
-        if not self.loads and not self.depths:
-            raise InputError("several maps are pressed under the same loads: give them (loads=)")
-        if self.reading.name is not None:
-            raise InputError("the name in reading= is that of one file, and there are several")
-
-    def _check_loads(self) -> None:
-        given = (self.n_loads, self.loads or None, self.depths or None)
-        if all(each is None for each in given):
-            object.__setattr__(self, "n_loads", DEFAULT_LOADS)
-        if sum(each is not None for each in given) > 1:
-            raise InputError("give one of loads=, depths= and n_loads=")
-        if self.n_loads is not None and (
-            not isinstance(self.n_loads, int | np.integer)
-            or isinstance(self.n_loads, bool)
-            or self.n_loads < 2
-        ):
-            raise InputError(f"n_loads is {self.n_loads!r}; a whole number of at least 2 is needed")
-        if self.unload and (not self.loads or self.history):
-            raise InputError(
-                "unload=True takes off the largest of the loads (loads=); in a history, and for "
-                "depths, write the falling values yourself"
-            )
-        if self.history and not (self.loads or self.depths):
-            raise InputError("history=True needs loads= or depths= in the order of the history")
-        self.forces(1.0)  # reads and checks them; a pressure waits for its area
-        self.heights()
 
     def _check_materials(self) -> None:
         if self.materials is not None:

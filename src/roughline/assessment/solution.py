@@ -87,9 +87,9 @@ def interface_of_the_larger_surface(
         periodic = solved(case, body, [], progress)
         if filled and not periodic.interrupted:
             periodic = with_other_filling(periodic, case, body, filled, progress)
-    larger = larger_surface(
-        body, periodic.curve, periodic.unloading_interval, periodic.area_interval
-    )
+    known = periodic.intervals
+    unloading, area = (known.unloading, known.area) if known else (None, None)
+    larger = larger_surface(body, periodic.curve, unloading, area)
     if larger.stiffness.values.size < converged.size:  # loads that failed before have no force
         larger = larger.among(converged)
     return larger, solution.interrupted or periodic.interrupted
@@ -101,18 +101,9 @@ def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
     Without the grid's errors there are none: what a piece leaves open is narrower than what is
     unknown.
     """
-    curve, ends = solution.curve, larger.stiffness.ends
-    if solution.stiffness_interval is None or ends is None:
+    if solution.intervals is None:
         return solution
-    assert curve.unloading_stiffness is not None
-    with np.errstate(invalid="ignore"):
-        share = curve.stiffness / curve.unloading_stiffness
-    return replace(
-        solution,
-        stiffness_interval=(share * ends[0], share * ends[1]),
-        unloading_interval=ends,
-        area_interval=larger.area_interval,
-    )
+    return replace(solution, intervals=larger.intervals(solution.curve))
 
 
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:

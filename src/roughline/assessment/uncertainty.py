@@ -8,7 +8,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.engineering.answer import Ends
+from roughline.engineering.intervals import Ends, Intervals
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,18 +37,15 @@ class Solution:
         Loads that failed are marked.
     interrupted : bool
         Whether Ctrl-C came.
-    stiffness_interval, unloading_interval, area_interval : tuple of ndarray, or None
-        Both ends, of shape (loads,), of the stiffness on loading and on unloading [N / m] and of
-        the corrected area fraction [1].
+    intervals : Intervals or None
+        Of the curve; None where the grid's errors are not known.
     note : str
         What another way to fill missing points changes, if that was tried.
     """
 
     curve: Curve
     interrupted: bool = False
-    stiffness_interval: Ends | None = None
-    unloading_interval: Ends | None = None
-    area_interval: Ends | None = None
+    intervals: Intervals | None = None
     note: str = ""
 
     @classmethod
@@ -71,15 +68,13 @@ class Solution:
         low, high = interval(value, np.hypot(error, changes.area))
         if curve.hardness is not None:  # no area bears more than the hardness
             low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
-        return cls(
-            curve,
-            interrupted,
+        intervals = Intervals(
             interval(curve.stiffness, np.hypot(curve.stiffness_error, changes.stiffness)),
             interval(unloading, np.hypot(unloading_error, changes.unloading)),
             # whole cells overstate an area under summits, and finer waves take away from it
             (low, np.minimum(high, most + changes.area)),
-            note,
         )
+        return cls(curve, interrupted, intervals, note)
 
 
 def interval(value: Real, error: Real) -> Ends:

@@ -1,9 +1,9 @@
-"""What the scatter of hardness moves, and what the answers would be without yield."""
+"""What the scatter of the hardness moves, and what the answers would be without yield."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,151 +12,206 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.hardness import hardness_of
 from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.loads import LoadCase
+from roughline.assessment.question import Question
 from roughline.assessment.uncertainty import Solution
-from roughline.computing.arrays import Real
-from roughline.engineering.answer import Ends
+from roughline.computing.arrays import Mask, Real
+from roughline.contact.curve import Curve
+from roughline.contact.selection import among_loads, at_loads
+from roughline.engineering.answer import answer
+from roughline.engineering.intervals import Ends, Intervals
 from roughline.spectra.moments import Moments
+from roughline.topography.body import Body, Surface
 
-Solve = Callable[[LoadCase], tuple[Solution, LargerSurface | None]]
-"""Presses the body of an assessment; the second result is the larger surface behind it."""
+Solve = Callable[[Body, LoadCase], tuple[Solution, LargerSurface | None]]
+"""Presses a body; the second result is the larger surface behind it."""
+
+HALVED_FROM = 2**20
+"""Points from which on the scatter of the hardness is judged on half as many points a side."""
+
+_OF_HARDNESS_ALONE = ("holm_resistance", "plastic_conductance")  # keys of answers
 
 
-def with_scatter_of_hardness(
-    result: Assessment, case: LoadCase, spectrum: Moments | None, solve: Solve
-) -> Assessment:
+@dataclass(frozen=True, eq=False)
+class Again:
+    """How the body of an assessment is pressed again, with another hardness.
+
+    Attributes
+    ----------
+    case : LoadCase
+        How its curve was made.
+    larger : LargerSurface or None
+        The larger surface behind the body, over the loads of the curve.
+    spectrum : Moments or None
+        Of the body.
+    solve : callable
+        Presses a body under a load case.
+    """
+
+    case: LoadCase
+    larger: LargerSurface | None
+    spectrum: Moments | None
+    solve: Solve
+
+    def assessed(self, result: Assessment, hardness: float | None, body: Body) -> Assessment:
+        """Answer the same of a body of another hardness, elastic if None; without intervals.
+
+        Loads that it does not bear are not solved.
+        """
+        question = replace(result.question, hardness=hardness, elastic=hardness is None)
+        other = replace(_without_intervals(result), question=question, body=body)
+        same = body is result.body and not _yields(result.curve)
+        if same and hardness is not None and hardness >= (result.curve.hardness or 0):
+            return with_answers(other, self.larger, self.spectrum)
+        loads = _borne(result, self.case, hardness)
+        if not loads.any():
+            nothing = among_loads(at_loads(result.curve, np.flatnonzero(loads)), loads)
+            return with_answers(replace(other, curve=nothing), None, self.spectrum)
+        solution, larger = self.solve(body, self.case.of_hardness(hardness, loads, result.curve))
+        curve = among_loads(solution.curve, loads)
+        other = replace(other, curve=curve, interrupted=solution.interrupted)
+        return with_answers(other, larger.among(loads) if larger else None, self.spectrum)
+
+
+def repeats(question: Question, body: Body) -> float:
+    """How many times as long as the body alone its variants take, at most."""
+    hardness = hardness_of(question)
+    if hardness is None or question.materials is None or not isinstance(body, Surface):
+        return 0.0
+    if hardness.factor == 1:
+        return 1.0
+    return 3.0 if _judged_on(body) is body else 1.75
+
+
+def with_elastic_answers(result: Assessment, again: Again) -> Assessment:
+    """Add the answers of elastic bodies, where some of the contact yields."""
+    if result.interrupted or not result.answers or not _yields(result.curve):
+        return result
+    elastic = again.assessed(result, None, result.body)
+    if elastic.interrupted:
+        return replace(result, interrupted=True)
+    answers = dict(elastic.answers)
+    if "unloading_stiffness" in result.answers:  # elastic bodies have but one
+        rows = answers["contact_stiffness"].rows
+        answers["unloading_stiffness"] = answer("unloading_stiffness", rows)
+    return replace(result, elastic=answers)
+
+
+def with_scatter_of_hardness(result: Assessment, again: Again) -> Assessment:
     """Widen all intervals by what the scatter of the hardness moves.
 
-    The body is pressed again as soft and as hard as it may be. An interval then reaches from its
-    lower end times the least ratio to its upper end times the largest: what the grid leaves open
-    and what the hardness leaves open are added, not taken as independent. Where a load is more
-    than the softest body bears, the ends are not known.
+    The body is pressed again as soft and as hard as it may be; a large one on half as many points
+    a side, where only the ratios to the hardness itself are taken. An interval then reaches from
+    its lower end times the least ratio to its upper end times the largest: what the grid leaves
+    open and what the hardness leaves open are added, not taken as independent. Under loads that
+    the softest body does not bear, the ends are not known. On Ctrl-C there are no intervals, as
+    those without the scatter are narrower than what is known.
 
     Parameters
     ----------
     result : Assessment
         With the answers for the hardness itself.
-    case : LoadCase
-        How its curve was made.
-    spectrum : Moments or None
-        Of the body.
-    solve : callable
-        Presses the body under a load case.
+    again : Again
+        How its body is pressed again.
     """
-    hardness, curve = hardness_of(result.question), result.curve
-    if hardness is None or hardness.factor == 1 or not curve.converged.all():
+    hardness = hardness_of(result.question)
+    if hardness is None or hardness.factor == 1:
         return result
-    moved, interrupted = [], result.interrupted
-    for value in hardness.ends:
-        if interrupted:
-            break
-        again = _case(case, result, value)
-        if curve.force.max() >= value * result.area:
-            moved.append(_unknown(result))
-            continue
-        solution, larger = solve(again)
-        interrupted = solution.interrupted
-        moved.append(_answered(result, solution, larger, spectrum, hardness=value))
-    if interrupted:
+    body = _judged_on(result.body)
+    values = [*hardness.ends] if body is result.body else [hardness.value, *hardness.ends]
+    assessed: list[Assessment] = []
+    for value in values:
+        if not result.interrupted:
+            assessed.append(again.assessed(result, value, body))
+            result = replace(result, interrupted=assessed[-1].interrupted)
+    if result.interrupted:
         return _without_intervals(result)
-    return _widened(result, moved)
+    if body is result.body:
+        return _widened(result, result, assessed)
+    return _widened(result, assessed[0], assessed[1:])
 
 
-def with_elastic_answers(
-    result: Assessment, case: LoadCase, spectrum: Moments | None, solve: Solve
-) -> Assessment:
-    """Add the answers of elastic bodies, where some of the contact yields."""
+def _judged_on(body: Body) -> Body:
+    """Return the body itself, or a large one on half as many points a side."""
+    if not isinstance(body, Surface) or body.heights.size < HALVED_FROM:
+        return body
+    return body if body.shape[0] % 2 or body.shape[1] % 2 else body.coarsened()
+
+
+def _yields(curve: Curve) -> bool:
+    """Whether some of the contact is at the hardness, under any load."""
+    return curve.plastic_fraction is not None and bool(np.nan_to_num(curve.plastic_fraction).any())
+
+
+def _borne(result: Assessment, case: LoadCase, hardness: float | None) -> Mask:
+    """Which loads of the curve were solved, and are borne by a body of a hardness.
+
+    What a load leaves that is too large is not known, nor are those after it.
+    """
     curve = result.curve
-    if curve.plastic_fraction is None or not result.answers or result.interrupted:
-        return result
-    if not np.nan_to_num(curve.plastic_fraction).any():
-        return result
-    solution, larger = solve(_case(case, result, None))
-    if solution.interrupted or not solution.curve.converged.all():
-        return replace(result, interrupted=result.interrupted or solution.interrupted)
-    elastic = _answered(result, solution, larger, spectrum, elastic=True)
-    return replace(result, elastic=elastic.answers)
-
-
-def _case(case: LoadCase, result: Assessment, hardness: float | None) -> LoadCase:
-    """Return the same loads on a body of another hardness, without the grid's errors."""
-    if case.n_loads is not None:
-        case = case.under_forces_of(result.curve)
-    return replace(case, hardness=hardness, grid_error=False)
-
-
-def _answered(
-    result: Assessment,
-    solution: Solution,
-    larger: LargerSurface | None,
-    spectrum: Moments | None,
-    *,
-    hardness: float | None = None,
-    elastic: bool = False,
-) -> Assessment:
-    """Return the assessment of another solution of its body, without intervals."""
-    question = replace(result.question, hardness=hardness, elastic=elastic)
-    other = replace(_without_intervals(result), question=question, curve=solution.curve)
-    return with_answers(other, larger, spectrum)
+    if hardness is None or case.depths:
+        return curve.converged
+    largest = np.maximum.accumulate(np.nan_to_num(curve.force))
+    return curve.converged & (largest < hardness * result.area)
 
 
 def _without_intervals(result: Assessment) -> Assessment:
     answers = {
         key: replace(each, low=None, high=None, shared=None) for key, each in result.answers.items()
     }
-    return replace(
-        result,
-        stiffness_interval=None,
-        unloading_interval=None,
-        area_interval=None,
-        answers=answers,
-    )
+    return replace(result, intervals=None, answers=answers)
 
 
-def _unknown(result: Assessment) -> Assessment:
-    """Return the assessment with nothing known."""
-    curve = result.curve
-    nothing = np.full(curve.status.size, np.nan)
-    curve = replace(
-        curve, stiffness=nothing, unloading_stiffness=nothing, area_fraction_corrected=nothing
-    )
-    answers = {
-        key: replace(each, values=np.full(each.values.size, np.nan))
-        for key, each in result.answers.items()
+def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment]) -> Assessment:
+    """Widen the intervals of an assessment by the ratios of others to a nominal one."""
+    whole = result.area * result.scale
+    limits: dict[str, tuple[Real | float, float]] = {
+        "contact_area": (0.0, whole),
+        "contact_area_fraction": (0.0, 1.0),
+        "contact_pressure": (result.curve_as_asked.force / result.area, np.inf),
+        "contact_pressure_over_hardness": (0.0, 1.0),
     }
-    return replace(result, curve=curve, answers=answers)
-
-
-def _widened(result: Assessment, moved: list[Assessment]) -> Assessment:
-    """Widen the intervals of an assessment by the ratios of others to it."""
-
-    def of_curve(ends: Ends | None, name: str) -> Ends | None:
-        ratios = _ratios(getattr(result.curve, name), [getattr(each.curve, name) for each in moved])
-        return None if ends is None else (ends[0] * ratios[0], ends[1] * ratios[1])
-
     answers, scatter = {}, {}
     for key, each in result.answers.items():
-        ratios = _ratios(each.values, [other.answers[key].values for other in moved])
+        ratios = _ratios(
+            nominal.answers[key].values, [other.answers[key].values for other in moved]
+        )
         scatter[key] = ratios
-        low = None if each.low is None else each.low * ratios[0]
-        high = None if each.high is None else each.high * ratios[1]
-        shared = each.shared and (each.shared[0] * ratios[0], each.shared[1] * ratios[1])
+        ends = each.ends
+        if key in _OF_HARDNESS_ALONE:  # nothing else leaves them open
+            ends = each.values, each.values
+        within = limits.get(key, (0.0, np.inf))
+        low, high = (None, None) if ends is None else _times(ends, ratios, *within)
+        shared = None if each.shared is None else _times(each.shared, ratios, *within)
         answers[key] = replace(each, low=low, high=high, shared=shared)
-    return replace(
-        result,
-        stiffness_interval=of_curve(result.stiffness_interval, "stiffness"),
-        unloading_interval=of_curve(result.unloading_interval, "unloading_stiffness"),
-        area_interval=of_curve(result.area_interval, "area_fraction_corrected"),
-        answers=answers,
-        hardness_scatter=scatter,
-    )
+
+    def of_curve(ends: Ends, name: str, most: float = np.inf) -> Ends:
+        values = [getattr(each.curve, name) for each in (nominal, *moved)]
+        return _times(ends, _ratios(values[0], values[1:]), most=most)
+
+    known = result.intervals
+    if known is not None:
+        known = Intervals(
+            of_curve(known.stiffness, "stiffness"),
+            of_curve(known.unloading, "unloading_stiffness"),
+            None if known.area is None else of_curve(known.area, "area_fraction_corrected", 1.0),
+        )
+    return replace(result, intervals=known, answers=answers, hardness_scatter=scatter)
 
 
-def _ratios(values: Real, moved: list[Real]) -> Ends:
-    """Return the least and the largest of moved values over values, and one among them.
+def _ratios(values: Real, moved: Sequence[Real]) -> Ends:
+    """Return the least and the largest of moved values over values, and of one.
 
-    Where a value is zero, nothing moves it; one that is not known leaves both ends unknown.
+    Where a value is zero or not known, nothing moves it; a moved one that is not known leaves both
+    ends unknown.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
         ratios = np.stack([np.ones_like(values), *(each / values for each in moved)])
     ratios = np.where((values == 0) | ~np.isfinite(values), 1.0, ratios)
     return ratios.min(axis=0), ratios.max(axis=0)
+
+
+def _times(ends: Ends, ratios: Ends, least: Real | float = 0.0, most: float = np.inf) -> Ends:
+    """Ends times ratios, within what can be."""
+    with np.errstate(invalid="ignore"):  # nothing, times infinity
+        low, high = ends[0] * ratios[0], ends[1] * ratios[1]
+    return np.maximum(low, least), np.minimum(high, most)

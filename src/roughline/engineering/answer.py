@@ -9,9 +9,7 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Real
 from roughline.engineering.declared import DECLARED
-
-Ends = tuple[Real, Real]
-"""Both ends of an interval, each of shape (loads,)."""
+from roughline.engineering.intervals import Ends, ends_at
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,12 +66,8 @@ class Answer:
         """The same at some of the loads, by their numbers."""
         values, *ends = self.rows[:, loads]
         low, high = ends or (None, None)
-        return replace(self, values=values, low=low, high=high, shared=ends_at(self.shared, loads))
-
-
-def ends_at(ends: Ends | None, loads: Indices) -> Ends | None:
-    """Both ends of an interval at some of the loads, by their numbers."""
-    return None if ends is None else (ends[0][loads], ends[1][loads])
+        shared = None if self.shared is None else ends_at(self.shared, loads)
+        return replace(self, values=values, low=low, high=high, shared=shared)
 
 
 def answer(key: str, rows: Real, **differing: str) -> Answer:

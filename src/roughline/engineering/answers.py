@@ -10,8 +10,9 @@ from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.engineering import formulas
-from roughline.engineering.answer import Answer, Ends, answer
+from roughline.engineering.answer import Answer, answer
 from roughline.engineering.declared import DECLARED
+from roughline.engineering.intervals import Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.topography.body import Surface
 
@@ -31,9 +32,7 @@ def answers(
     interface_stiffness: Answer | None = None,
     amplitudes: tuple[float | None, float | None] = (None, None),
     frequency: float | None = None,
-    stiffness_interval: Ends | None = None,
-    unloading_interval: Ends | None = None,
-    area_interval: Ends | None = None,
+    intervals: Intervals | None = None,
 ) -> list[Answer]:
     """Work out what follows from a curve.
 
@@ -55,18 +54,12 @@ def answers(
         [m], [1]
     frequency : float, optional
         Of an ultrasonic wave. [Hz]
-    stiffness_interval, unloading_interval, area_interval : tuple of ndarray, optional
-        Both ends, of shape (loads,), of the stiffness on loading and on unloading [N / m] and of
-        the area fraction [1].
+    intervals : Intervals, optional
+        Of the curve.
     """
-    k = np.stack([curve.stiffness, *(stiffness_interval or ())])
-    k_u = k
-    if curve.unloading_stiffness is not None:
-        k_u = np.stack([curve.unloading_stiffness, *(unloading_interval or ())])
+    k, k_u = _stiffnesses(curve, intervals)
     pressure = curve.force / area
     k_i, of_what = k_u, ""
-    if interface_stiffness is not None:
-        k_i, of_what = interface_stiffness.rows, f"; k_i {interface_stiffness.validity}"
     given = [
         answer("normal_force", curve.force),
         answer("mean_pressure", pressure),
@@ -77,9 +70,11 @@ def answers(
     if curve.hardness is not None:
         given.append(answer("unloading_stiffness", k_u))
     if interface_stiffness is not None:
+        k_i, of_what = interface_stiffness.rows, f"; k_i {interface_stiffness.validity}"
         given.append(interface_stiffness)
     if curve.area_fraction_corrected is not None:
-        share = np.stack([curve.area_fraction_corrected, *(area_interval or ())])
+        ends = intervals.area if intervals else None
+        share = np.stack([curve.area_fraction_corrected, *(ends or ())])
         given += _areas(curve, share, area, pair)
     given += _electric(curve.force, k_u, pair)
     given += _thermal(k_u, k_i / area, of_what, pair)
@@ -89,10 +84,19 @@ def answers(
     return given
 
 
+def _stiffnesses(curve: Curve, intervals: Intervals | None) -> tuple[Real, Real]:
+    """Stiffness on further loading and on unloading, (1 or 3, loads), with their ends."""
+    loading, unloading = (intervals.stiffness, intervals.unloading) if intervals else ((), ())
+    k = np.stack([curve.stiffness, *loading])
+    if curve.unloading_stiffness is None:  # of a line, which has no yield
+        return k, k
+    return k, np.stack([curve.unloading_stiffness, *unloading])
+
+
 def _areas(curve: Curve, share: Real, area: float, pair: MaterialPair) -> list[Answer]:
     """Real contact area, the pressure on it, and what of it yields."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        pressure = curve.force / (share * area)
+        pressure = np.where(curve.force == 0, 0.0, curve.force / (share * area))
     given = [
         answer("contact_area", share * area),
         answer("contact_area_fraction", share),

@@ -261,8 +261,8 @@ def partial_slip(
 
 
 def reflection(
-    stiffness_per_area: Value, frequency: float, impedances: tuple[float, float]
-) -> Value:
+    stiffness_per_area: ArrayLike, frequency: float, impedances: tuple[float, float]
+) -> Real:
     """Modulus of the reflection of a longitudinal plane wave that meets the interface squarely.
 
     |R| = |z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|, for waves much longer than the
@@ -271,7 +271,7 @@ def reflection(
     Parameters
     ----------
     stiffness_per_area : float or ndarray
-        Of the interface alone, K. [N / m³]
+        Of the interface alone, K; where it is zero, all is reflected. [N / m³]
     frequency : float
         [Hz]
     impedances : tuple of float
@@ -285,8 +285,10 @@ def reflection(
     if not 0 < frequency < math.inf:
         raise InputError(f"frequency is {frequency}; a positive one is needed")
     first, second = impedances
-    spring = 2 * math.pi * frequency * first * second / stiffness_per_area
-    return np.hypot(first - second, spring) / np.hypot(first + second, spring)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        spring = 2 * math.pi * frequency * first * second / np.asarray(stiffness_per_area)
+        reflected = np.hypot(first - second, spring) / np.hypot(first + second, spring)
+    return np.where(np.isinf(spring), 1.0, reflected)
 
 
 def _mean_slope(rms_slope: float) -> float:

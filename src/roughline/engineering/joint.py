@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from roughline.engineering.answer import Answer, Ends, answer
+from roughline.engineering.answer import Answer, answer
+from roughline.engineering.intervals import Ends
 
 _BY_STIFFNESS = (
     "stiffness_per_area",

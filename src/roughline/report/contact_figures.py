@@ -11,7 +11,8 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from roughline.assessment.assessment import Assessment, PartialSlip
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.slip import PartialSlip
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.report.folder import make_folder

@@ -99,7 +99,7 @@ def _lead(assessment: Assessment) -> str:
     answers = assessment.answers
     shown = {key: quantity(each, largest) for key, each in answers.items()}
     leading = [f"{answers[key].name} {shown[key]}" for key in leading_keys(assessment)]
-    elastic = elastic_in_words(assessment, leading_keys(assessment))
+    elastic = elastic_in_words(assessment)
     joint = assessment.question.joint
     over = "the nominal area" if joint is None else f"a joint of {engineering(joint, 'm²')}"
     unsure = curve.converged[largest] and not curve.resolved[largest]
@@ -137,6 +137,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
     pair = assessment.question.pair
     assert pair is not None
     settings = "; ".join(f"{key} = {_shown(value)}" for key, value in assessment.settings.items())
+    table_of = partial(answer_table, assessment, with_elastic=True)
     legend = [f"A star behind a load: {UNRESOLVED}."] if star_is_shown(assessment) else []
     return [
         Section(
@@ -145,7 +146,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
             notes=[*legend, *map(sentence, assessment.remarks)],
             tables=[
                 Table(header, rows, numbers=range(1, len(header)))
-                for header, rows in map(partial(answer_table, assessment), _abreast(assessment))
+                for header, rows in map(table_of, _abreast(assessment))
             ],
         ),
         Section(

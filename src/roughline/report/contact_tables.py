@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import numpy as np
 
 from roughline.assessment.assessment import Assessment
 from roughline.contact.curve import Status
 from roughline.contact.quantities import QUANTITIES
-from roughline.engineering.answer import Answer, Ends
+from roughline.engineering.answer import Answer
+from roughline.engineering.intervals import Ends
 from roughline.engineering.materials import Material
 from roughline.report.values import with_interval
 from roughline.units import engineering
@@ -17,6 +18,7 @@ _SHARES = ("contact_area_fraction",)  # keys of what is written in per cent
 # keys of the answers that the page begins with
 _LEADING = (
     "contact_stiffness",
+    "unloading_stiffness",  # where something yields
     "interface_stiffness",  # of a joint, which has no contact stiffness
     "contact_area_fraction",
     "constriction_resistance",
@@ -25,6 +27,9 @@ _LEADING = (
 _OF_JOINT = ("specific_contact_resistance",)
 
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
+
+IF_ELASTIC = "if nothing yielded"
+"""Begins what elastic bodies would give."""
 
 UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
 """What the star behind a load means."""
@@ -37,10 +42,10 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     """
     curve, scale = assessment.curve_as_asked, assessment.scale
     force, stiffness = curve.force * scale, curve.stiffness * scale
-    ends = assessment.stiffness_interval_as_asked
+    intervals = assessment.intervals_as_asked
+    ends, area = (intervals.stiffness, intervals.area) if intervals else (None, None)
     if ends is not None:
         ends = ends[0] * scale, ends[1] * scale
-    area = assessment.area_interval_as_asked
     header = ["load", "depth", "force", "stiffness k"]
     if curve.area_fraction is not None:
         header += ["raw area", "corrected A/A_0"]
@@ -63,38 +68,53 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     return header, rows
 
 
-def answer_table(assessment: Assessment, loads: slice) -> tuple[list[str], list[list[str]]]:
+def answer_table(
+    assessment: Assessment, loads: slice, *, with_elastic: bool = False
+) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the answers at some of the loads that were asked for.
 
-    Where yield changes an answer by more than its interval, that of elastic bodies stands below.
+    Parameters
+    ----------
+    assessment : Assessment
+        With answers.
+    loads : slice
+        Which of the loads.
+    with_elastic : bool, optional
+        Whether the answer of elastic bodies stands below where yield changes it by more than its
+        interval.
     """
     header = ["", *starred(assessment)[loads]]
     numbers = range(assessment.asked.size)[loads]
     rows = []
     for key, each in assessment.answers.items():
         rows.append([f"{each.name} {each.symbol}", *(quantity(each, i) for i in numbers)])
-        elastic = assessment.elastic.get(key)
+        elastic = assessment.elastic.get(key) if with_elastic else None
         if elastic is not None and any(_differs(elastic, each, i) for i in numbers):
-            rows.append(["if nothing yielded", *(quantity(elastic, i) for i in numbers)])
+            rows.append([IF_ELASTIC, *(quantity(elastic, i) for i in numbers)])
     return header, rows
 
 
-def elastic_in_words(assessment: Assessment, keys: Iterable[str]) -> str:
-    """Say what some answers would be of elastic bodies, at the largest load, where they differ."""
+def elastic_in_words(assessment: Assessment) -> str:
+    """Say what the leading answers would be of elastic bodies, at the largest load.
+
+    Nothing is said of those that yield does not change by more than their interval.
+    """
     i = assessment.largest
-    shown = [
-        f"{each.name} {quantity(each, i)}"
-        for key, each in assessment.elastic.items()
-        if key in keys and _differs(each, assessment.answers[key], i)
-    ]
-    return f"if nothing yielded: {', '.join(shown)}" if shown else ""
+    shown = []
+    for key in leading_keys(assessment):
+        elastic = assessment.elastic.get(key)
+        if elastic is not None and _differs(elastic, assessment.answers[key], i):
+            shown.append(f"{elastic.name} {quantity(elastic, i)}")
+    return f"{IF_ELASTIC}: {', '.join(shown)}" if shown else ""
 
 
 def _differs(elastic: Answer, yielding: Answer, i: int) -> bool:
     """Whether elastic bodies give something else: beyond the interval, or a per cent without."""
-    value, low, high = yielding.values[i], yielding.low, yielding.high
-    ends = (0.99 * value, 1.01 * value) if low is None or high is None else (low[i], high[i])
-    return not min(ends) <= elastic.values[i] <= max(ends)
+    value, other = yielding.values[i], elastic.values[i]
+    low, high = _at(yielding.ends, i) or (np.nan, np.nan)
+    if np.isnan([low, high]).any():
+        low, high = 0.99 * value, 1.01 * value
+    return bool(other < low or other > high)
 
 
 def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
@@ -109,9 +129,12 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 def leading_keys(assessment: Assessment) -> list[str]:
     """Keys of the answers that a page begins with."""
     of_joint = assessment.question.joint is not None
-    left_out = "contact_stiffness" if of_joint else "interface_stiffness"
+    left_out = {"contact_stiffness" if of_joint else "interface_stiffness"}
+    plastic = assessment.answers.get("plastic_fraction")
+    if plastic is None or not plastic.values[assessment.largest] > 0:
+        left_out.add("unloading_stiffness")
     keys = (*_LEADING, *_OF_JOINT) if of_joint else _LEADING
-    return [key for key in keys if key in assessment.answers and key != left_out]
+    return [key for key in keys if key in assessment.answers and key not in left_out]
 
 
 def star_is_shown(assessment: Assessment) -> bool:

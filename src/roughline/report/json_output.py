@@ -27,6 +27,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
 
     Answers stand by their symbols; the key of each is that of :attr:`Assessment.answers`.
     """
+    intervals = assessment.intervals_as_asked
     question, curve, slip = assessment.question, assessment.curve_as_asked, assessment.partial_slip
     content = {
         "file": (question.reading.name or question.body)
@@ -45,8 +46,9 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
             },
             "status": [Status(value).name.lower() for value in curve.status],
         },
-        "stiffness_interval": assessment.stiffness_interval_as_asked,
-        "area_fraction_interval": assessment.area_interval_as_asked,
+        "stiffness_interval": intervals and intervals.stiffness,
+        "unloading_stiffness_interval": intervals and intervals.unloading,
+        "area_fraction_interval": intervals and intervals.area,
         "answers": {
             each.symbol: {
                 "key": each.key,

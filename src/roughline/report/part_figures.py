@@ -11,7 +11,8 @@ from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.engineering.answer import Answer
-from roughline.report.contact_tables import leading_keys, unit_shown
+from roughline.report.contact_tables import unit_shown
+from roughline.report.part_tables import leading_keys_of
 from roughline.report.pixels import thinned
 from roughline.report.style import PAGE, new_figure
 from roughline.report.values import scale_of
@@ -26,7 +27,7 @@ _MOST_HEIGHTS = 20  # maps whose heights are drawn
 
 def answers_figure(part: PartAssessment) -> Figure:
     """Leading answers of each map with their intervals, their mean and the part's interval."""
-    keys = [key for key in leading_keys(part.assessments[0]) if key in part.answers]
+    keys = [key for key in leading_keys_of(part) if key in part.answers]
     rows = math.ceil(len(keys) / 2)
     figure = new_figure(PAGE, 2.3 * max(rows, 1))
     if not keys:

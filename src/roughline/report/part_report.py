@@ -12,13 +12,13 @@ from roughline.report.contact_report import assumptions_of, sentence, write_cont
 from roughline.report.contact_tables import (
     UNRESOLVED,
     formula_table,
-    leading_keys,
     material_in_words,
 )
 from roughline.report.page import Picture, Section, Table, render
 from roughline.report.part_figures import answers_figure, heights_figure
 from roughline.report.part_tables import (
     each_map_table,
+    leading_keys_of,
     leading_table,
     maps_table,
     mean_and_interval,
@@ -102,13 +102,13 @@ def _count(part: PartAssessment) -> str:
 
 def _lead(part: PartAssessment) -> str:
     """Means, intervals and scatter of the leading answers at the largest load."""
-    i, first = part.largest, part.assessments[0]
+    i = part.largest
     pair, joint = part.question.pair, part.question.joint
     assert pair is not None
     under = part.headings[i] + (
         "" if joint is None else f" on a joint of {engineering(joint, 'm²')}"
     )
-    leading = [part.answers[key] for key in leading_keys(first) if key in part.answers]
+    leading = [part.answers[key] for key in leading_keys_of(part) if key in part.answers]
     if not leading:
         return sentence(
             f"{pair.first.name} on {pair.second.name} under {under}: the maps have no common mean"

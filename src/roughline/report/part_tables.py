@@ -75,7 +75,7 @@ def maps_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
 def leading_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of each map's leading answers at the largest load."""
     first, load = part.assessments[0], part.largest
-    keys = leading_keys(first)
+    keys = leading_keys_of(part)
     header = [part.headings[load], *(first.answers[key].symbol for key in keys)]
     rows = []
     for name, each in zip(part.names, part.assessments, strict=True):
@@ -85,6 +85,12 @@ def leading_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
         ]
         rows.append([f"{name}{star}", *cells])
     return header, rows
+
+
+def leading_keys_of(part: PartAssessment) -> list[str]:
+    """Keys of the answers that the page of a part begins with: those of its maps."""
+    keys = max(map(leading_keys, part.assessments), key=len)  # some maps may yield, and others not
+    return [key for key in keys if key in part.assessments[0].answers]
 
 
 def mean_and_interval(answer: PartAnswer, i: int) -> str:

@@ -19,6 +19,7 @@ from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
     curve_table,
+    elastic_in_words,
     star_is_shown,
 )
 from roughline.report.description_table import description_table, missing_map
@@ -66,6 +67,8 @@ def print_assessment(
         print_table(console, *answer_table(assessment, slice(None)))  # formulas are for the report
     else:
         print_table(console, *curve_table(assessment))
+    if elastic := elastic_in_words(assessment):
+        console.print(elastic, highlight=False, soft_wrap=not console.is_terminal)
     if star_is_shown(assessment) and not many:
         console.print(f"* {UNRESOLVED}", highlight=False)
     if pair is not None and not answered:

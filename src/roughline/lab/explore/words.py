@@ -11,6 +11,7 @@ import roughline as rl
 from roughline.assessment.uncertainty import Solution
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
+from roughline.engineering.intervals import Intervals
 from roughline.lab.explore.state import ExploreState
 from roughline.report.values import value_and_interval, with_interval
 from roughline.units import decimal, engineering
@@ -40,7 +41,7 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
     if not pressed.converged[0] or fields is None:
         reason = rl.Status(pressed.status[0]).reason
         return [_item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
-    intervals = Solution.of(pressed, interrupted=False)
+    intervals = Solution.of(pressed, interrupted=False).intervals
     return [
         _stiffness(pressed, intervals),
         _area(pressed, intervals),
@@ -50,8 +51,9 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
     ]
 
 
-def _stiffness(pressed: rl.Curve, intervals: Solution) -> Item:
+def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> Item:
     unsure = not pressed.resolved[0]
+    ends = _first(intervals.stiffness) if intervals else None
     return _item(
         "stiffness_3d",
         "k̄ (3D)",
@@ -59,14 +61,14 @@ def _stiffness(pressed: rl.Curve, intervals: Solution) -> Item:
         "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
         "square punch. The interval is what finer grids may change."
         + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
-        with_interval(float(pressed.stiffness[0]), _first(intervals.stiffness_interval), "N/m"),
+        with_interval(float(pressed.stiffness[0]), ends, "N/m"),
     )
 
 
-def _area(pressed: rl.Curve, intervals: Solution) -> Item:
+def _area(pressed: rl.Curve, intervals: Intervals | None) -> Item:
     assert pressed.area_fraction_corrected is not None
     area = float(pressed.area_fraction_corrected[0])
-    written = with_interval(area, _first(intervals.area_interval), "%")
+    written = with_interval(area, _first(intervals.area) if intervals else None, "%")
     return _item(
         "area",
         "contact",
@@ -87,7 +89,10 @@ def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[Item]:
             "p_c",
             f"{decimal(in_contact / pressed.E_star, _DIGITS)} E*",
             "Mean pressure within the contact, over the cells that touch.",
-            engineering(in_contact, "Pa", _DIGITS),
+            engineering(in_contact, "Pa", _DIGITS)
+            + (
+                f", {decimal(in_contact / pressed.hardness, _DIGITS)} H" if pressed.hardness else ""
+            ),
         ),
         _item(
             "depth",
@@ -106,14 +111,14 @@ def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[Item]:
     ]
 
 
-def _of_yield(pressed: rl.Curve, intervals: Solution, surface: rl.Surface) -> list[Item]:
+def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surface) -> list[Item]:
     """Stiffness on unloading, share of the contact that yields, and indentation."""
     if pressed.hardness is None:
         return []
     assert pressed.unloading_stiffness is not None
     assert pressed.plastic_fraction is not None
     assert pressed.indentation is not None
-    ends = _first(intervals.unloading_interval)
+    ends = _first(intervals.unloading) if intervals else None
     indentation = float(pressed.indentation[0])
     return [
         _item(

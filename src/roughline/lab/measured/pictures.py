@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.description import Description
-from roughline.engineering.answer import Ends
+from roughline.engineering.intervals import Ends
 from roughline.files.measurement import Measurement
 from roughline.report.pixels import any_marked, thinned
 from roughline.topography.body import Body, Surface

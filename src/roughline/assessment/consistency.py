@@ -1,0 +1,77 @@
+"""Whether the parts of a question fit together, before any file is read."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughline.errors import InputError
+
+if TYPE_CHECKING:
+    from roughline.assessment.question import Question
+
+
+def refuse_inconsistent_loads(question: Question) -> None:
+    """Refuse loads, depths and numbers of loads that do not go together.
+
+    Raises
+    ------
+    InputError
+        If more than one of them is given, or a history or an unloading lacks them.
+    """
+    given = (question.n_loads, question.loads or None, question.depths or None)
+    if sum(each is not None for each in given) > 1:
+        raise InputError("give one of loads=, depths= and n_loads=")
+    if question.n_loads is not None and (
+        not isinstance(question.n_loads, int | np.integer)
+        or isinstance(question.n_loads, bool)
+        or question.n_loads < 2
+    ):
+        raise InputError(f"n_loads is {question.n_loads!r}; a whole number of at least 2 is needed")
+    if question.unload and (not question.loads or question.history):
+        raise InputError(
+            "unload=True takes off the largest of the loads (loads=); in a history, and for "
+            "depths, write the falling values yourself"
+        )
+    if question.history and not (question.loads or question.depths):
+        raise InputError("history=True needs loads= or depths= in the order of the history")
+
+
+def refuse_inconsistent_joint(question: Question) -> None:
+    """Refuse a joint that is asked for what only a body has.
+
+    Raises
+    ------
+    InputError
+        If there are no materials, or depths instead of loads.
+    """
+    if question.joint_area is None:
+        return
+    if question.materials is None:
+        raise InputError("answers of a joint (joint_area=) need two materials (materials=)")
+    if question.depths:
+        raise InputError(
+            "a joint (joint_area=) is pressed by loads (loads=): its depth counts from the "
+            "touch of its highest point, which a map does not show"
+        )
+
+
+def refuse_inconsistent_maps(question: Question) -> None:
+    """Refuse several maps without what they are compared by.
+
+    Raises
+    ------
+    InputError
+        If there are no materials or no loads, or the maps share one name.
+    """
+    if not question.is_of_several:
+        return
+    if question.materials is None:
+        raise InputError(
+            "several maps are compared by their answers, which need two materials (materials=)"
+        )
+    if not question.loads and not question.depths:
+        raise InputError("several maps are pressed under the same loads: give them (loads=)")
+    if question.reading.name is not None:
+        raise InputError("the name in reading= is that of one file, and there are several")

@@ -1,0 +1,48 @@
+"""All that is said beside the numbers of an assessment, gravest first."""
+
+from __future__ import annotations
+
+from roughline.assessment import notes as say
+from roughline.assessment.answers import broken_assumptions
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.grid import why_without_grid_error
+from roughline.engineering.limits import left_out
+from roughline.files.read import suspicions
+from roughline.spectra.moments import Moments
+from roughline.topography.body import Line, Surface
+
+
+def warnings_of(
+    result: Assessment, spectrum: Moments | None, grid_error_was_tried: bool
+) -> list[str]:
+    """What is suspicious, where assumptions break, and why there is no interval."""
+    bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
+    warnings = [
+        *say.of_each(bodies, suspicions),
+        *broken_assumptions(result, spectrum),
+        *curve.warnings,
+    ]
+    warnings += say.of_joint_and_borders(result, grave=True)
+    if isinstance(body, Surface) and curve.stiffness_error is None:
+        warnings.append(why_without_grid_error(result.question, body, grid_error_was_tried))
+    return warnings
+
+
+def notes_of(result: Assessment, of_filling: str) -> list[str]:
+    """What is left out, what was filled, how the loads were meant, and what was cropped."""
+    question, body, pair = result.question, result.body, result.question.pair
+    bodies = [each.body for each in result.topographies]
+    notes = say.of_yield(result)
+    if pair is not None:
+        if isinstance(body, Line) and pair.hardness is not None:
+            notes.append(
+                "the reduced model has no yield: it may serve while mean contact pressures stay "
+                "below some 0.4 of the hardness, which rms slopes over 0.8 H / E* exceed"
+            )
+        notes += left_out(pair, question.frequency_in_hertz)
+        if result.curve.area_fraction is None:
+            notes.append("no contact area: the reduced model of a line does not predict it")
+    notes += say.of_each(bodies, say.filled_points_and_spikes)
+    notes += [of_filling] if of_filling else []
+    notes += say.meaning_of_loads(question, body)
+    return notes + say.of_joint_and_borders(result, grave=False) + say.cropping_and_resampling(body)

@@ -1,0 +1,53 @@
+"""A curve at some of its loads, or over more loads than were solved."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Mask, Real
+from roughline.contact.curve import Curve, Status
+
+
+def at_loads(curve: Curve, loads: Indices) -> Curve:
+    """Return a curve at some of its loads, by their numbers; without its fields."""
+    taken = {name: values[loads] for name, values in _over_loads(curve).items()}
+    return replace(curve, **taken, fields=(), dents=())
+
+
+def among_loads(curve: Curve, solved: Mask) -> Curve:
+    """Return a curve over more loads, of which these were solved: NaN at the others.
+
+    Parameters
+    ----------
+    curve : Curve
+        Of as many loads as were solved.
+    solved : ndarray of bool, shape (loads,)
+        Which of all loads these are.
+    """
+    spread: dict[str, Any] = {}
+    for name, values in _over_loads(curve).items():
+        if values.dtype.kind == "f":
+            spread[name] = among(values, solved)
+        else:
+            spread[name] = np.full(solved.size, _UNSOLVED.get(name, 0), values.dtype)
+            spread[name][solved] = values
+    return replace(curve, **spread, fields=(), dents=())
+
+
+def among(values: Real, solved: Mask) -> Real:
+    """Return values over more loads, of which these were solved: NaN at the others."""
+    spread = np.full(solved.size, np.nan)
+    spread[solved] = values
+    return spread
+
+
+_UNSOLVED = {"status": int(Status.INTERRUPTED)}
+
+
+def _over_loads(curve: Curve) -> dict[str, Any]:
+    """Every quantity of a curve that has a value for each load, by its name."""
+    values = {item.name: getattr(curve, item.name) for item in fields(Curve)}
+    return {name: each for name, each in values.items() if isinstance(each, np.ndarray)}
