@@ -6,10 +6,11 @@ from typing import Any
 
 import numpy as np
 
+import roughline as rl
+
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.source import Topography
 from roughline.engineering.answer import Answer
-from roughline.errors import InputError
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import (
     Arguments,
@@ -45,7 +46,7 @@ def maps(arguments: Arguments, progress: Progress) -> bytes:
         reading = reading_of(said, source.name)
         try:
             row["cells"] = body_in_words(Topography.of(source.path, reading, preparation).body)
-        except InputError as error:
+        except rl.InputError as error:
             row["refused"] = without_paths(in_controls(str(error)), arguments)
         rows.append(row)
     return frame({"maps": rows})
