@@ -6,7 +6,7 @@ OUT ?= out/paper
 TEST_PROCESSES ?= 2
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness bootstrap-coverage persson contact-area robustness soak start-up lab-benchmark fuzz study published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak start-up lab-benchmark fuzz study published architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -55,6 +55,9 @@ bootstrap-coverage: $(VENV)/installed
 interface-stiffness: $(VENV)/installed
 	$(BIN)/python benchmarks/interface_stiffness.py
 
+part-coverage: $(VENV)/installed
+	$(BIN)/python benchmarks/part_coverage.py
+
 robustness: $(VENV)/installed
 	$(BIN)/python benchmarks/robustness.py
 
@@ -71,7 +74,7 @@ lab-sessions: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_sessions.py
 
 fuzz: $(VENV)/installed
-	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py
+	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py tests/halfspace/test_hardness_robustness.py
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr

@@ -19,13 +19,13 @@ from scipy.special import erfinv
 
 import roughline as rl
 from roughline.assessment.larger_surface import roll_offs_along_a_side
-from roughline.assessment.pieces import share_of_the_whole
+from roughline.assessment.pieces import AREA_OF_ONE, STIFFNESS_OF_ONE, share_of_the_whole
 from roughline.engineering.answers import saturated_stiffness
 from roughline.engineering.formulas import interface_stiffness
 
 # wanted contact area fractions of the parent, about
 WANTED = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.33, 0.5, 0.65, 0.8, 0.9, 0.95)
-NUMBERS = ("wanted", "touching", "resolved", "free", "periodic", "roll_offs")
+NUMBERS = ("wanted", "touching", "resolved", "free", "periodic", "roll_offs", "area")
 FIELDS = ("kind", "n", "m", "cells", "hurst", "waves", "seed", *NUMBERS)
 SHOWN = (0.01, 0.05, 0.2, 0.33, 0.5, 0.65, 0.8, 0.9)
 
@@ -91,6 +91,7 @@ def rows(whole, pieces):
                 own[i] / piece.area / stiffness[i],
                 periodic.stiffness[i] / piece.area / stiffness[i],
                 roll_offs or math.nan,
+                periodic.area_fraction_corrected[i] / truth.area_fraction_corrected[i],
             )
 
 
@@ -129,27 +130,39 @@ def print_ratios(table):
             print(f"| {waves:g} | {boundary} | {' | '.join(cells)} |")
 
 
+def shares(here, of):
+    """Both ends of the whole over its pieces, (loads, 2)."""
+    return np.array(
+        [
+            share_of_the_whole(share, None if np.isnan(roll_offs) else roll_offs, of)
+            for share, roll_offs in zip(here["touching"], here["roll_offs"], strict=True)
+        ]
+    )
+
+
+def held(ends, truth):
+    """Share of intervals that hold the truth."""
+    return np.mean((ends[:, 0] <= truth) & (truth <= ends[:, 1]))
+
+
 def print_coverage(table):
     """Print how often the interval holds the parent, and how wide it is."""
-    print("\n| pieces | roll-offs a side | loads | none seen | covered | from | to |")
-    print("|---|---|---|---|---|---|---|")
+    print(
+        "\n| pieces | roll-offs a side | loads | none seen | covered | from | to | area covered |"
+    )
+    print("|---|---|---|---|---|---|---|---|")
     for kind in dict.fromkeys(table["kind"]):
         for waves in np.unique(table["waves"][table["kind"] == kind]):
             here = table[(table["kind"] == kind) & (table["waves"] == waves)]
-            ends = np.array(
-                [
-                    share_of_the_whole(share, None if np.isnan(roll_offs) else roll_offs)
-                    for share, roll_offs in zip(here["touching"], here["roll_offs"], strict=True)
-                ]
-            )
-            truth = 1 / here["periodic"]
-            covered = np.mean((ends[:, 0] <= truth) & (truth <= ends[:, 1]))
+            ends = shares(here, STIFFNESS_OF_ONE)
+            covered = held(ends, 1 / here["periodic"])
+            area = held(shares(here, AREA_OF_ONE), 1 / here["area"])
             usual = (here["touching"] > 0.02) & (here["touching"] < 0.7)
             low, high = np.median(ends[usual], axis=0)
             none = np.mean(np.isnan(here["roll_offs"]))
             print(
                 f"| {kind} | {waves:g} | {here.size} | {none:.0%} | {covered:.1%} | "
-                f"{low:.2f} | {high:.2f} |"
+                f"{low:.2f} | {high:.2f} | {area:.1%} |"
             )
 
 

@@ -1,9 +1,10 @@
 """Count how often the interval of a part, from some maps of it, holds its truth.
 
-``make part-coverage``. Each part is a periodic surface, pressed as a whole; that is the truth. It
-is cut into 64 maps, which lose their tilt and are assessed one by one, as a user would, for a joint
-as large as the part. Then some of the maps are drawn many times, and their interval is compared
-with the truth. Rows go to a file as they are made; what is there is not made again.
+``make part-coverage``. Each part is a periodic surface. It is cut into 64 maps, which lose their
+tilt and are assessed one by one, as a user would: alone, and for a joint as large as the part. The
+truth has the same waves on twice as many points a side: of a joint it is the whole part, of maps
+alone the mean over all of them. Then some of the maps are drawn many times, and their interval is
+compared with the truth. Rows go to a file as they are made; what is there is not made again.
 """
 
 import argparse
@@ -19,59 +20,67 @@ from scipy.special import erfinv
 import roughline as rl
 from roughline.statistics.places import average_of_places
 
-POINTS, MAP = 1024, 128
+POINTS, MAP, FINER = 512, 64, 2
 CELLS = 4  # to the shortest wave
 HURSTS = (0.4, 0.9)
-WAVES = (0.35, 0.75, 1.5, 3, 6, 12)  # roll-off wavelengths along a side of a map
+WAVES = (0.35, 0.75, 1.5, 3, 6)  # roll-off wavelengths along a side of a map
 SEEDS = (1, 2)
 WANTED = (0.01, 0.1, 0.4)  # contact area fractions, about
 COUNTS = (1, 2, 3, 4, 5, 7, 10)
 DRAWS = 400
-KEYS = ("stiffness_per_area", "contact_area_fraction")
+OF_JOINT = ("stiffness_per_area", "contact_area_fraction")
+OF_MAP = "contact_stiffness"
 KEY = ["hurst", "waves", "seed"]
 ENDS = ["low", "high", "shared_low", "shared_high"]
 MATERIALS = "E=200 GPa nu=0.3 resistivity=1e-7 ohm m, E=200 GPa nu=0.3 resistivity=1e-7 ohm m"
 
 
-def part(hurst, waves, seed):
-    """A part, 8 mm x 8 mm, and the mean pressures that it is pressed with."""
+def part(hurst, waves, seed, finer=1):
+    """A part of 8 mm a side."""
     side = 8e-3
     q_map = math.tau * POINTS / MAP / side
     roll = {} if waves * POINTS <= MAP else {"q_roll": waves * q_map}
     spectrum = rl.SelfAffine(
         hurst=hurst, length=side, rms_height=1e-6, q_high=math.tau * POINTS / CELLS / side, **roll
     )
-    surface = spectrum.surface(POINTS, rng=100 * seed + round(10 * hurst))
-    E_star = rl.Question(surface, MATERIALS).modulus
-    return surface, E_star, surface.rms_slope * E_star * erfinv(WANTED) / math.sqrt(2)
+    return spectrum.surface(finer * POINTS, rng=100 * seed + round(10 * hurst))
 
 
 def maps_of(surface):
     """All maps of a part, without their tilt."""
-    places = range(0, POINTS, MAP)
-    return [surface.cropped((i, i + MAP), (j, j + MAP)).detrended() for i in places for j in places]
+    step = surface.shape[0] * MAP // POINTS
+    places = range(0, surface.shape[0], step)
+    return [
+        surface.cropped((i, i + step), (j, j + step)).detrended() for i in places for j in places
+    ]
 
 
 def rows(hurst, waves, seed):
     """Each map's values and ends, and the truth of the part."""
-    surface, E_star, pressures = part(hurst, waves, seed)
-    whole = rl.press(surface, E_star=E_star, forces=pressures * surface.area, periodic=True)
-    truths = (whole.stiffness / surface.area, whole.area_fraction_corrected)
+    surface, fine = (part(hurst, waves, seed, finer) for finer in (1, FINER))
+    E_star = rl.Question(surface, MATERIALS).modulus
+    pressures = surface.rms_slope * E_star * erfinv(WANTED) / math.sqrt(2)
+    whole = rl.press(fine, E_star=E_star, forces=pressures * fine.area, periodic=True)
+    truths = dict(
+        zip(OF_JOINT, (whole.stiffness / fine.area, whole.area_fraction_corrected), strict=True)
+    )
+    alone = [
+        rl.press(each, E_star=E_star, forces=pressures * each.area).stiffness
+        for each in maps_of(fine)
+    ]
+    truths[OF_MAP] = np.exp(np.mean(np.log(alone), axis=0))
+    asked = {"loads": [f"{pressure:.9g} Pa" for pressure in pressures], "grid_error": True}
     for number, each in enumerate(maps_of(surface)):
-        question = rl.Question(
-            each,
-            MATERIALS,
-            loads=[f"{pressure:.9g} Pa" for pressure in pressures],
-            joint_area=surface.area,
-            grid_error=True,
-            fields=False,
-        )
-        result = rl.assess(question)
-        for key, truth in zip(KEYS, truths, strict=True):
-            answer = result.answers[key]
+        found = {}
+        for joint in (None, surface.area):
+            question = rl.Question(each, MATERIALS, joint_area=joint, fields=False, **asked)
+            found |= rl.assess(question).answers
+        for key, truth in truths.items():
+            answer = found[key]
+            ends = (answer.low, answer.high)
             for i, wanted in enumerate(WANTED):
-                ends = (each[i] for each in (answer.low, answer.high, *answer.shared))
-                yield number, wanted, key, truth[i], answer.values[i], *ends
+                four = (end[i] for end in (*ends, *(answer.shared or ends)))
+                yield number, wanted, key, truth[i], answer.values[i], *four
 
 
 def measured(file):
@@ -117,7 +126,7 @@ def print_coverage(table):
     heads = "".join(f" {count} |" for count in COUNTS)
     print(f"| quantity | roll-offs a side |{heads}")
     print("|---" * (2 + len(COUNTS)) + "|")
-    for key in KEYS:
+    for key in (*OF_JOINT, OF_MAP):
         for waves in (*WAVES, None):
             here = table[(table["key"] == key) & ((table["waves"] == waves) | (waves is None))]
             cells = []
@@ -127,7 +136,7 @@ def print_coverage(table):
             print(f"| {key} | {'all' if waves is None else waves} | {' | '.join(cells)} |")
 
 
-def print_kinds(file_of_rows):
+def print_kinds():
     """Print how much the rms heights of the maps of one part differ."""
     print("\n| roll-offs a side | largest over smallest rms height of ten maps |")
     print("|---|---|")
@@ -136,7 +145,7 @@ def print_kinds(file_of_rows):
         ratios = []
         for hurst in HURSTS:
             for seed in SEEDS:
-                rms = np.array([each.rms_height for each in maps_of(part(hurst, waves, seed)[0])])
+                rms = np.array([each.rms_height for each in maps_of(part(hurst, waves, seed))])
                 for _ in range(100):
                     ten = rng.choice(rms, 10, replace=False)
                     ratios.append(ten.max() / ten.min())
@@ -152,7 +161,7 @@ def main():
     table = measured(arguments.rows)
     print(f"\nroughline {rl.__version__}\n")
     print_coverage(table)
-    print_kinds(arguments.rows)
+    print_kinds()
 
 
 if __name__ == "__main__":

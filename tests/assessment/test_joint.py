@@ -10,7 +10,12 @@ import roughline as rl
 from roughline.engineering.formulas import electrical_resistance
 from roughline.engineering.joint import constriction_of_disc
 
-PAIR = "steel,copper"
+# harder than any contact pressure here, so that nothing yields
+FIRST = "E=210 GPa nu=0.3 hardness=1000 GPa resistivity=1e-7 ohm m conductivity=50 W/m/K"
+SECOND = "E=120 GPa nu=0.3 hardness=1000 GPa resistivity=2e-8 ohm m conductivity=400 W/m/K"
+PAIR = f"{FIRST} density=7800 kg/m^3, {SECOND} density=8900 kg/m^3"
+RESISTIVITIES = (1e-7, 2e-8)
+YIELDING = PAIR.replace("hardness=1000 GPa", "hardness=0.5 GPa")
 SPECTRUM = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6, q_roll=math.tau / 12e-6)
 
 
@@ -21,23 +26,26 @@ def part():
     return surface, surface.cropped((0, 64), (0, 64)).detrended()
 
 
-def test_a_joint_of_four_maps_is_the_map_laid_four_times():
+@pytest.mark.parametrize("materials", [PAIR, YIELDING])
+def test_a_joint_of_four_maps_is_the_map_laid_four_times(materials):
     """Every answer, for every one grows with the area as is declared."""
     tile = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-7).surface(32, 5)
     four = rl.Surface(np.tile(tile.heights, (2, 2)), (2e-4, 2e-4))
-    asked = {"materials": PAIR, "frequency": "5 MHz", "grid_error": False, "fields": False}
+    asked = {"materials": materials, "frequency": "5 MHz", "grid_error": False, "fields": False}
     joint = rl.assess(rl.Question(tile, loads="4 N", joint_area=four.area, **asked)).answers
     whole = rl.assess(rl.Question(four, loads="4 N", periodic=True, **asked)).answers
-    names = {"interface_stiffness": "contact_stiffness"}  # of what is repeated they are the same
-    specific = whole["constriction_resistance"].values * four.area
+    k_u = whole["unloading_stiffness"].values  # of what is repeated, that of the interface
+    expectations = {key: each.values for key, each in whole.items()} | {
+        "interface_stiffness": k_u,
+        "stiffness_per_area": k_u / four.area,
+        "specific_contact_resistance": whole["constriction_resistance"].values * four.area,
+    }
     for key, answer in joint.items():
-        expected = specific
-        if key != "specific_contact_resistance":
-            expected = whole[names.get(key, key)].values
         # estimates of the literature take the rms slope of the forward differences inside
         tolerance = 0.05 if key in ("mikic_conductance", "plastic_conductance") else 1e-5
-        assert answer.values == pytest.approx(expected, rel=tolerance), key
-    assert set(whole) - set(joint) == {"contact_stiffness"}
+        assert answer.values == pytest.approx(expectations[key], rel=tolerance), key
+    assert set(whole) - set(joint) == {"unloading_stiffness"}
+    assert (joint["plastic_fraction"].values > 0.1) == (materials == YIELDING)
 
 
 def test_forces_act_on_the_joint_and_pressures_are_the_same_everywhere(part):
@@ -67,20 +75,23 @@ def test_what_is_per_area_does_not_know_how_large_the_joint_is(part):
     )
 
 
-def test_the_joint_is_within_the_interval_of_its_map(part):
+@pytest.mark.parametrize("materials", [PAIR, YIELDING])
+def test_the_joint_is_within_the_interval_of_its_map(part, materials):
     """The truth is the whole part, pressed as it is, which the map is a sixteenth of."""
     surface, piece = part
-    E_star = rl.Question(piece, PAIR).modulus
-    force = 5e6 * surface.area
-    truth = rl.press(surface, E_star=E_star, forces=[force], periodic=True)
-    question = rl.Question(piece, PAIR, loads=force, joint_area=surface.area, grid_error=True)
-    found = rl.assess(question).answers
-    metals = [rl.material(name).resistivity for name in ("steel", "copper")]
+    pair, force = rl.Question(piece, materials).pair, 5e6 * surface.area
+    truth = rl.press(
+        surface, E_star=pair.E_star, hardness=pair.hardness, forces=[force], periodic=True
+    )
+    question = rl.Question(piece, materials, loads=force, joint_area=surface.area, grid_error=True)
+    found, k_u = rl.assess(question).answers, truth.unloading_stiffness
     expected = {
-        "interface_stiffness": truth.stiffness,
+        "contact_stiffness": truth.stiffness,
+        "interface_stiffness": k_u,
         "contact_area": truth.area_fraction_corrected * surface.area,
-        "constriction_resistance": electrical_resistance(truth.stiffness, E_star, metals),
+        "constriction_resistance": electrical_resistance(k_u, pair.E_star, RESISTIVITIES),
     }
+    assert (found["plastic_fraction"].values > 0.1) == (materials == YIELDING)
     for key, value in expected.items():
         answer = found[key]
         assert answer.low < value < answer.high, key
@@ -104,9 +115,8 @@ def test_what_is_left_out_of_a_joint_is_told_with_its_size(part):
     )
     disc = constriction_of_disc(2e-8, light.curve.E_star)
     radius = math.sqrt(2e-8 / math.pi)
-    metals = [rl.material(name).resistivity for name in ("steel", "copper")]
-    assert electrical_resistance(disc, light.curve.E_star, metals) == pytest.approx(
-        sum(metals) / (4 * radius)
+    assert electrical_resistance(disc, light.curve.E_star, RESISTIVITIES) == pytest.approx(
+        sum(RESISTIVITIES) / (4 * radius)
     )
     assert any("evenly loaded" in note for note in light.notes)
     assert any("evenly loaded" in note and "decide as well" in note for note in heavy.warnings)

@@ -260,7 +260,7 @@ def test_a_report_with_loads_that_failed_says_so(surface_file, invoke, monkeypat
     original = load_cases.press
     monkeypatch.setattr(load_cases, "press", lambda *a, **k: original(*a, **k, max_iterations=1))
     code, out, err = invoke(
-        *("press", surface_file, "--materials", "steel,copper", "--load", "0.1 N"),
+        *("press", surface_file, "--materials", "steel,copper", "--load", "0.1 N", "--elastic"),
         *("--load", "0.5 N", "--theory", "persson", "--friction", 0.3, "--report", tmp_path / "r"),
     )
     assert code == 1, err

@@ -9,7 +9,11 @@ import pytest
 
 import roughline as rl
 
-ASKED = ("--materials", "steel,copper", "--load", "5 MPa", "--no-grid-error")
+METALS = (
+    "E=210 GPa nu=0.3 resistivity=1e-7 ohm m conductivity=50 W/m/K, "
+    "E=120 GPa nu=0.3 resistivity=2e-8 ohm m conductivity=400 W/m/K"
+)
+ASKED = ("--materials", METALS, "--load", "5 MPa", "--no-grid-error")
 
 
 @pytest.fixture
@@ -54,7 +58,7 @@ def test_json_has_each_map_and_the_part(scans, invoke):
 def test_a_report_on_a_part_and_its_joint(scans, invoke, tmp_path):
     folder = tmp_path / "report"
     code, _, errors = invoke(
-        *("press", *scans[:2], scans[3], "--materials", "steel,copper", "--load", "1 kN"),
+        *("press", *scans[:2], scans[3], "--materials", METALS, "--load", "1 kN"),
         *("--joint-area", "2 cm^2", "--report", folder),
     )
     assert code == 1, errors

@@ -55,3 +55,62 @@ def test_contact_mechanics_finds_the_same_contact(surface, periodic):
         if periodic:  # there, even pressure displaces as much as the longest wave does
             depth -= force / np.pi
         assert curve.depth[i] == pytest.approx(depth, rel=1e-5)
+
+
+# hardness and mean pressure over the rms slope: a third of the contact is elastic, and a twelfth
+YIELDING = [(0.3, 0.05), (0.1, 0.03)]
+
+
+@pytest.mark.parametrize("state", YIELDING)
+def test_tamaas_finds_the_same_contact_of_a_body_that_yields(surface, state):
+    tm = pytest.importorskip("tamaas")
+    hardness, force = (each * surface.rms_slope for each in state)
+    model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [N, N])
+    model.E, model.nu = 1.0, 0.0
+    solver = tm.KatoSaturated(model, np.array(surface.heights), 1e-12, hardness)
+    solver.setMaxIterations(20000)
+    solver.solve(force)
+    pressure = np.array(model.traction)
+    curve = assert_same_pressures(surface, hardness, force, pressure, 1e-5, periodic=True)
+    model.solveNeumann()  # its own displacement of these pressures
+    displacement = np.array(model.displacement) - np.mean(model.displacement)
+    elastic = (pressure > 0) & (pressure < 0.999 * hardness)
+    depth = surface.heights.max() + np.mean((displacement - surface.heights)[elastic])
+    assert curve.depth[0] == pytest.approx(depth, rel=1e-6)
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("state", YIELDING)
+def test_contact_mechanics_finds_the_same_contact_of_a_body_that_yields(surface, state, periodic):
+    cm = pytest.importorskip("ContactMechanics")
+    from ContactMechanics.Factory import make_plastic_system
+    from SurfaceTopography import PlasticTopography, Topography
+
+    hardness, force = (each * surface.rms_slope for each in state)
+    topography = Topography(np.array(surface.heights), (1.0, 1.0), periodic=True)
+    topography = PlasticTopography(topography, hardness)
+    half_space = (cm.FreeFFTElasticHalfSpace, cm.PeriodicFFTElasticHalfSpace)[periodic]
+    system = make_plastic_system(substrate=half_space((N, N), 1.0, (1.0, 1.0)), surface=topography)
+    result = system.minimize_proxy(external_force=force, pentol=1e-10, maxiter=20000)
+    assert result.success
+    pressure = np.asarray(result.jac)[:N, :N] * N**2
+    # there, forces are met to a millionth
+    curve = assert_same_pressures(surface, hardness, force, pressure, 5e-5, periodic=periodic)
+    depth = surface.heights.max() + result.offset
+    if periodic:  # there, even pressure displaces as much as the longest wave does
+        depth -= force / np.pi
+    assert curve.depth[0] == pytest.approx(depth, rel=1e-5)
+    dents = np.abs(topography.plastic_displ)
+    assert np.abs(curve.fields[0].indentation - dents).max() < 1e-5 * dents.max()
+
+
+def assert_same_pressures(surface, hardness, force, pressure, tolerance, *, periodic):
+    """Compare area, plastic nodes and pressures; return our curve."""
+    curve = rl.press(
+        surface, E_star=1.0, hardness=hardness, forces=[force], periodic=periodic, fields=True
+    )
+    fields = curve.fields[0]
+    assert ((pressure > 0) == fields.contact).all()
+    assert ((pressure > (1 - 1e-9) * hardness) == fields.plastic).all()
+    assert np.abs(fields.pressure - pressure).max() <= tolerance * hardness
+    return curve

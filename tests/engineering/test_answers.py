@@ -13,7 +13,13 @@ from roughline.assessment.larger_surface import (
 )
 from roughline.assessment.pieces import share_of_the_whole
 from roughline.engineering.answers import answers, saturated_stiffness
-from roughline.engineering.formulas import interface_stiffness
+from roughline.engineering.formulas import (
+    electrical_resistance,
+    interface_stiffness,
+    reflection,
+    thermal_conductance,
+)
+from roughline.engineering.intervals import Intervals
 from roughline.engineering.limits import elastic_warnings
 from roughline.engineering.pair import MaterialPair
 
@@ -91,7 +97,7 @@ def test_in_full_contact_the_interface_is_infinitely_stiff():
         PAIR,
         interface_stiffness=stiffness_of_the_piece(flat, curve, interval),
         frequency=5e6,
-        stiffness_interval=interval,
+        intervals=Intervals(interval, interval),
     )
     found = by_symbol(given)
     assert np.isinf(found["k_i"].values).all()
@@ -128,8 +134,7 @@ def test_intervals_are_carried_on():
             PAIR,
             interface_stiffness=stiffness_of_the_piece(surface, curve, (low, high)),
             frequency=5e6,
-            stiffness_interval=(low, high),
-            area_interval=(0.5 * share, 1.5 * share),
+            intervals=Intervals((low, high), (low, high), (0.5 * share, 1.5 * share)),
         )
     )
 
@@ -257,6 +262,79 @@ def test_both_uncertainties_are_combined():
     assert wide.high == pytest.approx(k * np.exp(np.hypot(np.log(10), np.log(alone.high / k))))
 
 
+def yielding(surface, pair, forces, periodic=False):
+    """Press up to the hardness of the softer body."""
+    return rl.press(
+        surface, E_star=pair.E_star, hardness=pair.hardness, forces=forces, periodic=periodic
+    )
+
+
+def test_what_currents_heat_waves_and_shear_meet_is_the_unloading_stiffness():
+    """All of the contact springs back there, whatever made it; on loading points yield on."""
+    surface = sphere(64)
+    curve = yielding(surface, PAIR, [3.0, 30.0])
+    k_u = curve.unloading_stiffness
+    assert (curve.stiffness < 0.95 * k_u).all()
+    found = by_symbol(answers(curve, surface.area, PAIR, frequency=5e6))
+    assert found["k"].values == pytest.approx(curve.stiffness, rel=1e-12)
+    assert found["k_u"].values == pytest.approx(k_u, rel=1e-12)
+    resistivities = PAIR.both("resistivity")
+    assert found["R"].values == pytest.approx(
+        electrical_resistance(k_u, PAIR.E_star, resistivities), rel=1e-12
+    )
+    G = thermal_conductance(k_u, PAIR.E_star, PAIR.both("conductivity"))
+    assert found["G"].values == pytest.approx(G, rel=1e-12)
+    assert found["h_c"].values == pytest.approx(G / surface.area, rel=1e-12)
+    assert found["k_t"].values == pytest.approx(PAIR.G_star / PAIR.E_star * k_u, rel=1e-12)
+    waves = reflection(k_u / surface.area, 5e6, PAIR.both("impedance"))
+    assert found["|R|"].values == pytest.approx(waves, rel=1e-12)
+    assert stiffness_of_the_piece(surface, curve).values == pytest.approx(
+        interface_stiffness(k_u, saturated_stiffness(surface, PAIR.E_star)), rel=1e-12
+    )
+
+
+def test_a_fully_plastic_sphere_bears_its_hardness():
+    """F = H A where all yields; the disc as large, springing back, has k_u = 2 E* a."""
+    surface, soft = sphere(128), rl.material("copper hardness=10 MPa")
+    pair = MaterialPair(rl.material("steel"), soft)
+    force = 1.0  # by F / H, a disc of 0.18 mm
+    curve = yielding(surface, pair, [force])
+    found = by_symbol(answers(curve, surface.area, pair))
+    radius = math.sqrt(force / (math.pi * 10e6))
+    assert found["p_c/H"].values == pytest.approx([1.0], abs=5e-3)
+    assert found["A_p/A"].values > 0.9
+    assert found["A"].values == pytest.approx([math.pi * radius**2], rel=5e-3)
+    assert found["k_u"].values == pytest.approx([2 * PAIR.E_star * radius], rel=1e-2)
+    assert found["R"].values == pytest.approx([(1.6e-7 + 1.68e-8) / (4 * radius)], rel=1e-2)
+    assert found["R"].values == pytest.approx(found["R_Holm"].values, rel=1e-2)
+    # a spherical cap pressed flat, with no pile-up: its height over the disc
+    assert found["w"].values == pytest.approx([radius**2 / (2 * 5e-3)], rel=5e-2)
+
+
+def test_bodies_just_apart_have_answers_that_can_be_written():
+    """After unloading: no stiffness, no area, no pressure; nothing conducts, all is reflected."""
+    surface = sphere(32)
+    curve = yielding(surface, PAIR, [30.0, 0.0])
+    found = by_symbol(
+        answers(
+            curve,
+            surface.area,
+            PAIR,
+            interface_stiffness=stiffness_of_the_piece(surface, curve),
+            amplitudes=(1e-6, 0.1),
+            frequency=5e6,
+        )
+    )
+    last = {symbol: float(each.values[1]) for symbol, each in found.items()}
+    assert not np.isnan(list(last.values())).any()
+    for symbol in ("F", "k", "k_u", "k_i", "A", "p_c", "p_c/H", "A_p/A", "G", "h_c", "k_t"):
+        assert last[symbol] == 0, symbol
+    assert math.isinf(last["R"])
+    assert last["|R|"] == 1
+    assert last["d"] > 0
+    assert last["w"] == found["w"].values[0]  # for good
+
+
 def test_what_is_not_known_of_a_material_is_left_out():
     surface = sphere(32)
     glass = MaterialPair(rl.material("glass"), rl.material("rigid"))
@@ -276,5 +354,6 @@ def test_the_elastic_assumption_is_watched():
     curve = rl.press(surface, E_star=soft.E_star, forces=[100.0])
     told = elastic_warnings(by_key(answers(curve, surface.area, soft)), None)
     assert "of the softer body's hardness" in told[0]
+    assert "leave out elastic=True" in told[0]
     assert elastic_warnings(by_key(answers(curve, surface.area, hard)), 0.5) == []
     assert "plasticity index is 3" in elastic_warnings({}, 3.0)[0]

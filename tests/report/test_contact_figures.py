@@ -14,7 +14,7 @@ def test_one_area_is_told_everywhere(rough):
         rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"], whole_curve=True)
     )
     axes = Figure().subplots()
-    draw_contact(axes, pressed.body, pressed.curve)
+    draw_contact(axes, pressed.body, pressed)
     area = pressed.answers["contact_area_fraction"]
     told = quantity(area, 1).split("%")[0]
     assert axes.get_title() == f"corrected area {told}% at 10 N"

@@ -62,3 +62,7 @@ def test_places_without_a_value_are_left_out_and_infinite_ones_have_no_mean():
     assert np.isnan(found.mean[2:]).all()
     assert found.count.tolist() == [2, 1, 1, 0]
     assert np.isnan(found.low[1:]).all()
+    alike = np.array([[0.0, np.inf], [0.0, np.inf]])
+    found = average_of_places(alike, unknown(alike), unknown(alike))
+    assert found.mean.tolist() == [0.0, np.inf]
+    assert np.isnan(found.low).all()

@@ -49,7 +49,8 @@ def differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
     if first.question.joint is None and differ_in_size(list(results.values())):
         found.append(
             "the maps differ in size, so what belongs to a whole map has no common mean; give mean "
-            "pressures as loads for what is per area, or the area of the joint (joint_area=)"
+            "pressures as loads for what is per area"
+            + (", or the area of the joint (joint_area=)" if kinds == {True} else "")
         )
     return found
 

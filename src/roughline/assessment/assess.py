@@ -102,11 +102,8 @@ def assess_body(
         result = with_scatter_of_hardness(with_elastic_answers(result, again), again)
     slip, interrupted = slip_at_largest_load(question, case, result.curve, result.area)
     result = replace(result, partial_slip=slip, interrupted=result.interrupted or interrupted)
-    return replace(
-        result,
-        warnings=warnings_of(result, spectrum, case.grid_error),
-        notes=notes_of(result, solution.note),
-    )
+    warnings = warnings_of(result, spectrum, case.grid_error)
+    return replace(result, warnings=warnings, notes=notes_of(result, solution.note))
 
 
 def _needs_larger_surface(question: Question, body: Body) -> bool:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from roughline.assessment.given import as_si
 from roughline.errors import InputError
+from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.question import Question
@@ -78,9 +79,12 @@ def refuse_beyond_hardness(question: Question, area: float) -> None:
     if hardness is None:
         return
     for heading, force in zip(question.headings, question.forces(area), strict=False):
-        if force >= hardness.value * area:
+        if force >= hardness.value * area * (1 - 1e-12):  # of a joint it is rounded
+            most = engineering(hardness.value * area * question.scale(area), "N")
+            on = "the map" if question.joint is None else "the joint"
             raise InputError(
-                f"load {heading} is a mean pressure of {force / area:.3g} Pa, and the softer body "
-                f"bears less than its hardness, {hardness.value:.3g} Pa (H A_0 = "
-                f"{hardness.value * area * question.scale(area):.3g} N in all): give smaller loads"
+                f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and the "
+                f"softer body, of hardness {engineering(hardness.value, 'Pa')}, bears less than "
+                f"{most} on {on} (H A_0): give smaller loads, or its hardness (hardness=) if that "
+                "is larger"
             )

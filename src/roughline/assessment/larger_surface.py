@@ -83,9 +83,9 @@ class LargerSurface:
         ends = self.stiffness.shared if shared else self.stiffness.ends
         assert ends is not None
         assert curve.unloading_stiffness is not None
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore"):  # bodies apart, and no upper end near full contact
             share = curve.stiffness / curve.unloading_stiffness
-        loading = share * ends[0], share * ends[1]
+            loading = share * ends[0], share * ends[1]
         return Intervals(loading, ends, self.shared_area if shared else self.area)
 
 

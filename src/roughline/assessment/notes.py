@@ -13,20 +13,20 @@ from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.engineering.answer import Answer
 from roughline.engineering.formulas import electrical_resistance
-from roughline.engineering.intervals import Ends
 from roughline.engineering.joint import constriction_of_disc
 from roughline.topography.body import Body, Surface
 from roughline.topography.repetition import border_jump
 from roughline.units import decimal, engineering
 
 _CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
-_MOVED = (  # by the scatter of hardness; keys of the answers of which it is told
+_MOVED = (  # keys of the answers of which it is told how far the scatter of the hardness moves them
     "contact_stiffness",
     "unloading_stiffness",
     "interface_stiffness",
     "contact_area",
     "constriction_resistance",
 )
+_LEAST = 0.05  # change that is told [%]
 _BORDER_OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope from which on it is warned
 
 
@@ -68,6 +68,8 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
     loads = question.headings[: len(several(question.loads))]  # unloading speaks for itself
     notes = []
     for text, force in dict(zip(loads, question.forces(area), strict=False)).items():
+        if force == 0:
+            continue
         pressure = engineering(force / area, "Pa")
         if question.joint is None:
             notes.append(
@@ -186,22 +188,44 @@ def of_yield(result: Assessment) -> list[str]:
         )
     elif not np.isnan(share):
         notes.append(f"nothing yields at the largest load: no point reaches the hardness, {known}")
-    if result.hardness_scatter:
-        moved = [
-            f"{result.answers[key].name} {_per_cent(result.hardness_scatter[key], result.largest)}"
-            for key in _MOVED
-            if key in result.hardness_scatter
-        ]
+    if hardness.factor > 1 and result.answers:
         notes.append(
-            f"the hardness of the table is known to a factor of {hardness.factor:g}; as soft and "
-            f"as hard as that, at the largest load: {', '.join(moved)}; that is in the intervals"
+            f"the hardness of the table is known to a factor of {hardness.factor:g}; "
+            f"{_scatter_in_words(result)}"
         )
     return notes
 
 
-def _per_cent(ratios: Ends, load: int) -> str:
-    """Write how far two ratios are from one, at a load."""
-    if np.isnan([end[load] for end in ratios]).any():
-        return "unknown, as the softest body does not bear the load"
-    low, high = (100 * (float(end[load]) - 1) for end in ratios)
-    return f"{low:+.2g} to {high:+.2g}%"
+def _scatter_in_words(result: Assessment) -> str:
+    """Say how far the scatter of the hardness moves answers at the largest load."""
+    load = result.largest
+    moved = {
+        result.answers[key].name: [float(end[load]) for end in result.hardness_scatter[key]]
+        for key in _MOVED
+        if key in result.hardness_scatter
+    }
+    if not moved:
+        return "interrupted before it was known what that moves, so values come without intervals"
+    if np.isnan([*moved.values()]).any():
+        return (
+            "as soft as that, the body does not bear the largest load, so how far the answers move "
+            "is not known there, and they come without intervals"
+        )
+    if np.allclose([*moved.values()], 1, rtol=0, atol=_LEAST / 100):
+        return "that moves no answer at the largest load, as nothing yields"
+    told = [f"{name} {change_in_words(low, high)}" for name, (low, high) in moved.items()]
+    return (
+        f"as soft and as hard as that, at the largest load: {', '.join(told)}; that is in the "
+        "intervals"
+    )
+
+
+def change_in_words(least: float, largest: float) -> str:
+    """Write how far a least and a largest ratio are from one, such as "-11 to +6%"."""
+
+    def signed(ratio: float) -> str:
+        percent = 100 * (ratio - 1)
+        return "0" if abs(percent) < _LEAST else ("+" if percent > 0 else "") + decimal(percent, 2)
+
+    ends = signed(least), signed(largest)
+    return "no change" if ends == ("0", "0") else f"{ends[0]} to {ends[1]}%"

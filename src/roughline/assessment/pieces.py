@@ -1,6 +1,7 @@
 """What pieces of a large surface tell of it: both ends of how the whole differs from them.
 
-All widths were chosen to hold 95 of 100 (benchmarks/interface_stiffness.py, part_coverage.py).
+All widths were chosen to hold 95 of 100: of single pieces on those of
+benchmarks/interface_stiffness.py, of many on parts such as benchmarks/part_coverage.py has.
 """
 
 from __future__ import annotations

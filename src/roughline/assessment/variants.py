@@ -59,14 +59,15 @@ class Again:
         """
         question = replace(result.question, hardness=hardness, elastic=hardness is None)
         other = replace(_without_intervals(result), question=question, body=body)
-        same = body is result.body and not _yields(result.curve)
-        if same and hardness is not None and hardness >= (result.curve.hardness or 0):
-            return with_answers(other, self.larger, self.spectrum)
+        curve, same = result.curve, body is result.body and not _yields(result.curve)
+        if same and hardness is not None and hardness >= (curve.hardness or 0):
+            curve = replace(curve, settings={**curve.settings, "hardness": hardness})
+            return with_answers(replace(other, curve=curve), self.larger, self.spectrum)
         loads = _borne(result, self.case, hardness)
         if not loads.any():
-            nothing = among_loads(at_loads(result.curve, np.flatnonzero(loads)), loads)
+            nothing = among_loads(at_loads(curve, np.flatnonzero(loads)), loads)
             return with_answers(replace(other, curve=nothing), None, self.spectrum)
-        solution, larger = self.solve(body, self.case.of_hardness(hardness, loads, result.curve))
+        solution, larger = self.solve(body, self.case.of_hardness(hardness, loads, curve))
         curve = among_loads(solution.curve, loads)
         other = replace(other, curve=curve, interrupted=solution.interrupted)
         return with_answers(other, larger.among(loads) if larger else None, self.spectrum)
@@ -177,8 +178,8 @@ def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment
         )
         scatter[key] = ratios
         ends = each.ends
-        if key in _OF_HARDNESS_ALONE:  # nothing else leaves them open
-            ends = each.values, each.values
+        if key in _OF_HARDNESS_ALONE and result.intervals is not None:
+            ends = each.values, each.values  # nothing else leaves them open
         within = limits.get(key, (0.0, np.inf))
         low, high = (None, None) if ends is None else _times(ends, ratios, *within)
         shared = None if each.shared is None else _times(each.shared, ratios, *within)

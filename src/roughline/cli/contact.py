@@ -4,20 +4,15 @@ from __future__ import annotations
 
 import shlex
 import sys
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from roughline.cli import options
-from roughline.cli.flags import in_flags
-from roughline.cli.options import end_interrupted, interruptible, make_folders, print_json
+from roughline.cli.body import press_body
 from roughline.cli.part import press_part
 from roughline.errors import InputError
-
-if TYPE_CHECKING:
-    from roughline.assessment.assessment import Assessment
 
 LOADS = "Loads"
 BODIES = "Bodies"
@@ -51,6 +46,22 @@ def press_command(
             rich_help_panel=BODIES,
         ),
     ] = None,
+    hardness: Annotated[
+        str | None,
+        typer.Option(
+            help='Hardness of the softer body, "2 GPa", taken as exact [default: that of the '
+            "materials, with its scatter].",
+            rich_help_panel=BODIES,
+        ),
+    ] = None,
+    elastic: Annotated[
+        bool,
+        typer.Option(
+            "--elastic",
+            help="Take both bodies as elastic, whatever their hardness.",
+            rich_help_panel=BODIES,
+        ),
+    ] = False,
     load: Annotated[
         list[str] | None,
         typer.Option(
@@ -94,22 +105,6 @@ def press_command(
             "--unload",
             help="Take the largest --load off again, in steps down to zero.",
             rich_help_panel=LOADS,
-        ),
-    ] = False,
-    hardness: Annotated[
-        str | None,
-        typer.Option(
-            help='Hardness of the softer body, "2 GPa", taken as exact [default: that of the '
-            "materials, with its scatter].",
-            rich_help_panel=BODIES,
-        ),
-    ] = None,
-    elastic: Annotated[
-        bool,
-        typer.Option(
-            "--elastic",
-            help="Take both bodies as elastic, whatever their hardness.",
-            rich_help_panel=BODIES,
         ),
     ] = False,
     periodic: Annotated[
@@ -217,12 +212,8 @@ def press_command(
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.assessment.assess import assess_body
     from roughline.assessment.question import Question
     from roughline.computing.fft import set_threads
-    from roughline.report.json_output import of_assessment
-    from roughline.report.progress import load_progress
-    from roughline.report.terminal import announce, print_assessment
 
     if threads is not None:
         set_threads(threads)
@@ -257,45 +248,7 @@ def press_command(
     )
     if question.is_of_several:
         return press_part(question, report, out, json, _as_typed())
-    with interruptible("there is no result"), load_progress() as progress:
-        make_folders(report, out)  # one that cannot be written is told before the work
-        result = assess_body(question, announce=announce, progress=progress)
-        result = replace(
-            result,
-            warnings=[in_flags(each) for each in result.warnings],
-            notes=[in_flags(each) for each in result.notes],
-        )
-        files = _written(result, report, out)
-    if json:
-        print_json(of_assessment(result, files))
-    else:
-        print_assessment(
-            result,
-            files,
-            long_curves_by="--out DIR or --json",
-            many_answers_by="--json and --report",
-        )
-    if result.interrupted:
-        end_interrupted("the loads solved before are above")
-    if not result.curve.converged.all():
-        raise typer.Exit(1)
-
-
-def _written(result: Assessment, report: Path | None, out: Path | None) -> list[Path]:
-    """Write what is wanted; interrupted, a report gets the curve alone."""
-    files: list[Path] = []
-    if report is None and out is None:
-        return files
-    from roughline.report.contact_figures import write_contact
-    from roughline.report.contact_report import write_contact_report
-
-    if report is not None and result.interrupted:
-        files += write_contact(result, report)  # a curve, but no answers to report yet
-    elif report is not None:
-        files += write_contact_report(result, report, _as_typed())
-    if out is not None:
-        files += write_contact(result, out)
-    return files
+    press_body(question, report, out, json, _as_typed())
 
 
 def _as_typed() -> str:

@@ -11,21 +11,20 @@ from roughline.engineering.answer import Answer, answer
 from roughline.engineering.intervals import Ends
 
 _BY_STIFFNESS = (
-    "stiffness_per_area",
     "constriction_resistance",
     "thermal_conductance",
     "tangential_stiffness",
 )
-"""Keys of what follows from k, which is the stiffness k_i of a joint's interface."""
+"""Keys of what follows from k_u, which is the stiffness k_i of a joint's interface."""
 
 
 def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]:
     """Return the answers of a joint, from those of a map of it under the same mean pressure.
 
     What is per area, or a share, stays as it is; forces, areas and conductances grow with the
-    nominal area, and resistances fall with it. The stiffness is that of the interface: the bodies'
-    constriction to the outline of the map, which is in a free map's contact stiffness, is in no
-    joint.
+    nominal area, and resistances fall with it. The stiffness is that of the interface on unloading,
+    and, of metals that yield, on further loading beside it: the bodies' constriction to the outline
+    of the map, which is in a free map's contact stiffness, is in no joint.
 
     Parameters
     ----------
@@ -34,12 +33,16 @@ def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]
     area, joint : float
         Nominal areas of both. [m²]
     """
+    answers = {each.key: each for each in given}
+    interface = _grown(answers["interface_stiffness"], joint / area)
+    left_out = "unloading_stiffness" if "unloading_stiffness" in answers else "contact_stiffness"
     found = []
-    for each in given:
-        if each.key in ("contact_stiffness", "unloading_stiffness"):
-            continue
-        found.append(_grown(each, joint / area))
-        if each.key == "constriction_resistance":
+    for key, each in answers.items():
+        if key == "stiffness_per_area":
+            found.append(_per_area(interface, joint))
+        elif key != left_out:  # the interface's own, which is there already
+            found.append(_grown(each, joint / area))
+        if key == "constriction_resistance":
             found.append(_specific(found[-1], joint))
     return found
 
@@ -50,6 +53,12 @@ def constriction_of_disc(joint: float, E_star: float) -> float:
     Bodies that are wide beside the joint are as compliant as that, without any roughness.
     """
     return 2 * E_star * math.sqrt(joint / math.pi)
+
+
+def _per_area(interface: Answer, joint: float) -> Answer:
+    """Stiffness of the interface over the area of the joint."""
+    made = answer("stiffness_per_area", interface.rows / joint, formula="k_i / A_joint")
+    return replace(made, shared=_times(interface.shared, 1 / joint))
 
 
 def _specific(resistance: Answer, joint: float) -> Answer:
@@ -68,7 +77,9 @@ def _grown(each: Answer, ratio: float) -> Answer:
             "A_joint / A_map"
         )
     elif each.key in _BY_STIFFNESS:
-        differing["validity"] = "; ".join(filter(None, [each.validity, "k is k_i of the joint"]))
+        differing["validity"] = "; ".join(filter(None, [each.validity, "k_u is k_i of the joint"]))
+    elif each.key == "contact_stiffness":
+        differing["validity"] = "; ".join(["of the interface alone", each.validity])
     elif each.key == "depth":
         differing["validity"] = (
             "of the map, from the touch of its highest point; the joint has higher ones"

@@ -31,6 +31,9 @@ _LARGEST_CHANGE = 1.0
 # A guess whose pressures exceed the hardness so many times leaves no doubt that nodes yield.
 _SURELY = 3.0
 
+# Over a force; so near, two forces are one, whatever the tolerance.
+_HAIR = 1e-13
+
 
 def solve_path(
     problem: Problem, loads: Sequence[Load], method: Method
@@ -73,7 +76,7 @@ class _Path:
         self._method = method
         self._start: ContactSet | None = None
         self._last: _Tangents | None = None
-        self._furthest: _Solved | None = None  # under the largest load, while smaller ones follow
+        self._furthest: _Solved | None = None  # under the largest load, until a larger one follows
         self._unknown_below = 0.0  # the largest load that was not solved
 
     def under(self, load: Load, next_load: Load | None) -> tuple[Contact, Response | None]:
@@ -112,16 +115,28 @@ class _Path:
             if pressure > _SURELY * most and problem.conditions is not self._yielding:
                 problem = replace(problem, conditions=self._yielding)
                 start, _ = first_guess(problem, load)
-        contact = solve(problem, load, start, self._method)
+        contact = self._solve(problem, load, start)
         if contact.pressure.max() > most:
             problem = replace(problem, conditions=self._yielding)
             start = ContactSet(contact.nodes, self._yielding.projected(contact.pressure))
             spent = contact.convolutions
             del contact
-            contact = solve(problem, load, start, self._method)
+            contact = self._solve(problem, load, start)
             contact = replace(contact, convolutions=contact.convolutions + spent)
         self._yields |= problem.conditions is self._yielding
         return contact
+
+    def _solve(self, problem: Problem, load: Load, start: ContactSet) -> Contact:
+        """Solve a contact, under a hair less force where nodes at the hardness alone would bear it.
+
+        With no elastic node among them the depth would be open.
+        """
+        if problem.conditions is self._yielding and load.force is not None:
+            nodes = load.force / (self._yielding.largest_pressure * problem.operator.cell_area)
+            whole = round(nodes)
+            if whole and abs(nodes - whole) <= _HAIR * whole:
+                load = Load(force=load.force * (1 - 2 * _HAIR))
+        return solve(problem, load, start, self._method)
 
     def _elastic_or_yielding(self, load: Load) -> Problem:
         """Return the bodies as the last load left them, elastic if they may be under this one.
@@ -150,7 +165,7 @@ class _Path:
         self._start, self._last = None, None
         if load is None:
             return
-        if solved is not None and load.value < solved.load.value and self._furthest is None:
+        if solved is not None and load.value <= solved.load.value and self._furthest is None:
             self._furthest = solved
         if self._furthest is not None and load.value > self._furthest.load.value:
             solved = self._furthest

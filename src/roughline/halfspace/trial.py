@@ -12,6 +12,10 @@ from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.operator import GridNodes, Precision
 from roughline.halfspace.state import Contact, Load, Outcome, Problem
 
+# Dents put first touch deep. The gaps of an approach beyond it are compared with this part of the
+# depth at least, since rounding hides smaller ones.
+_LEAST_APPROACH = 1e-7
+
 
 @dataclass(frozen=True, eq=False)
 class Trial:
@@ -82,10 +86,13 @@ class Trial:
             factor = _best_factor(
                 load.depth - problem.separation.flat[nodes], pressure, gap.flat[nodes]
             )
-            if factor * float(pressure.max()) >= most:  # so that none reaches the hardness
-                factor = np.nextafter(most, 0.0) / float(pressure.max())
-            pressure = factor * pressure
+            below = np.nextafter(most, 0.0)
+            if factor * float(pressure.max()) > below:  # so that none reaches the hardness
+                factor = below / float(pressure.max())
+            pressure = np.minimum(factor * pressure, below)  # the product may be rounded up
             gap *= factor
+        # soft bodies spring by little of their roughness: small gaps are much of their force
+        sprung = np.inf if elastic.all() else float(np.abs(gap.flat[nodes]).max())
         gap += problem.separation
         depth = load.depth
         if depth is None:
@@ -95,7 +102,7 @@ class Trial:
         overlap = np.maximum(-gap.flat[held], 0.0)
         gap.flat[held] += overlap
         force = cell_area * float(pressure.sum())
-        length_scale = _length_scale(problem, depth)
+        length_scale = _length_scale(problem, depth, sprung)
         violated = residuals(conditions, gap, nodes, pressure, length_scale, load.error(force))
         return cls(ContactSet(nodes, pressure), depth, force, gap, overlap, length_scale, violated)
 
@@ -120,11 +127,21 @@ class Trial:
         )
 
 
-def _length_scale(problem: Problem, depth: float) -> float:
-    """Return the length with which gaps are compared."""
+def _length_scale(problem: Problem, depth: float, sprung: float) -> float:
+    """Return the length with which gaps are compared.
+
+    Parameters
+    ----------
+    problem : Problem
+        The bodies.
+    depth : float
+        Approach since first touch. [length]
+    sprung : float
+        Largest elastic displacement of the contact, where some of it yields. [length]
+    """
     if problem.operator.zero_mean and not problem.rms_height:
         return 1.0  # even pressure on a flat surface moves nothing
-    approach = abs(depth - problem.touch)
+    approach = max(min(abs(depth - problem.touch), sprung), _LEAST_APPROACH * abs(depth))
     return min(problem.rms_height, approach) if problem.rms_height else approach
 
 

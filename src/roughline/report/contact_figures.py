@@ -15,6 +15,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.slip import PartialSlip
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
+from roughline.engineering.intervals import Ends
 from roughline.report.folder import make_folder
 from roughline.report.pixels import any_marked, thinned
 from roughline.report.style import PAGE, new_figure, save, styled
@@ -97,16 +98,15 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     force_unit, force = _prefixed(curve.force, "N", scale)
     unit, stiffness = _prefixed(curve.stiffness, "N/m", scale)
     _draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve)
-    rising = _rising(curve)
+    _draw_interval(axes, curve, assessment.stiffness_interval, (force, stiffness))
     if curve.hardness is not None and curve.unloading_stiffness is not None:
-        unloading = curve.unloading_stiffness * stiffness
+        rising = _rising(curve)
+        unloading = curve.unloading_stiffness[rising] * stiffness
         axes.loglog(
-            curve.force[rising] * force, unloading[rising], "--", color="tab:red", label="$k_u$"
+            curve.force[rising] * force, unloading, "--.", color="tab:red", label="unloading $k_u$"
         )
+        _draw_interval(axes, curve, assessment.unloading_interval, (force, stiffness), "tab:red")
         axes.legend()
-    if assessment.stiffness_interval is not None:
-        low, high = (end[rising] * stiffness for end in assessment.stiffness_interval)
-        axes.fill_between(curve.force[rising] * force, low, high, color="0.85", zorder=-5)
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         if theory.stiffness is not None:
             axes.plot(
@@ -126,10 +126,7 @@ def draw_area(axes: Axes, assessment: Assessment) -> None:
     assert curve.area_fraction_corrected is not None
     force_unit, force = _prefixed(curve.force, "N", assessment.scale)
     _draw_loads(axes, curve.force * force, curve.area_fraction_corrected, curve)
-    if assessment.area_interval is not None:
-        rising = _rising(curve)
-        low, high = (end[rising] for end in assessment.area_interval)
-        axes.fill_between(curve.force[rising] * force, low, high, color="0.85", zorder=-5)
+    _draw_interval(axes, curve, assessment.area_interval, (force, 1.0))
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
         axes.plot(theory.pressure * area * force, theory.area_fraction, dashes, label=theory.name)
         axes.legend()
@@ -236,6 +233,17 @@ def _draw_loads(axes: Axes, x: Real, y: Real, curve: Curve) -> None:
         for which, fill in ((resolved, "full"), (~resolved, "none")):
             points = shown & when & which
             axes.loglog(x[points], y[points], "o", color=colour, fillstyle=fill)
+
+
+def _draw_interval(
+    axes: Axes, curve: Curve, ends: Ends | None, units: tuple[float, float], colour: str = "0.35"
+) -> None:
+    """Draw an interval over the force on loading; units are the factors of both axes."""
+    if ends is not None:
+        rising = _rising(curve)
+        low, high = (end[rising] * units[1] for end in ends)
+        x = curve.force[rising] * units[0]
+        axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0, zorder=-5)
 
 
 def _rising(curve: Curve) -> NDArray[np.bool_]:

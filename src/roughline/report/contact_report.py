@@ -44,10 +44,10 @@ ASSUMPTIONS = (
     "adhesion, static loads.",
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less.",
-    "Intervals, where given, are those of the grid and of filled points, or of what a line scan "
-    "leaves open; those of k_i, h_c and |R| of a map hold the surface behind it as well. The "
-    "scatter of material data, and for all other answers that of other places on the part, comes "
-    "on top.",
+    "Intervals, where given, are those of the grid, of filled points and of the scatter of the "
+    "hardness, or of what a line scan leaves open; those of k_i, h_c and |R| of a map hold the "
+    "surface behind it as well. The scatter of other material data, and for all other answers that "
+    "of other places on the part, comes on top.",
 )
 ASSUMPTIONS_OF_JOINT = (
     *ASSUMPTIONS[:2],
@@ -56,9 +56,9 @@ ASSUMPTIONS_OF_JOINT = (
     "is per area is multiplied by the joint's area. Answers are those of the interface; waviness "
     "longer than the map, bending, and the constriction of the bodies to the joint's outline are "
     "left out.",
-    "Intervals, where given, are those of the grid, of filled points and of what one map leaves "
-    "open of the surface around it. The scatter of material data, and that of places which are "
-    "not alike, comes on top.",
+    "Intervals, where given, are those of the grid, of filled points, of the scatter of the "
+    "hardness and of what one map leaves open of the surface around it. The scatter of other "
+    "material data, and that of places which are not alike, comes on top.",
 )
 
 
@@ -176,23 +176,26 @@ def _abreast(assessment: Assessment) -> list[slice]:
 
 
 def _caption(assessment: Assessment) -> str:
+    question, yields = assessment.question, assessment.curve.hardness is not None
     marked = any(part.filled_region is not None for part in assessment.topographies)
-    return (
-        ("Heights of the map" if assessment.question.joint is not None else "Heights")
-        + (" (red: filled points)" if marked else "")
-        + ", spectrum with the nearest self-affine law, stiffness over force (open marks: fewer "
-        "than ten points in contact)"
-        + (", and theories for the same spectrum" if assessment.theories else "")
-        + (
-            ", and the points in contact at the largest load"
-            + (" (red: at the hardness)" if assessment.curve.hardness is not None else "")
-            + "; their area is corrected for the "
+    marks = ["open marks: fewer than ten points in contact"]
+    marks += ["dashed: on unloading"] if yields else []
+    marks += ["blue: after a larger load"] if question.history or question.unload else []
+    shown = [
+        ("Heights of the map" if question.joint is not None else "Heights")
+        + (" (red: filled points)" if marked else ""),
+        "spectrum with the nearest self-affine law",
+        f"stiffness over force ({'; '.join(marks)})",
+    ]
+    if assessment.theories:
+        shown.append("and theories for the same spectrum")
+    if isinstance(assessment.body, Surface):
+        red = " (red: at the hardness)" if yields else ""
+        shown.append(
+            f"and the points in contact at the largest load{red}; their area is corrected for the "
             "outline's steps, as in the table"
-            if isinstance(assessment.body, Surface)
-            else ""
         )
-        + "."
-    )
+    return f"{', '.join(shown)}."
 
 
 def _shown(value: object) -> str:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.notes import change_in_words
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Status
 from roughline.contact.quantities import QUANTITIES
 from roughline.engineering.answer import Answer
@@ -38,16 +40,19 @@ UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surfac
 def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of a curve in SI units; a star marks loads that the grid decides.
 
-    Force and stiffness are the joint's, where its area is given.
+    Force and stiffness are the joint's, where its area is given. Where metals yield, the stiffness
+    on unloading stands in the place of the raw area.
     """
-    curve, scale = assessment.curve_as_asked, assessment.scale
-    force, stiffness = curve.force * scale, curve.stiffness * scale
-    intervals = assessment.intervals_as_asked
-    ends, area = (intervals.stiffness, intervals.area) if intervals else (None, None)
-    if ends is not None:
-        ends = ends[0] * scale, ends[1] * scale
+    curve, scale, known = assessment.curve_as_asked, assessment.scale, assessment.intervals_as_asked
+    loading: Ends | None = None
+    unloading: Ends | None = None
+    area: Ends | None = None
+    if known is not None:
+        loading, unloading, area = known.stiffness, known.unloading, known.area
     header = ["load", "depth", "force", "stiffness k"]
-    if curve.area_fraction is not None:
+    if curve.hardness is not None:
+        header += ["unloading k_u", "corrected A/A_0"]
+    elif curve.area_fraction is not None:
         header += ["raw area", "corrected A/A_0"]
     rows = []
     for i, heading in enumerate(starred(assessment)):
@@ -58,12 +63,16 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
         row = [
             heading,
             engineering(curve.depth[i], _SI["depth"]),
-            engineering(force[i], _SI["force"]),
-            with_interval(stiffness[i], _at(ends, i), _SI["stiffness"]),
+            engineering(scale * curve.force[i], _SI["force"]),
+            _stiffness(curve.stiffness, loading, i, scale),
         ]
-        if curve.area_fraction is not None and curve.area_fraction_corrected is not None:
-            corrected = with_interval(curve.area_fraction_corrected[i], _at(area, i), "%")
-            row += [f"{curve.area_fraction[i]:.3%}", corrected]
+        if curve.hardness is not None and curve.unloading_stiffness is not None:
+            row.append(_stiffness(curve.unloading_stiffness, unloading, i, scale))
+        elif curve.area_fraction is not None:
+            row.append(f"{curve.area_fraction[i]:.3%}")
+        if curve.area_fraction_corrected is not None:
+            share = float(curve.area_fraction_corrected[i])
+            row.append(with_interval(share, _at(area, i), "%"))
         rows.append(row)
     return header, rows
 
@@ -118,12 +127,21 @@ def _differs(elastic: Answer, yielding: Answer, i: int) -> bool:
 
 
 def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of how the answers follow, where they hold and where from."""
-    header = ["", "formula", "holds", "source"]
-    return header, [
+    """Return header and rows of how the answers follow, where they hold and where from.
+
+    Where the hardness scatters, a column says how far that moves each at the largest load.
+    """
+    header, i = ["", "formula", "holds", "source"], assessment.largest
+    rows = [
         [f"{each.name} {each.symbol}", each.formula, each.validity, each.source]
         for each in assessment.answers.values()
     ]
+    if assessment.hardness_scatter:
+        header.append("hardness moves it by")
+        for row, ratios in zip(rows, assessment.hardness_scatter.values(), strict=True):
+            low, high = (float(end[i]) for end in ratios)
+            row.append("not known" if np.isnan(low) else change_in_words(low, high))
+    return header, rows
 
 
 def leading_keys(assessment: Assessment) -> list[str]:
@@ -175,6 +193,13 @@ def _decided_by_grid(assessment: Assessment) -> list[bool]:
     """Which of the loads that were asked for have too few points in contact."""
     curve = assessment.curve_as_asked
     return list(curve.converged & ~curve.resolved & (curve.force > 0))
+
+
+def _stiffness(values: Real, ends: Ends | None, i: int, scale: float) -> str:
+    """Write a stiffness of the curve, times the scale of a joint, with its interval."""
+    if ends is not None:
+        ends = ends[0] * scale, ends[1] * scale
+    return with_interval(scale * float(values[i]), _at(ends, i), _SI["stiffness"])
 
 
 def _at(ends: Ends | None, i: int) -> tuple[float, float] | None:

@@ -60,6 +60,8 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
                 "formula": each.formula,
                 "validity": each.validity,
                 "source": each.source,
+                "if_elastic": (elastic := assessment.elastic.get(each.key)) and elastic.values,
+                "hardness_scatter": assessment.hardness_scatter.get(each.key),
             }
             for each in assessment.answers.values()
         },

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.engineering.answer import Answer
@@ -98,6 +98,8 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     known = known[np.isfinite(known) & (known > 0)]
     if known.size and known.max() > _LOG_FROM * known.min():
         axes.set_yscale("log")
+        decades = math.log10(known.max() / known.min())
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if decades < 2 else (1.0,)))
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set_xticks(places, list(map(_short, part.names)), rotation=30, ha="right", fontsize=6)

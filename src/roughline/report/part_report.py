@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
@@ -30,6 +31,10 @@ from roughline.report.pdf import write_pdf
 from roughline.report.style import save, styled
 from roughline.units import engineering
 
+ASSUMPTION_OF_PART = (
+    "Intervals of the part hold the scatter between its places as well. They suppose that the "
+    "places were chosen at random, and that what scatters does so by factors."
+)
 _LOADS_ABREAST = 2  # each has two columns
 _MAPS_ABREAST = 4
 
@@ -136,6 +141,7 @@ def _sections(
         for load in loads
         for i in maps[::_MAPS_ABREAST]
     ]
+    formulas = formula_table(replace(first, hardness_scatter={}))  # which moves each map otherwise
     return [
         Section(
             "The part",
@@ -159,8 +165,8 @@ def _sections(
             ],
             tables=[_with_numbers(*each) for each in of_maps],
         ),
-        Section("Where the answers are from", tables=[Table(*formula_table(first))]),
-        Section("Assumptions", [*assumptions_of(first)]),
+        Section("Where the answers are from", tables=[Table(*formulas)]),
+        Section("Assumptions", [*assumptions_of(first), ASSUMPTION_OF_PART]),
         Section("To do it again", [how_to_repeat]),
     ]
 

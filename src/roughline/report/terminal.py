@@ -112,7 +112,7 @@ def _theory_line(theory: TheoryCurve, assessment: Assessment) -> str:
     """A theory at the largest load."""
     text = f"{theory.name} at the largest load: area {theory.area_fraction[-1]:.3%}"
     if theory.stiffness is not None:
-        stiffness = theory.stiffness[-1] * assessment.area
+        stiffness = theory.stiffness[-1] * assessment.area * assessment.scale
         text += f", interface stiffness {engineering(stiffness, 'N/m')}"
     return f"{text} ({theory.validity})"
 

@@ -23,7 +23,8 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
         return shown
     low, high = ends
     half_width = max(value - low, high - value) / value
-    if half_width < _NARROW:
+    at_an_end = min(value - low, high - value) < _LEAST * value <= half_width * value
+    if half_width < _NARROW and not at_an_end:
         return f"{shown} ± {100 * max(half_width, _LEAST):.2g}%"
     first, last = (decimal(end * factor, 3) if np.isfinite(end) else "infinite" for end in ends)
     return f"{shown} ({first} to {last})"

@@ -18,7 +18,8 @@ class PlaceAverage:
     Attributes
     ----------
     mean : ndarray, shape (loads,)
-        Geometric mean; NaN without a place, and where a value is zero or infinite.
+        Geometric mean; NaN without a place, and where some values are zero or infinite and others
+        are not.
     scatter : ndarray, shape (loads,)
         Geometric standard deviation, a factor of at least 1: two of three places lie between mean /
         scatter and mean * scatter. NaN for fewer than two places.
@@ -76,7 +77,9 @@ def average_of_places(
             np.where(half > 0, np.exp(centre + sign * half), np.nan)
             for sign, half in zip((-1, 1), halves, strict=True)
         ]
-    return PlaceAverage(np.exp(centre), np.exp(deviation), ends[0], ends[1], count)
+    alike = (values == values[:1]).all(axis=0) & extreme
+    mean = np.where(alike, values[0], np.exp(centre))
+    return PlaceAverage(mean, np.exp(deviation), ends[0], ends[1], count)
 
 
 def _median_distance(distances: Real, known: Mask) -> Real:
