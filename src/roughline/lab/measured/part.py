@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 import roughline as rl
-
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.source import Topography
 from roughline.engineering.answer import Answer
