@@ -2,7 +2,8 @@
 
     python studies/correlations/reduce.py out/correlations.zarr
 
-writes ``data.nc``: a group for each ensemble, and one with the moments of the heights.
+writes ``data.npz``: arrays of the store by "ENSEMBLE/VARIABLE", in single precision, and how
+Gaussian the heights are. What the ensembles are stands in ``plan.toml``.
 """
 
 import json
@@ -10,58 +11,58 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import xarray
 
 from roughline import campaign
-from roughline.campaign.export import write_netcdf
 from roughline.campaign.run import log_of
 from roughline.computing.arrays import Real
 
 HERE = Path(__file__).parent
-DATA = HERE / "data.nc"
-HEIGHTS = "heights"
-KEPT = ("stiffness", "unloading_stiffness", "area_fraction", "plastic_fraction")
+DATA = HERE / "data.npz"
+PLAN = HERE / "plan.toml"
+KEPT = ("stiffness", "unloading_stiffness", "area_fraction", "plastic_fraction", "status")
 BEARING = (1e-1, 1e-2, 1e-3, 1e-4)  # shares of the area that lie above a height
 
 
 def main(path: Path) -> None:
     """Reduce a finished store."""
-    plan, store = campaign.read_plan(HERE / "plan.toml"), campaign.Store(path)
-    for ensemble in plan.ensembles:
-        done, failed, total = store.counts(ensemble.name)
-        if done < total:
-            sys.exit(f"{ensemble.name}: {total - done} of {total} cases lack, {failed} failed")
+    plan, store = campaign.read_plan(PLAN), campaign.Store(path)
     runs = [json.loads(line) for line in log_of(path).read_text().splitlines()]
-    DATA.unlink(missing_ok=True)
+    arrays = {}
     for ensemble in plan.ensembles:
-        data = store.dataset(ensemble.name)
-        kept = data[[name for name in KEPT if name in data]].astype(np.float32, keep_attrs=True)
-        kept = kept.assign(rms_slope=data.rms_slope, status=data.status, resolved=data.resolved)
-        seconds = sum(run["core_seconds"].get(ensemble.name, 0) for run in runs)
-        write_netcdf(kept.assign_attrs(core_seconds=round(seconds)), DATA, group=ensemble.name)
-    write_netcdf(heights_of(plan.ensembles[0]), DATA, group=HEIGHTS)
+        name = ensemble.name
+        done, failed, total = store.counts(name)
+        if done < total:
+            sys.exit(f"{name}: {total - done} of {total} cases are not done, {failed} failed")
+        data = store.dataset(name).sel(realisation=slice(0, ensemble.realisations - 1))
+        for variable in (each for each in KEPT if each in data):
+            precision = data[variable].dtype if variable == "status" else np.float32
+            arrays[f"{name}/{variable}"] = data[variable].values.astype(precision)
+        arrays[f"{name}/rms_slope"] = data.rms_slope.values
+        seconds = sum(run["core_seconds"].get(name, 0.0) for run in runs)
+        arrays[f"{name}/core_seconds"] = np.array(seconds)
+    arrays |= {f"heights/{name}": values for name, values in heights_of(plan.ensembles[0]).items()}
+    np.savez_compressed(DATA, **arrays)
 
 
-def heights_of(ensemble: campaign.Ensemble) -> xarray.Dataset:
-    """Return how Gaussian the heights of an ensemble are, over their rms."""
-    dimensions = ensemble.fractal_dimensions
-    shape = (len(dimensions), ensemble.realisations)
-    moments = {name: np.empty(shape) for name in ("skewness", "excess_kurtosis")}
-    bearing = np.empty((*shape, len(BEARING)))
-    for i, dimension in enumerate(dimensions):
+def heights_of(ensemble: campaign.Ensemble) -> dict[str, Real]:
+    """Return how Gaussian the heights of an ensemble are, over their rms.
+
+    Returns
+    -------
+    dict of ndarray, shape (dimensions, realisations) or (dimensions, realisations, shares)
+        Skewness, excess kurtosis, and the heights above which the shares `BEARING` lie.
+    """
+    shape = (len(ensemble.fractal_dimensions), ensemble.realisations)
+    found = {name: np.empty(shape) for name in ("skewness", "excess_kurtosis")}
+    found["bearing_height"] = np.empty((*shape, len(BEARING)))
+    for i, dimension in enumerate(ensemble.fractal_dimensions):
         for j in range(ensemble.realisations):
             surface = ensemble.spectrum(dimension).surface(ensemble.n, ensemble.seed_of(j))
-            heights: Real = surface.heights - surface.heights.mean()
-            heights /= surface.rms_height
-            moments["skewness"][i, j] = np.mean(heights**3)
-            moments["excess_kurtosis"][i, j] = np.mean(heights**4) - 3
-            bearing[i, j] = np.quantile(heights, 1 - np.array(BEARING))
-    over = ("fractal_dimension", "realisation")
-    return xarray.Dataset(
-        {name: (over, values) for name, values in moments.items()}
-        | {"bearing_height": ((*over, "share"), bearing)},
-        {"fractal_dimension": list(dimensions), "share": list(BEARING)},
-    )
+            heights = (surface.heights - surface.heights.mean()) / surface.rms_height
+            found["skewness"][i, j] = np.mean(heights**3)
+            found["excess_kurtosis"][i, j] = np.mean(heights**4) - 3
+            found["bearing_height"][i, j] = np.quantile(heights, 1 - np.array(BEARING))
+    return found
 
 
 if __name__ == "__main__":

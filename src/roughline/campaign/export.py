@@ -68,16 +68,10 @@ def export(
     return written
 
 
-def write_netcdf(data: xarray.Dataset, path: Path, group: str | None = None) -> None:
-    """Write an ensemble to a NetCDF file, or to a group of one, compressed without loss."""
+def write_netcdf(data: xarray.Dataset, path: Path) -> None:
+    """Write an ensemble to a NetCDF file, compressed without loss."""
     packed = {"zlib": True, "complevel": 6, "shuffle": True}
-    data.to_netcdf(
-        path,
-        mode="w" if group is None else "a",
-        group=group,
-        engine="h5netcdf",
-        encoding=dict.fromkeys(map(str, data), packed),
-    )
+    data.to_netcdf(path, engine="h5netcdf", encoding=dict.fromkeys(map(str, data), packed))
 
 
 def mean_table(data: xarray.Dataset) -> pd.DataFrame:
