@@ -85,6 +85,7 @@ correlations: $(VENV)/installed
 
 published: $(VENV)/installed
 	$(BIN)/python studies/paper/publish.py
+	$(BIN)/python studies/correlations/publish.py
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py

@@ -71,6 +71,10 @@ class Sample:
 
     Attributes
     ----------
+    prefix : str
+        First part of the name of the ensemble.
+    every : int
+        Which loads were read: all, or with 2 every other one.
     fractal_dimension, hardness_bar : float
         D_f, and H / (E* g); infinite if elastic.
     slope : float
@@ -85,6 +89,8 @@ class Sample:
         Share of the contact at the hardness.
     """
 
+    prefix: str
+    every: int
     fractal_dimension: float
     hardness_bar: float
     slope: float
@@ -160,6 +166,11 @@ def name_of(prefix: str, hardness_bar: float) -> str:
     return f"{prefix}-elastic" if hardness_bar == ELASTIC else f"{prefix}-hardness{hardness_bar:g}"
 
 
+def dimensions_of(prefix: str) -> tuple[float, ...]:
+    """Return the fractal dimensions of an ensemble's fully plastic bodies."""
+    return plan().ensemble(name_of(prefix, FULL)).fractal_dimensions
+
+
 @cache
 def sample(prefix: str, hardness_bar: float, fractal_dimension: float, *, every: int = 1) -> Sample:
     """Return the surfaces of an ensemble and a fractal dimension.
@@ -199,6 +210,8 @@ def sample(prefix: str, hardness_bar: float, fractal_dimension: float, *, every:
         stiffness = interface_stiffness(stiffness, punch)
     area = np.exp(read(np.log(of("area_fraction"))))
     return Sample(
+        prefix,
+        every,
         fractal_dimension,
         hardness_bar,
         slope,

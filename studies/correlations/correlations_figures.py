@@ -10,21 +10,22 @@ from conductance import (
     FULL,
     HARDNESSES,
     Sample,
+    dimensions_of,
     holm,
     mikic,
     sample,
     yovanovich,
 )
+from findings import ELASTIC_BANDS, MIDDLE
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughline.report.style import MARKERS, PAGE, SHADE, colours, new_figure
 from roughline.statistics.averages import average
 
-MIDDLE = 2.5
-"""Fractal dimension of the surfaces that are drawn where one is enough."""
 _CONDUCTANCE = r"$h_c\,\sigma\,/\,(\kappa_s m)$"
 _PRESSURE_ELASTIC = r"pressure $p\,/\,(E^*\nabla h)$"
+_HARDNESS = r"$H\,/\,(E^*\nabla h)$"
 _PRESSURE_PLASTIC = r"pressure $p\,/\,H$"
 
 
@@ -40,12 +41,12 @@ def conductance_figure() -> Figure:
     left.set(xlabel=_PRESSURE_ELASTIC, ylabel=_CONDUCTANCE, title="elastic")
     left.legend(loc="upper left")
     for hardness, colour, marker in zip(HARDNESSES, colours(5), MARKERS, strict=False):
-        _draw(right, sample("main", hardness, MIDDLE), colour, marker, _named(hardness))
+        _draw(right, sample("main", hardness, MIDDLE), colour, marker, f"{hardness:g}")
     one = sample("main", FULL, MIDDLE)
     right.loglog(one.pressure, yovanovich(one.pressure), "k-", label="CMY", zorder=0)
     right.loglog(one.pressure, holm(one.pressure, one.slope), "k:", label="Holm", zorder=0)
     right.set(xlabel=_PRESSURE_PLASTIC, title=f"with a hardness, Hurst {3 - MIDDLE:.1f}")
-    right.legend(loc="upper left")
+    right.legend(loc="upper left", title=_HARDNESS, alignment="left")
     return figure
 
 
@@ -63,12 +64,12 @@ def ratio_figure() -> Figure:
     left.set(xlabel=_PRESSURE_ELASTIC, ylabel="conductance over Mikic's", ylim=(0.6, 1.6))
     left.legend(loc="upper right")
     for hardness, colour in zip(HARDNESSES, colours(len(HARDNESSES)), strict=True):
-        _draw_ratio(middle, sample("main", hardness, MIDDLE), colour, _named(hardness))
+        _draw_ratio(middle, sample("main", hardness, MIDDLE), colour, f"{hardness:g}")
     middle.set(xlabel=_PRESSURE_PLASTIC, ylabel=f"over CMY's, Hurst {3 - MIDDLE:.1f}")
     middle.set(yscale="log", ylim=(0.6, 6), yticks=(0.6, 0.8, 1, 1.5, 2, 3, 5))
     middle.set_yticklabels(["0.6", "0.8", "1", "1.5", "2", "3", "5"])
     middle.minorticks_off()
-    middle.legend(loc="upper right", ncols=2)
+    middle.legend(loc="upper right", title=_HARDNESS, ncols=2)
     _draw_bands(right)
     return figure
 
@@ -85,10 +86,14 @@ def _draw_ratio(axes: Axes, one: Sample, colour: object, label: str) -> None:
 
 
 def _draw_bands(axes: Axes) -> None:
-    """Draw ratios over the number of octaves between the roll-off and the shortest wave."""
+    """Draw ratios over how many times the longest waves are as long as the shortest."""
     for hardness, style, name in ((ELASTIC, "--", "Mikic"), (FULL, "-", "CMY")):
         for dimension, colour in zip(DIMENSIONS, colours(len(DIMENSIONS)), strict=True):
-            widths = [width for width in BANDS if hardness == FULL or width < max(BANDS)]
+            widths = [
+                width
+                for width in (BANDS if hardness == FULL else ELASTIC_BANDS)
+                if dimension in dimensions_of(BANDS[width])
+            ]
             points = [sample(BANDS[width], hardness, dimension) for width in widths]
             means = [one.mean_at(one.ratio, 1e-2) for one in points]
             value, low, high = np.array([[m.mean[0], m.low[0], m.high[0]] for m in means]).T
@@ -100,7 +105,3 @@ def _draw_bands(axes: Axes) -> None:
     axes.set(xticks=list(BANDS), xticklabels=list(map(str, BANDS)), ylim=(0.5, 1.25))
     axes.minorticks_off()
     axes.legend(loc="upper right")
-
-
-def _named(hardness: float) -> str:
-    return rf"$H/(E^*\nabla h)$ = {hardness:g}"

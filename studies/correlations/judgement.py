@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,8 @@ from roughline.computing.arrays import Real
 from roughline.statistics.averages import average, relative_difference
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Verdict, joint_verdict, verdict
+
+Ratio = Callable[[Sample], Real]
 
 TOLERANCES = (0.1, 0.2)
 LEVEL = 0.95
@@ -44,16 +47,19 @@ class Judgement:
     verdict: Verdict
     enough: float
 
-    def __str__(self) -> str:
+    @property
+    def what_would_decide(self) -> str:
+        """How many realisations would decide; empty where the sample does."""
         if math.isnan(self.enough):
-            return str(self.verdict)
+            return ""
         if math.isinf(self.enough):
-            return f"{self.verdict} (the grid decides)"
-        return f"{self.verdict} (about {_rounded(self.enough)} realisations would decide)"
+            return "finer grids would decide"
+        digits = 1 - math.floor(math.log10(self.enough))  # it is known no better
+        return f"some {math.ceil(round(self.enough, digits)):,} surfaces would decide"
 
 
-def grid_shift(one: Sample) -> list[IntervalEstimate]:
-    """Return by how much the ratio is higher on twice the points, at each pressure.
+def grid_shift(one: Sample, ratio: Ratio) -> list[IntervalEstimate]:
+    """Return by how much a ratio is higher on twice the points, at each pressure.
 
     The same surfaces are compared, at every other load. Of a hardness that was not pressed on the
     finer grid, the next one is taken.
@@ -63,11 +69,11 @@ def grid_shift(one: Sample) -> list[IntervalEstimate]:
         hardness = min(FINE_HARDNESSES, key=lambda each: abs(math.log(each / one.hardness_bar)))
     fine = sample("fine", hardness, one.fractal_dimension)
     coarse = sample("main", hardness, one.fractal_dimension, every=2)
-    ends = relative_difference(fine.ratio, coarse.ratio[: fine.count], paired=True)
+    ends = relative_difference(ratio(fine), ratio(coarse)[: fine.count], paired=True)
     return [IntervalEstimate(*map(float, each)) for each in zip(*ends, strict=True)]
 
 
-def judge(one: Sample, ratio: Real, tolerance: float) -> Judgement:
+def judge(one: Sample, ratio: Ratio, tolerance: float) -> Judgement:
     """Judge a prediction at all pressures of the window.
 
     One pressure that refutes it is enough.
@@ -76,8 +82,8 @@ def judge(one: Sample, ratio: Real, tolerance: float) -> Judgement:
     ----------
     one : Sample
         The surfaces.
-    ratio : ndarray, shape (realisations, pressures)
-        Their conductance over that which is predicted.
+    ratio : callable
+        Returns what they have over what is predicted, shape (realisations, pressures).
     tolerance : float
         How far from 1 the ratio may be.
     """
@@ -96,15 +102,15 @@ def judge(one: Sample, ratio: Real, tolerance: float) -> Judgement:
     return Judgement(whole, one.count * factor)
 
 
-def simultaneous_intervals(one: Sample, ratio: Real) -> list[Ends]:
+def simultaneous_intervals(one: Sample, ratio: Ratio) -> list[Ends]:
     """Return the intervals of a ratio that hold at all pressures of the window together.
 
     They have Bonferroni's level, and are widened on one side by the error of the grid.
     """
     inside = one.in_window
     count = int(np.count_nonzero(inside))
-    mean = average(ratio[:, inside], confidence=1 - (1 - LEVEL) / count)
-    grid = _HALVES * np.array([shift.value for shift in grid_shift(one)])[inside]
+    mean = average(ratio(one)[:, inside], confidence=1 - (1 - LEVEL) / count)
+    grid = _HALVES * np.array([shift.value for shift in grid_shift(one, ratio)])[inside]
     down, up = 1 + np.minimum(grid, 0), 1 + np.maximum(grid, 0)
     ends = (mean.low * down, mean.mean * down, mean.mean * up, mean.high * up)
     return [Ends(*map(float, each)) for each in zip(*ends, strict=True)]
@@ -127,9 +133,3 @@ def _factor(
         return math.inf, False
     widths = ((least - low) / (least - bottom), (high - most) / (top - most))
     return max(widths) ** 2, False
-
-
-def _rounded(number: float) -> str:
-    """Write a number of realisations with two digits, as it is known no better."""
-    digits = 1 - math.floor(math.log10(number))
-    return f"{math.ceil(round(number, digits)):,}"

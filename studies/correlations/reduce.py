@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from roughline import campaign
+from roughline.campaign.layout import DONE
 from roughline.campaign.run import log_of
 from roughline.computing.arrays import Real
 
@@ -30,10 +31,11 @@ def main(path: Path) -> None:
     arrays = {}
     for ensemble in plan.ensembles:
         name = ensemble.name
-        done, failed, total = store.counts(name)
-        if done < total:
-            sys.exit(f"{name}: {total - done} of {total} cases are not done, {failed} failed")
-        data = store.dataset(name).sel(realisation=slice(0, ensemble.realisations - 1))
+        data = store.dataset(name).isel(realisation=slice(ensemble.realisations))
+        data = data.sel(fractal_dimension=list(ensemble.fractal_dimensions))
+        done = int((data.case_status == DONE).sum())
+        if done < ensemble.cases:
+            sys.exit(f"{name}: {ensemble.cases - done} of {ensemble.cases} cases are not done")
         for variable in (each for each in KEPT if each in data):
             precision = data[variable].dtype if variable == "status" else np.float32
             arrays[f"{name}/{variable}"] = data[variable].values.astype(precision)
