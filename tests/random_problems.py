@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,13 +24,14 @@ _KINDS = (
 
 @dataclass(frozen=True)
 class Problem:
-    """A surface and its loads, with words for what they are."""
+    """A surface and its loads, with words for what they are; elastic without a hardness."""
 
     kind: str
     surface: rl.Surface
     periodic: bool
     loads: dict
     loading: str
+    hardness: float | None = None
 
 
 def random_problem(rng: np.random.Generator, largest: int = 130) -> Problem:
@@ -47,6 +48,28 @@ def random_problem(rng: np.random.Generator, largest: int = 130) -> Problem:
     periodic = bool(rng.random() < 0.4)
     loading, loads = _loads(rng, surface, periodic)
     return Problem(kind, surface, periodic, loads, loading)
+
+
+def random_history(rng: np.random.Generator, largest: int = 130) -> Problem:
+    """Draw a problem of a body that yields, with loads that rise and fall.
+
+    The hardness lies from far above the elastic pressures to far below them. One in twenty of the
+    histories goes beyond what the body bears.
+    """
+    problem = random_problem(rng, largest)
+    surface = problem.surface
+    cell = np.sqrt(surface.area / surface.heights.size)
+    steep = E_STAR * (surface.rms_height or 1.0) / cell
+    hardness = steep * 10.0 ** rng.uniform(-6, 2)
+    ((control, loads),) = problem.loads.items()
+    loads = np.asarray(loads)
+    if control == "forces" and rng.random() < 0.95:
+        most = hardness * surface.area
+        loads = loads * min(1.0, rng.uniform(0, 1) * most / loads.max())
+    history = np.append(loads, rng.choice(np.append(loads, 0.0), rng.integers(0, 6)))
+    if rng.random() < 0.5:  # on the way between, too
+        history[1:] *= rng.uniform(0, 1, history.size - 1)
+    return replace(problem, loads={control: history}, hardness=float(hardness))
 
 
 def _shape(rng: np.random.Generator, largest: int) -> tuple[int, int]:

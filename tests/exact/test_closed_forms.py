@@ -8,7 +8,7 @@ from scipy.integrate import quad
 from scipy.special import j1
 
 import roughline as rl
-from roughline.exact import indenters, mdr, punch, westergaard
+from roughline.exact import indenters, mdr, punch, westergaard, yielding
 
 QUADRATURE = 1e-8
 
@@ -126,6 +126,49 @@ def test_the_reduced_spectrum_is_the_mdr_transform_of_the_structure_function():
     assert mdr.line_profile(slope, x) == pytest.approx(S_1, rel=QUADRATURE)
 
 
+def test_a_ball_yields_where_hertzs_largest_pressure_is_the_hardness():
+    ball = indenters.paraboloid(2.0, E_star=3.0)
+    radius = yielding.ball_yield_radius(2.0, 3.0, hardness=0.5)
+    depth = ball.depth(radius)
+    assert indenters.hertz_pressure(depth, 2.0, 3.0, 0.0) == pytest.approx(0.5)
+    assert ball.force(depth) == pytest.approx(yielding.ball_yield_force(2.0, 3.0, hardness=0.5))
+
+
+def test_the_disc_that_yields_at_its_rim():
+    disc = yielding.YieldingDisc(0.3, E_star=3.0, hardness=0.5)
+    radii = 0.3 * np.array([1e-6, 0.3, 0.9, 1 - 1e-9])
+    full = math.pi * 0.09 * 0.5
+    assert disc.force(radii)[[0, -1]] == pytest.approx([full, 0.0], abs=1e-4 * full)
+    # all plastic: the middle sinks by 2 H a / E*; all elastic: the rigid disc
+    assert disc.depth(radii)[0] == pytest.approx(2 * 0.5 * 0.3 / 3.0)
+    light = disc.force(radii)[-1] / disc.depth(radii)[-1]
+    assert light == pytest.approx(punch.disc_stiffness(3.0, 0.3), rel=1e-6)
+    assert disc.unloading_stiffness == punch.disc_stiffness(3.0, 0.3)
+
+
+@pytest.mark.parametrize("c", [0.03, 0.15, 0.27])
+def test_the_yielding_disc_by_quadrature(c):
+    disc = yielding.YieldingDisc(0.3, E_star=3.0, hardness=0.5)
+    pressure = [disc.pressure(c, r) for r in (0.0, c / 2, c, 0.29, 0.31)]
+    assert (np.diff(pressure[:3]) > 0).all()
+    assert pressure[2:] == pytest.approx([0.5, 0.5, 0.0])
+    total = quad(lambda r: 2 * math.pi * r * disc.pressure(c, r), 0, 0.3, points=[c], limit=200)[0]
+    assert total == pytest.approx(disc.force(c), rel=QUADRATURE)
+    # u(0) = (2 / E*) int p dr, the potential of rings at their centre
+    sunk = 2 / 3.0 * quad(lambda r: disc.pressure(c, r), 0, 0.3, points=[c], limit=200)[0]
+    assert sunk == pytest.approx(disc.depth(c), rel=QUADRATURE)
+    step = 1e-6
+    slope = np.diff(disc.force([c - step, c + step])) / np.diff(disc.depth([c - step, c + step]))
+    assert disc.stiffness(c) == pytest.approx(slope[0], rel=1e-6)
+    # F dd = F d'(c) dc, with d' = -(2 H / E*) c / sqrt(a² - c²) and c = a sin t
+    work = quad(
+        lambda t: disc.force(0.3 * math.sin(t)) * (2 * 0.5 * 0.3 / 3.0) * math.sin(t),
+        math.asin(c / 0.3),
+        math.pi / 2,
+    )[0]
+    assert disc.work(c) == pytest.approx(work, rel=QUADRATURE)
+
+
 @pytest.mark.parametrize(
     "call",
     [
@@ -136,6 +179,8 @@ def test_the_reduced_spectrum_is_the_mdr_transform_of_the_structure_function():
         lambda: indenters.cone(0.1, math.inf),
         lambda: indenters.paraboloid(1.0, 1.0).force(-0.1),
         lambda: westergaard.full_contact_pressure(1.0, 0.0, 1.0),
+        lambda: yielding.ball_yield_force(1.0, 1.0, 0.0),
+        lambda: yielding.YieldingDisc(1.0, 1.0, -1.0),
     ],
 )
 def test_senseless_quantities_are_refused(call):

@@ -64,10 +64,12 @@ def test_nodes_below_the_hardness_are_elastic():
 def test_pressures_are_scaled_to_a_total_up_to_the_hardness():
     pressure = np.array([1.0, 2.0, 3.0])
     assert ELASTIC.with_total(pressure, 12.0).tolist() == [2.0, 4.0, 6.0]
-    assert YIELDING.with_total(pressure, 9.0).tolist() == pytest.approx([5 / 3, 10 / 3, 4.0])
-    assert YIELDING.with_total(pressure, 11.5).tolist() == pytest.approx([3.5, 4.0, 4.0])
+    # by the same part of what is left to the hardness: 3, 2 and 1
+    assert YIELDING.with_total(pressure, 9.0).tolist() == [2.5, 3.0, 3.5]
     assert YIELDING.with_total(pressure, 12.0).tolist() == [4.0, 4.0, 4.0]
+    assert YIELDING.with_total(pressure, 3.0).tolist() == [0.5, 1.0, 1.5]
     assert YIELDING.with_total(np.array([0.0, 0.0, 4.0]), 6.0).tolist() == [1.0, 1.0, 4.0]
+    assert YIELDING.with_total(np.array([1.0, 2.0, 4.0]), 5.5).tolist() == [0.5, 1.0, 4.0]
     # the nodes at the hardness carry more than there is: all are scaled down
     assert YIELDING.with_total(np.array([1.0, 4.0]), 2.5).tolist() == [0.5, 2.0]
 

@@ -2,40 +2,17 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import roughline as rl
+from random_surfaces import laws, surfaces
 from roughline.exact.punch import square_stiffness
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import displacement_field
 
 RTOL = 1e-6  # the certified tolerance
 NEUTRAL = 1e-9  # the problem is solved without units: only their rounding is left
-
-laws = settings(
-    max_examples=25,
-    deadline=None,
-    derandomize=True,
-    suppress_health_check=[HealthCheck.too_slow],
-)
-
-
-@st.composite
-def surfaces(draw, square=False):
-    """Rough surfaces of any roughness and shape, cut from a larger one or white noise."""
-    nx = draw(st.integers(4, 40))
-    ny = nx if square else draw(st.integers(4, 40))
-    seed = draw(st.integers(0, 10**6))
-    hurst = draw(st.sampled_from([0.0, 0.3, 0.7, 1.0, None]))
-    if hurst is None:
-        heights = np.random.default_rng(seed).normal(size=(nx, ny))
-    else:
-        whole = rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(40, seed).heights
-        heights = whole[:nx, :ny]
-    aspect = 1.0 if square else draw(st.sampled_from([0.1, 0.5, 1.0, 3.0]))
-    return rl.Surface(heights, (nx / 40, aspect * ny / 40))
-
 
 boundaries = st.booleans()
 

@@ -165,24 +165,24 @@ class YieldingContact:
         return np.clip(pressure, 0.0, self.hardness)
 
     def with_total(self, pressure: Real, total: float) -> Real:
-        """Scale the pressures below the hardness to what is missing of a total.
+        """Change the pressures below the hardness so that all of them sum to a total.
 
-        Those that reach the hardness stay there, and the others are scaled again. Where the nodes
-        at the hardness alone would carry too much, all are scaled down.
+        They are scaled down, or moved up by the same part of what each has left to the hardness,
+        so none reaches it. Where the nodes at the hardness alone would carry too much, all are
+        scaled down.
         """
         pressure = np.minimum(pressure, self.hardness)
-        while True:
-            elastic = pressure < self.hardness
-            count = int(np.count_nonzero(elastic))
-            rest = total - self.hardness * (pressure.size - count)
-            if rest < 0:
-                return pressure * (total / float(pressure.sum()))
-            if not count:
-                return pressure
-            scaled = UnilateralContact().with_total(pressure[elastic], rest)
-            pressure[elastic] = np.minimum(scaled, self.hardness)
-            if not (scaled > self.hardness).any():
-                return pressure
+        elastic = pressure < self.hardness
+        rest = total - self.hardness * np.count_nonzero(~elastic)
+        now = float(pressure[elastic].sum())
+        if rest < 0:
+            return pressure * (total / float(pressure.sum()))
+        if rest <= now:
+            pressure[elastic] *= rest / now if now else 1.0
+        else:
+            left = self.hardness - pressure[elastic]
+            pressure[elastic] += left * min((rest - now) / float(left.sum()), 1.0)
+        return pressure
 
 
 def violations(

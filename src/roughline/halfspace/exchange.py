@@ -22,6 +22,8 @@ from roughline.halfspace.state import Problem
 _PATIENCE = 8
 # Nodes whose gap is below so many times the error on contact may come into contact.
 _WATCHED = 2.0
+# A node that lifts is relieved of this part of the hardness at most.
+_RELIEF = 1e-3
 
 
 class ExchangeRule:
@@ -87,9 +89,9 @@ def exchanged(
     if wrong.yielding.any() or wrong.lifting.any():
         most = problem.conditions.largest_pressure
         pressure = np.where(wrong.yielding, most, contact_set.pressure)
-        # a node that lifts is relieved of the pressure that its own gap takes to close
+        # of the pressure that its own gap takes to close, but little: its neighbours lift as well
         relieved = most - wrong.lift / problem.inverse.diagonal
-        pressure[wrong.lifting] = np.maximum(relieved, 0.0)
+        pressure[wrong.lifting] = np.maximum(relieved, (1 - _RELIEF) * most)
         contact_set = ContactSet(contact_set.nodes, pressure)
     return contact_set.without(wrong.pulling).joined_by(watched[wrong.overlapping])
 

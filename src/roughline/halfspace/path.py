@@ -73,7 +73,7 @@ class _Path:
         self._method = method
         self._start: ContactSet | None = None
         self._last: _Tangents | None = None
-        self._furthest: _Solved | None = None  # under the largest load, while smaller ones follow
+        self._furthest: _Solved | None = None  # under the largest load, until a larger one follows
         self._unknown_below = 0.0  # the largest load that was not solved
 
     def under(self, load: Load, next_load: Load | None) -> tuple[Contact, Response | None]:
@@ -150,7 +150,7 @@ class _Path:
         self._start, self._last = None, None
         if load is None:
             return
-        if solved is not None and load.value < solved.load.value and self._furthest is None:
+        if solved is not None and load.value <= solved.load.value and self._furthest is None:
             self._furthest = solved
         if self._furthest is not None and load.value > self._furthest.load.value:
             solved = self._furthest

@@ -12,6 +12,10 @@ from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.operator import GridNodes, Precision
 from roughline.halfspace.state import Contact, Load, Outcome, Problem
 
+# Dents put first touch deep. The gaps of an approach beyond it are compared with this part of the
+# depth at least, since rounding hides smaller ones.
+_LEAST_APPROACH = 1e-7
+
 
 @dataclass(frozen=True, eq=False)
 class Trial:
@@ -82,9 +86,10 @@ class Trial:
             factor = _best_factor(
                 load.depth - problem.separation.flat[nodes], pressure, gap.flat[nodes]
             )
-            if factor * float(pressure.max()) >= most:  # so that none reaches the hardness
-                factor = np.nextafter(most, 0.0) / float(pressure.max())
-            pressure = factor * pressure
+            below = np.nextafter(most, 0.0)
+            if factor * float(pressure.max()) > below:  # so that none reaches the hardness
+                factor = below / float(pressure.max())
+            pressure = np.minimum(factor * pressure, below)  # the product may be rounded up
             gap *= factor
         gap += problem.separation
         depth = load.depth
@@ -124,7 +129,7 @@ def _length_scale(problem: Problem, depth: float) -> float:
     """Return the length with which gaps are compared."""
     if problem.operator.zero_mean and not problem.rms_height:
         return 1.0  # even pressure on a flat surface moves nothing
-    approach = abs(depth - problem.touch)
+    approach = max(abs(depth - problem.touch), _LEAST_APPROACH * abs(depth))
     return min(problem.rms_height, approach) if problem.rms_height else approach
 
 
