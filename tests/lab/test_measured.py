@@ -201,13 +201,12 @@ def test_measured_files_are_described_as_by_the_command(measured_page, topograph
     "name", ["al3d-1.al3d", "di-1.di", "opd-1.opd", "dektak-1.csv", "mitutoyo_mock.xlsx"]
 )
 def test_measured_files_are_answered_for_as_by_the_library(measured_page, topographies, name):
-    load = "10 MPa" if name == "di-1.di" else "1 mN"  # a map of 500 nm bears 0.09 mN
-    said = {**measured_page.keys[name], "first": "steel", "second": "copper", "loads": load}
+    said = {**measured_page.keys[name], "first": "steel", "second": "copper", "loads": "10 uN"}
     expected = rl.assess(
         rl.Question(
             topographies / name,
             materials=("steel", "copper"),
-            loads=[load],
+            loads=["10 uN"],
             whole_curve=True,
             preparation=rl.Preparation(points=96),
         )

@@ -9,12 +9,13 @@ import numpy as np
 from roughline.units import decimal, prefix
 
 _NARROW = 0.1  # half width of an interval up to which it is written as ±
+_ONE_SIDED = 0.5  # shorter over longer half below which both ends are written
 _LEAST = 1e-4  # half width below which an interval says nothing
 _INTERVAL = re.compile(r" (?=[(±])")
 
 
 def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> str:
-    """Write a value, and its interval as ± where that is narrow, else by both ends in its unit."""
+    """Write a value, and its interval: as ± where that is narrow and even, else by both ends."""
     if not np.isfinite(value):
         return "not solved" if np.isnan(value) else "infinite"
     factor, sign = scale_of(value, unit)
@@ -22,9 +23,9 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     if ends is None or np.isnan(ends).any() or not value:
         return shown
     low, high = ends
-    half_width = max(value - low, high - value) / value
-    at_an_end = min(value - low, high - value) < _LEAST * value <= half_width * value
-    if half_width < _NARROW and not at_an_end:
+    shorter, half_width = sorted(((value - low) / value, (high - value) / value))
+    one_sided = shorter < _ONE_SIDED * half_width and half_width > _LEAST
+    if half_width < _NARROW and not one_sided:
         return f"{shown} ± {100 * max(half_width, _LEAST):.2g}%"
     first, last = (decimal(end * factor, 3) if np.isfinite(end) else "infinite" for end in ends)
     return f"{shown} ({first} to {last})"
