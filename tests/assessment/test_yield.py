@@ -139,6 +139,9 @@ def test_which_hardness_answers(surface, asked, hardness, scatters, told):
     assert ("unloading_stiffness" in result.answers) == (
         hardness is not None and "materials" in asked
     )
+    if yields and "materials" in asked:
+        over = result.elastic["contact_pressure_over_hardness"].values
+        assert over == pytest.approx(result.elastic["contact_pressure"].values / hardness)
     if hardness is not None and "materials" in asked:
         over = result.answers["contact_pressure_over_hardness"].values
         assert over == pytest.approx(result.answers["contact_pressure"].values / hardness)

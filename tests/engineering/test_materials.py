@@ -133,3 +133,32 @@ def test_moduli_agree_with_a_second_table(name):
 @pytest.mark.parametrize("name", RESISTIVITIES)
 def test_resistivities_agree_with_a_second_table(name):
     assert rl.material(name).resistivity == pytest.approx(RESISTIVITIES[name], rel=0.13)
+
+
+def test_the_hardness_of_the_table_scatters_and_a_given_one_does_not():
+    assert rl.material("copper").hardness_factor == 1.5
+    assert rl.material("copper resistivity=2e-8 ohm m").hardness_factor == 1.5
+    assert rl.material("copper hardness=1 GPa").hardness_factor == 1
+    assert rl.Material("own", E=1e9, nu=0.3, hardness=1e8).hardness_factor == 1
+    for wrong in (0.5, float("nan"), float("inf")):
+        with pytest.raises(rl.InputError, match="hardness_factor of own is .*; 1 or more"):
+            rl.Material("own", E=1e9, nu=0.3, hardness_factor=wrong)
+
+
+def test_the_softer_body_yields():
+    steel, copper, rigid = (rl.material(name) for name in ("steel", "copper", "rigid"))
+    unknown = rl.material("E=70 GPa nu=0.3")
+    for first, second, hardness, factor in (
+        (steel, copper, copper.hardness, 1.5),
+        (copper, steel, copper.hardness, 1.5),
+        (rl.material("steel hardness=0.2 GPa"), copper, 0.2e9, 1),
+        (rigid, steel, steel.hardness, 1.5),
+        (unknown, steel, steel.hardness, 1.5),
+        (unknown, rigid, None, 1),
+    ):
+        pair = MaterialPair(first, second)
+        assert (pair.hardness, pair.hardness_factor) == (hardness, factor)
+    given = MaterialPair(rigid, copper).with_hardness(2e9)
+    assert (given.hardness, given.hardness_factor) == (2e9, 1)
+    assert given.first == rigid
+    assert given.second.source == f"{copper.source}; hardness given"

@@ -128,7 +128,13 @@ def test_answers_are_those_of_the_library(page, key):
     question = question_of(said, source)
     expected = rl.assess(question)
     header, arrays = page.ask("answer", said, presses=4)
-    rows = [list(table) for table in (answer_table(expected, slice(None)), formula_table(expected))]
+    rows = [
+        list(table)
+        for table in (
+            answer_table(expected, slice(None), with_elastic=True),
+            formula_table(expected),
+        )
+    ]
     assert [header["answers"], header["formulas"]] == rows
     assert header["curve"] == list(curve_table(expected))
     assert header["remarks"] == [each.replace("trend=", "trend ") for each in expected.remarks]
@@ -195,19 +201,18 @@ def test_measured_files_are_described_as_by_the_command(measured_page, topograph
     "name", ["al3d-1.al3d", "di-1.di", "opd-1.opd", "dektak-1.csv", "mitutoyo_mock.xlsx"]
 )
 def test_measured_files_are_answered_for_as_by_the_library(measured_page, topographies, name):
-    load = "10 MPa" if name == "di-1.di" else "1 mN"  # a map of 500 nm bears 0.09 mN
-    said = {**measured_page.keys[name], "first": "steel", "second": "copper", "loads": load}
+    said = {**measured_page.keys[name], "first": "steel", "second": "copper", "loads": "10 uN"}
     expected = rl.assess(
         rl.Question(
             topographies / name,
             materials=("steel", "copper"),
-            loads=[load],
+            loads=["10 uN"],
             whole_curve=True,
             preparation=rl.Preparation(points=96),
         )
     )
     header, _ = measured_page.ask("answer", {**said, "resample": "96"})
-    assert header["answers"] == list(answer_table(expected, slice(None)))
+    assert header["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
     assert RANDOM not in str(header)
 
 
@@ -257,7 +262,7 @@ def test_an_array_needs_unit_and_size(page, tmp_path):
             reading=rl.Reading(unit="um", sizes="1 mm"),
         )
     )
-    assert answered["answers"] == list(answer_table(expected, slice(None)))
+    assert answered["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
 
 
 def test_damaged_empty_misnamed_and_large_files_are_refused_in_a_sentence(page, tmp_path):
@@ -379,7 +384,7 @@ def test_the_command_repeats_the_answers(page, invoke, tmp_path, monkeypatch):
     command = shlex.split(documents.as_command(said, ["ground-steel.x3p"]))
     code, out, errors = invoke(*command[1:])
     assert code == 0, errors
-    table = [row[1] for row in header["answers"][1]]
+    table = [row[1] for row in header["answers"][1] if row[0] != header["if_elastic"]]
     assert all(value.split(" (")[0] in out for value in table)
     page_html = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
     assert "Contact of ground-steel.x3p" in page_html
@@ -393,7 +398,9 @@ def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
     found = {}
     exec(header["text"], found)
     answered, _ = page.ask("answer", said)
-    assert answered["answers"] == list(answer_table(found["result"], slice(None)))
+    assert answered["answers"] == list(
+        answer_table(found["result"], slice(None), with_elastic=True)
+    )
 
 
 def test_a_contact_modulus_alone_gives_a_curve(page):
@@ -443,7 +450,7 @@ def test_a_joint_is_answered_for_with_its_area(page):
     expected = rl.assess(question_of(said, source_of(said, page.session)))
     assert expected.question.joint == pytest.approx(1e-4)
     header, _ = page.ask("answer", said)
-    assert header["answers"] == list(answer_table(expected, slice(None)))
+    assert header["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
     assert header["plot"]["is_of_joint"]
     assert max(header["plot"]["force"]) == pytest.approx(1)  # kN, on the joint
     assert header["plot"]["force_unit"] == "kN"
@@ -506,7 +513,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
         mean / expected.assessments[0].answers["contact_stiffness"].values[1]
     )
     alone = expected.assessments[2]
-    assert header["answers"] == list(answer_table(alone, slice(None)))
+    assert header["answers"] == list(answer_table(alone, slice(None), with_elastic=True))
     marks = alone.fields.contact.astype(int) + alone.fields.plastic
     np.testing.assert_array_equal(arrays["area"].T, marks)
 
@@ -516,7 +523,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
     monkeypatch.setattr("roughline.lab.measured.answers.assess_body", never)
     alone = {**said, "file": keys["place 1.nc"]}
     assert page.ask("answer", alone)[0]["answers"] == list(
-        answer_table(expected.assessments[1], slice(None))
+        answer_table(expected.assessments[1], slice(None), with_elastic=True)
     )
 
 

@@ -17,6 +17,9 @@ from roughline.engineering.pair import MaterialPair
 from roughline.spectra.moments import Moments, moments
 from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.topography.body import Body, Surface
+from roughline.units import decimal
+
+_STEEP = 0.5  # rms slope from which on it is warned that half-spaces suppose small ones
 
 
 def surface_moments(body: Body) -> Moments | None:
@@ -82,9 +85,14 @@ def _answers(
 
 
 def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
-    """Say where the elastic assumption breaks, and of what the answers are not."""
+    """Say where an assumption breaks, and of what the answers are not."""
     question, body, pair = result.question, result.body, result.question.pair
     broken = []
+    if body.rms_slope > _STEEP:
+        broken.append(
+            f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces suppose small slopes: "
+            f"what slopes over {_STEEP:g} change is in no interval"
+        )
     if pair is not None and result.curve.hardness is None:
         index = None
         if spectrum is not None and pair.hardness is not None:

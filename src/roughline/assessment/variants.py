@@ -57,7 +57,9 @@ class Again:
 
         Loads that it does not bear are not solved.
         """
-        question = replace(result.question, hardness=hardness, elastic=hardness is None)
+        question = result.question
+        if hardness is not None:
+            question = replace(question, hardness=hardness)
         other = replace(_without_intervals(result), question=question, body=body)
         curve, same = result.curve, body is result.body and not _yields(result.curve)
         if same and hardness is not None and hardness >= (curve.hardness or 0):

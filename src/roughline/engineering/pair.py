@@ -55,13 +55,18 @@ class MaterialPair:
         return min(known, key=itemgetter(0))[1] if known else None
 
     def with_hardness(self, hardness: float) -> MaterialPair:
-        """Return the pair with another hardness of the softer body, known exactly. [Pa]"""
-        return MaterialPair(
-            *(
-                replace(each, hardness=hardness, hardness_factor=1.0)
-                for each in (self.first, self.second)
-            )
-        )
+        """Return the pair with another hardness of the softer body, known exactly. [Pa]
+
+        Which of the two that is need not be known; a rigid one is not.
+        """
+
+        def given(each: Material) -> Material:
+            if math.isinf(each.E):
+                return each
+            source = f"{each.source}; hardness given"
+            return replace(each, hardness=hardness, hardness_factor=1.0, source=source)
+
+        return MaterialPair(given(self.first), given(self.second))
 
     def lacking(self, quantity: str) -> list[str]:
         """Name the bodies whose property is not known; a rigid one needs no hardness."""

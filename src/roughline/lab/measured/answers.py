@@ -23,6 +23,7 @@ from roughline.lab.measured.pictures import contact_drawing, curve_drawing
 from roughline.lab.measured.state import Arguments, at, question_of, said_of, sources_of
 from roughline.lab.measured.words import in_controls
 from roughline.report.contact_tables import (
+    IF_ELASTIC,
     UNRESOLVED,
     answer_table,
     curve_table,
@@ -58,9 +59,11 @@ def _framed(result: Assessment, **others: Any) -> bytes:
     if isinstance(result.body, Surface):
         drawing = contact_drawing(result)
         contact, arrays = drawing.header, drawing.arrays
+    answers = answer_table(result, slice(None), with_elastic=True) if result.answers else None
     header = {
         "modulus": _modulus(result),
-        "answers": answer_table(result, slice(None)) if result.answers else None,
+        "answers": answers,
+        "if_elastic": IF_ELASTIC,
         "formulas": formula_table(result) if result.answers else None,
         "curve": curve_table(result),
         "star": f"* {UNRESOLVED}" if star_is_shown(result) else "",

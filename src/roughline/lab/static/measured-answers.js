@@ -97,6 +97,9 @@ export class Answers {
     this.#part.show(answer.part ?? null, this.pictures);
     view.find("[data-modulus]").textContent = answer.modulus;
     fillTable("measured-answers", ...(answer.answers ?? answer.curve));
+    for (const cell of view.findAll('[data-table="measured-answers"] td:first-child')) {
+      cell.parentElement.classList.toggle("elastic", cell.textContent === answer.if_elastic);
+    }
     view.find("[data-star]").textContent = answer.star;
     fillList(view, "answer-remarks", [...(answer.part ? [] : answer.remarks), ...answer.theories]); // the part has all
     fillTable("measured-formulas", ...(answer.formulas ?? [["no answers follow from a contact modulus alone"], []]));

@@ -61,8 +61,11 @@ class Measured {
   reconnected() {
     this.#answers.forget();
     if (this.#controls.said.example) { this.look(); return; }
-    if (!this.#controls.said.file) return;
+    const {file, ...kept} = this.#controls.said;
+    if (!file) return;
+    this.#take(kept);
     this.#forgetFile();
+    this.#part.check();
     this.refuse("The connection was lost, and the file went with it: choose it again.", "file");
   }
 
