@@ -6,7 +6,7 @@ OUT ?= out/paper
 TEST_PROCESSES ?= 2
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak start-up lab-benchmark fuzz study published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak start-up lab-benchmark fuzz study correlations published architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -81,8 +81,14 @@ study: $(VENV)/installed
 	$(BIN)/python studies/paper/reduce.py out/study.zarr
 	$(BIN)/python studies/paper/times.py
 
+correlations: $(VENV)/installed
+	$(BIN)/roughline campaign run studies/correlations/plan.toml --store out/correlations.zarr
+	$(BIN)/python studies/correlations/reduce.py out/correlations.zarr
+	$(BIN)/python studies/correlations/publish.py
+
 published: $(VENV)/installed
 	$(BIN)/python studies/paper/publish.py
+	$(BIN)/python studies/correlations/publish.py
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py

@@ -1,6 +1,7 @@
 """Explore: its addresses, and its numbers, which are those of the library."""
 
 import math
+import shlex
 import subprocess
 import sys
 
@@ -11,6 +12,7 @@ from matplotlib import image
 
 import roughline as rl
 from lab.unpacked import unpacked
+from roughline.assessment.question import UNLOADING
 from roughline.lab.controls import ControlError
 from roughline.lab.explore import code, downloads, pictures
 from roughline.lab.explore.address import state_of
@@ -151,6 +153,10 @@ def test_an_rms_slope_is_that_of_the_surface():
         ({"F": "11 MPa"}, "F", 0.1),
         ({"F": "11 N", "h": "2 um"}, "F", 0.05),
         ({"L": "2 mm", "roll_off": "1 mm"}, "roll_off", 0.5),
+        ({"hardness_bar": "0.3"}, "hardness_bar", 0.3),
+        ({"rms": "slope", "slope": "0.05", "hardness_bar": "2.75 GPa"}, "hardness_bar", 0.5),
+        ({"hardness_bar": ""}, "hardness_bar", None),
+        ({}, "hardness_bar", None),
     ],
 )
 def test_numbers_may_have_units(said, name, value):
@@ -159,6 +165,7 @@ def test_numbers_may_have_units(said, name, value):
 
 def test_an_address_gives_its_state_again():
     said = {"D_f": "2.35", "n": "128", "boundary": "periodic", "theories": "persson", "L": "3 um"}
+    said["hardness_bar"] = "0.25"
     state = state_of(said, 1024)
     assert state_of(state.address(), 1024) == state
     assert state_of({}, 1024) == ExploreState()
@@ -184,6 +191,10 @@ def test_an_address_gives_its_state_again():
         ({"E": "-1 GPa"}, "E"),
         ({"cutoff": "0.5", "roll_off": "0.2"}, "cutoff"),
         ({"theories": "hertz"}, "theories"),
+        ({"hardness_bar": "9"}, "hardness_bar"),
+        ({"hardness_bar": "soft"}, "hardness_bar"),
+        ({"hardness_bar": "1 kPa"}, "hardness_bar"),
+        ({"hardness_bar": "0.05", "F": "9"}, "F"),
         ({"boundary": "open"}, "boundary"),
         ({"v": "2"}, "v"),
         ({"colour": "red"}, "v"),
@@ -236,3 +247,74 @@ def test_every_file_can_be_saved_and_opened(name, tmp_path, surface):
 def test_no_other_file_can_be_saved(tmp_path):
     with pytest.raises(ControlError):
         answer(downloads.download, SMALL, folder=tmp_path, name="../../surface.nc")
+
+
+@pytest.fixture(scope="module")
+def yielding(surface):
+    """The way up to the load and back, with a hardness that most of the contact reaches."""
+    shares = np.array([1, *UNLOADING])
+    return rl.press(
+        surface,
+        E_star=E_STAR,
+        hardness=0.3 * E_STAR * surface.rms_slope,
+        forces=0.2 * E_STAR * HEIGHT * LENGTH * shares,
+        fields=[0],
+    )
+
+
+YIELDING = {**SMALL, "hardness_bar": "0.3"}
+
+
+def test_plastic_spots_are_those_of_the_library(yielding):
+    header, arrays = answer(pictures.full, YIELDING)
+    fields = yielding.fields[0]
+    assert 0 < fields.plastic.sum() < fields.contact.sum()
+    np.testing.assert_array_equal(arrays["area"], (fields.contact.astype(int) + fields.plastic).T)
+    said = {item["key"]: item for item in header["strip"]}
+    assert said["plastic"]["value"] == f"{100 * yielding.plastic_fraction[0]:.3g}%"
+    assert said["indentation"]["value"] == f"{yielding.indentation[0] / HEIGHT:.3g} h"
+    assert said["unloading"]["below"].split(" MN/m")[0] == (
+        f"{yielding.unloading_stiffness[0] / 1e6:.4g}"
+    )
+    elastic = {item["key"] for item in answer(pictures.full, SMALL)[0]["strip"]}
+    assert said.keys() - elastic == {"unloading", "plastic", "indentation"}
+
+
+def test_the_way_back_is_that_of_the_library(yielding):
+    header, _ = answer(pictures.unloading, YIELDING)
+    ratio = yielding.unloading_stiffness / yielding.stiffness[0]
+    found = np.array(header["curve"]["unloading_bar"])
+    np.testing.assert_allclose(found, ratio * header["curve"]["stiffness_bar"][0], rtol=1e-9)
+    assert header["stiffness_table"][-1] == ["0", "0", "3D, way back"]
+    curve, _ = answer(pictures.curve, YIELDING)
+    assert {row[2] for row in curve["stiffness_table"]} == {"3D", "3D, k_u"}
+
+
+def test_loads_of_the_curve_are_borne():
+    soft = {**SMALL, "hardness_bar": "0.02", "F": "0.01"}
+    header, _ = answer(pictures.curve, soft)
+    assert all(header["curve"]["converged"])
+    assert len(header["curve"]["force_bar"]) < 13
+
+
+def test_code_with_a_hardness_gives_the_same_numbers(
+    yielding, invoke, tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    exec(answer(code.code, YIELDING, which="python")[0]["text"], {})
+    numbers = [float(line.split()[1]) for line in capsys.readouterr().out.splitlines()[3:5]]
+    wanted = [yielding.unloading_stiffness[0], yielding.plastic_fraction[0]]
+    np.testing.assert_allclose(numbers, wanted, rtol=1e-9)
+    for line in answer(code.code, YIELDING, which="command")[0]["text"].splitlines():
+        exit_code, out, errors = invoke(*shlex.split(line)[1:])
+        assert exit_code == 0, errors
+    assert "unloaded to 75%" in out
+    assert f"{100 * yielding.area_fraction_corrected[0]:.4g}%" in out
+
+
+def test_a_saved_curve_has_both_branches(tmp_path):
+    header, _ = answer(downloads.download, YIELDING, folder=tmp_path, name="curve.csv")
+    first, *rows = (tmp_path / "results" / header["file"]).read_text().splitlines()
+    column = first.split(",").index("plastic_fraction [1]")
+    assert float(rows[-1].split(",")[0]) == 0
+    assert max(float(row.split(",")[column]) for row in rows) > 0.1

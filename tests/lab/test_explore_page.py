@@ -214,6 +214,61 @@ def test_a_link_that_cannot_be_read_is_refused_in_one_sentence(pages, query):
     page.context.close()
 
 
+def test_a_surface_yields_and_does_so_no_more(fresh, pages):
+    elastic = strip(fresh)
+    fresh.check("#explore-yields")
+    typed(fresh, "hardness_bar", "0.3")
+    settled(fresh, points=64, hardness_bar=0.3)
+    fresh.wait_for_function(
+        "() => document.querySelector('[data-table=explore-area]').textContent.includes('way back')"
+    )
+    surface = spectrum().surface(64, 3)
+    pressed = rl.press(
+        surface,
+        E_star=E_STAR,
+        hardness=0.3 * E_STAR * surface.rms_slope,
+        forces=[0.2 * SCALE],
+        fields=True,
+    )
+    fields = pressed.fields[0]
+    np.testing.assert_array_equal(
+        image(fresh, "contact"), (fields.contact.astype(int) + fields.plastic).T.ravel()
+    )
+    said = strip(fresh)
+    assert said["plastic"][0] == decimal(100 * float(pressed.plastic_fraction[0]), 3) + "%"
+    assert said.keys() - elastic.keys() == {"unloading", "plastic", "indentation"}
+    assert "at the hardness" in fresh.inner_text('[data-caption="shown"]')
+    for name in ("stiffness unloading", "stiffness back", "area back"):
+        assert shown_marks(fresh, name) > 3
+    other = pages.open("?" + urlencode(address(fresh)))
+    settled(other, points=64, hardness_bar=0.3)
+    assert strip(other) == said
+    assert other.is_checked("#explore-yields")
+    other.context.close()
+    typed(fresh, "hardness_bar", "7")
+    sentence(fresh, "hardness_bar").filter(has_text="from 0.02 to 5").wait_for()
+    fresh.uncheck("#explore-yields")
+    settled(fresh, points=64)
+    fresh.wait_for_function("() => !document.querySelector('[data-answer=plastic]')")
+    assert strip(fresh) == elastic
+    assert not fresh.is_visible("#explore-hardness_bar")
+    assert "hardness_bar" not in address(fresh)
+    for name in ("stiffness unloading", "stiffness back", "area back"):
+        assert shown_marks(fresh, name) == 0
+
+
+def shown_marks(page, name):
+    """Return how many marks a source has, and zero if the legend does not name them."""
+    return page.evaluate(
+        """(name) => {
+            const made = Bokeh.documents.find((each) => each.get_model_by_name(name));
+            const isNamed = made.get_model_by_name(`${name} label`).visible;
+            return isNamed ? made.get_model_by_name(name).data.x.length : 0;
+        }""",
+        name,
+    )
+
+
 def test_a_link_by_the_hurst_exponent_leaves_its_slider_alive(small, pages):
     small.goto(pages.address + "?view=explore&v=1&H=0.5&n=64")
     settled(small, D_f=2.5)

@@ -4,6 +4,7 @@ import re
 import shlex
 import shutil
 from dataclasses import replace
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from roughline.lab.tasks import TASKS
 from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import answer_table, curve_table, formula_table
 from roughline.report.description_table import description_table
+from roughline.report.part_tables import leading_table, maps_table, part_table
 from roughline.server.tasks import outcome_of
 
 PAIR = {"first": "steel", "second": "copper", "loads": "2 MPa"}
@@ -126,14 +128,21 @@ def test_answers_are_those_of_the_library(page, key):
     question = question_of(said, source)
     expected = rl.assess(question)
     header, arrays = page.ask("answer", said, presses=4)
-    rows = [list(table) for table in (answer_table(expected, slice(None)), formula_table(expected))]
+    rows = [
+        list(table)
+        for table in (
+            answer_table(expected, slice(None), with_elastic=True),
+            formula_table(expected),
+        )
+    ]
     assert [header["answers"], header["formulas"]] == rows
     assert header["curve"] == list(curve_table(expected))
     assert header["remarks"] == [each.replace("trend=", "trend ") for each in expected.remarks]
     assert bool(page.steps) == (expected.fields is not None)  # a line scan is solved at once
     assert all(done <= total for done, total in page.steps)
     if expected.fields is not None:
-        np.testing.assert_array_equal(arrays["area"].T, expected.fields.contact)
+        marks = expected.fields.contact.astype(int) + expected.fields.plastic
+        np.testing.assert_array_equal(arrays["area"].T, marks)
         largest = (
             expected.fields.pressure.max() / header["contact"]["fields"]["pressure"]["range"][1]
         )
@@ -203,7 +212,7 @@ def test_measured_files_are_answered_for_as_by_the_library(measured_page, topogr
         )
     )
     header, _ = measured_page.ask("answer", {**said, "resample": "96"})
-    assert header["answers"] == list(answer_table(expected, slice(None)))
+    assert header["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
     assert RANDOM not in str(header)
 
 
@@ -253,7 +262,7 @@ def test_an_array_needs_unit_and_size(page, tmp_path):
             reading=rl.Reading(unit="um", sizes="1 mm"),
         )
     )
-    assert answered["answers"] == list(answer_table(expected, slice(None)))
+    assert answered["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
 
 
 def test_damaged_empty_misnamed_and_large_files_are_refused_in_a_sentence(page, tmp_path):
@@ -299,6 +308,19 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ({"loads": "10"}, "bodies", "loads", "give a total force"),
         ({"loads": "-3 N"}, "bodies", "loads", "give positive ones"),
         ({"loads": "0,5 N"}, "bodies", "loads", "decimal point"),
+        ({"hardness": "soft"}, "bodies", "hardness", "no quantity in Pa"),
+        ({"hardness": "-2 GPa"}, "bodies", "hardness", "a positive pressure is needed"),
+        ({"hardness": "2 GPa", "elastic": "yes"}, "answer", "hardness", 'and "elastic" contradict'),
+        ({"elastic": "perhaps"}, "bodies", "elastic", "allowed are"),
+        ({"joint_area": "2"}, "bodies", "joint_area", "without a unit"),
+        ({"joint_area": "1 nm^2"}, "answer", "answers", "less than the map"),
+        (
+            {"joint_area": "1 cm^2", "bodies": "modulus", "E": "1 GPa"},
+            "bodies",
+            "joint_area",
+            "two",
+        ),
+        ({"loads": "900 MPa"}, "answer", "answers", "hardness"),
         ({"friction": "rough"}, "answer", "friction", "give a number"),
         ({"friction": "-1"}, "answer", "friction", "a positive one is needed"),
         ({"frequency": "5 m"}, "answer", "frequency", "no quantity in Hz"),
@@ -359,10 +381,10 @@ def test_the_command_repeats_the_answers(page, invoke, tmp_path, monkeypatch):
     page.ask("code", said, which="command")
     path_of("ground", tmp_path)
     monkeypatch.chdir(tmp_path)
-    command = shlex.split(documents.as_command(said, "ground-steel.x3p"))
+    command = shlex.split(documents.as_command(said, ["ground-steel.x3p"]))
     code, out, errors = invoke(*command[1:])
     assert code == 0, errors
-    table = [row[1] for row in header["answers"][1]]
+    table = [row[1] for row in header["answers"][1] if row[0] != header["if_elastic"]]
     assert all(value.split(" (")[0] in out for value in table)
     page_html = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
     assert "Contact of ground-steel.x3p" in page_html
@@ -376,7 +398,9 @@ def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
     found = {}
     exec(header["text"], found)
     answered, _ = page.ask("answer", said)
-    assert answered["answers"] == list(answer_table(found["result"], slice(None)))
+    assert answered["answers"] == list(
+        answer_table(found["result"], slice(None), with_elastic=True)
+    )
 
 
 def test_a_contact_modulus_alone_gives_a_curve(page):
@@ -405,3 +429,145 @@ def test_a_name_may_be_given_to_a_file(rough):
 
 def test_state_is_text_alone():
     assert said_of({"state": {"first": " steel ", "second": ""}}) == {"first": "steel"}
+
+
+def test_the_page_says_at_which_pressure_what_yields(page):
+    header, _ = page.ask("bodies", PAIR, sides=[1e-3, 1e-3])
+    copper = rl.material("copper")
+    assert ["yield", f"at {copper.hardness / 1e6:g} MPa, known to a factor of 1.5"] in header[
+        "rows"
+    ]
+    assert header["yields"]
+    header, _ = page.ask("bodies", {**PAIR, "hardness": "2 GPa"}, sides=None)
+    assert ["yield", "at 2 GPa, as given"] in header["rows"]
+    header, _ = page.ask("bodies", {**PAIR, "elastic": "yes"}, sides=None)
+    assert ["yield", "left out"] in header["rows"]
+    assert not header["yields"]
+
+
+def test_a_joint_is_answered_for_with_its_area(page):
+    said = {"example": "film", **PAIR, **SMALL, "loads": "1 kN", "joint_area": "1 cm^2"}
+    expected = rl.assess(question_of(said, source_of(said, page.session)))
+    assert expected.question.joint == pytest.approx(1e-4)
+    header, _ = page.ask("answer", said)
+    assert header["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
+    assert header["plot"]["is_of_joint"]
+    assert max(header["plot"]["force"]) == pytest.approx(1)  # kN, on the joint
+    assert header["plot"]["force_unit"] == "kN"
+    sides = list(expected.body.sizes)
+    told, _ = page.ask("bodies", said, sides=sides)
+    assert "1 kN on the joint of 100 mm²" in told["loads"][0]
+
+
+@pytest.fixture
+def part(page, tmp_path):
+    """Three maps of one part and a damaged file: their keys by name, and their paths."""
+    keys, paths = {}, []
+    whole = rl.SelfAffine(
+        hurst=0.7, length=4e-4, rms_height=1e-6, q_roll=2 * np.pi / 25e-6
+    ).surface(128, 3)
+    for i in range(3):
+        piece = whole.cropped((40 * i, 40 * i + 32), (0, 32)).detrended()
+        paths.append(tmp_path / f"place {i}.nc")
+        rl.write(rl.Surface(piece.heights, piece.sizes, "m"), paths[-1])
+    paths.insert(1, tmp_path / "broken.x3p")
+    paths[1].write_bytes(b"PK\x03\x04" + bytes(300))
+    for path in paths:
+        keys[path.name] = page.bring(path)["file"]
+    return keys, paths
+
+
+def test_maps_of_a_part_are_checked_one_by_one(page, part):
+    keys, _ = part
+    header, _ = page.ask("maps", {"file": ",".join(keys.values())})
+    rows = {each["name"]: each for each in header["maps"]}
+    assert list(rows) == list(keys)
+    assert rows["place 0.nc"]["cells"][:2] == ["32 x 32", "100 µm x 100 µm"]
+    assert "damaged" in rows["broken.x3p"]["refused"]
+    assert RANDOM not in str(header)
+
+
+def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, part, monkeypatch):
+    keys, paths = part
+    said = {"file": ",".join(keys.values()), **PAIR, "loads": "2 MPa; 20 MPa", "grid_error": "no"}
+    header, arrays = page.ask("answer", said, map=2)
+    assert all(done <= total for done, total in page.steps)
+    expected = rl.assess(
+        rl.Question(
+            paths,
+            materials=("steel", "copper"),
+            loads=["2 MPa", "20 MPa"],
+            whole_curve=True,
+            grid_error=False,
+        )
+    )
+    given = header["part"]
+    assert given["names"] == expected.names == ["place 0.nc", "place 1.nc", "place 2.nc"]
+    assert given["answers"] == list(part_table(expected, [0, 1]))
+    assert given["leading"] == list(leading_table(expected))
+    assert given["maps"] == list(maps_table(expected))
+    assert "broken.x3p" in given["remarks"][0]
+    drawn = {each["name"]: each for each in given["drawings"]}["contact stiffness k"]
+    mean = expected.answers["contact_stiffness"].mean[1]
+    assert drawn["mean"] / drawn["values"][0] == pytest.approx(
+        mean / expected.assessments[0].answers["contact_stiffness"].values[1]
+    )
+    alone = expected.assessments[2]
+    assert header["answers"] == list(answer_table(alone, slice(None), with_elastic=True))
+    marks = alone.fields.contact.astype(int) + alone.fields.plastic
+    np.testing.assert_array_equal(arrays["area"].T, marks)
+
+    def never(*_, **__):
+        raise AssertionError("solved again")
+
+    monkeypatch.setattr("roughline.lab.measured.answers.assess_body", never)
+    alone = {**said, "file": keys["place 1.nc"]}
+    assert page.ask("answer", alone)[0]["answers"] == list(
+        answer_table(expected.assessments[1], slice(None), with_elastic=True)
+    )
+
+
+def test_the_report_of_a_part_comes_with_all_of_its_maps(page, part, monkeypatch):
+    keys, _ = part
+
+    def written(part, folder, command):
+        for name in part.names:
+            (folder / name).mkdir(parents=True)
+            (folder / name / "report.html").write_text(command)
+        (folder / "report.html").write_text(f"<h1>{len(part.names)} maps</h1>")
+
+    monkeypatch.setattr("roughline.lab.measured.documents.write_part_report", written)
+    header, _ = page.ask("report", {"file": ",".join(keys.values()), **PAIR, "grid_error": "no"})
+    assert header["files"].keys() == {"report.html", "all-maps.zip"}
+    results = page.folder / "results"
+    assert (results / header["files"]["report.html"]).read_text() == "<h1>3 maps</h1>"
+    with ZipFile(results / header["files"]["all-maps.zip"]) as packed:
+        assert "report.html" in packed.namelist()
+        told = packed.read("place 2.nc/report.html").decode()
+    assert told.startswith("roughline press 'place 0.nc' broken.x3p")
+
+
+def test_a_part_is_repeated_by_command_and_by_python(page, part):
+    keys, _ = part
+    said = {"file": ",".join(keys.values()), **PAIR, "joint_area": "2 cm^2", "hardness": "2 GPa"}
+    command, _ = page.ask("code", said, which="command")
+    words = shlex.split(command["text"])
+    assert words[:6] == ["roughline", "press", *keys]
+    for flag, value in (("--joint-area", "2 cm^2"), ("--hardness", "2 GPa")):
+        assert words[words.index(flag) + 1] == value
+    python, _ = page.ask("code", {**PAIR, "file": said["file"], "elastic": "yes"}, which="python")
+    assert f"[{', '.join(map(repr, keys))}]" in python["text"]
+    assert "elastic=True" in python["text"]
+    compile(python["text"], "lines", "exec")
+
+
+def test_a_part_needs_materials_and_loads(page, part):
+    keys, _ = part
+    said = {"file": ",".join(keys.values())}
+    error, at = page.refusal("answer", {**said, "bodies": "modulus", "E": "1 GPa", "loads": "1 N"})
+    assert "need two materials" in error
+    assert at == "answers"
+    assert "under the same loads" in page.refusal("answer", {**said, **PAIR, "loads": ""})[0]
+    broken = keys["broken.x3p"]
+    assert "none of the 2 maps" in page.refusal("answer", {**PAIR, "file": f"{broken},{broken}"})[0]
+    assert page.refusal("maps", {"file": f"{broken},gone"})[0].startswith("one of the files is no")

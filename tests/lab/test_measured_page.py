@@ -2,6 +2,7 @@
 
 import pytest
 
+import roughline as rl
 from lab.looks import asked, faint, tabbed
 from lab_in_browser import Pages, RunningLab
 
@@ -82,6 +83,49 @@ def test_a_press_can_be_cancelled(pages):
     page.wait_for_selector('[data-waiting="answers"] .cancel', state="hidden")
     page.wait_for_selector("[data-press]:not([disabled])")
     assert not page.is_visible('[data-table="measured-answers"]')
+    page.context.close()
+
+
+def test_maps_of_a_part_are_brought_checked_pressed_and_left_out(pages, tmp_path):
+    whole = rl.SelfAffine(hurst=0.7, length=4e-4, rms_height=1e-6).surface(64, 3)
+    paths = []
+    for i in range(3):
+        piece = whole.cropped((20 * i, 20 * i + 16), (0, 16)).detrended()
+        paths.append(tmp_path / f"place {i}.nc")
+        rl.write(rl.Surface(piece.heights, piece.sizes, "m"), paths[-1])
+    (tmp_path / "broken.x3p").write_bytes(b"PK\x03\x04" + bytes(300))
+    page = pages.open("?view=measured")
+    page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")
+    maps = page.locator('[data-table="measured-maps"] tbody tr')
+    with page.expect_file_chooser() as coming:
+        page.click("[data-choose]")
+    coming.value.set_files([tmp_path / "broken.x3p", *paths[:2]])
+    maps.nth(2).wait_for()
+    page.locator("#measured [data-name]", has_text="place 0.nc").wait_for()
+    assert "damaged" in maps.nth(0).inner_text()
+    with page.expect_file_chooser() as coming:
+        page.click("[data-add-maps]")
+    coming.value.set_files(paths[2])
+    maps.nth(3).wait_for()
+    page.click('[aria-label="show place 1.nc"]')
+    page.locator("#measured [data-name]", has_text="place 1.nc").wait_for()
+    page.click("[data-press]:not([disabled])")
+    page.locator('[data-table="measured-part-answers"] tbody tr').first.wait_for(timeout=60_000)
+    assert "broken.x3p" in page.inner_text('[data-list="part-remarks"]')
+    assert page.locator('[data-table="measured-part-leading"] tbody tr').count() == 3
+    assert page.is_visible("#plot-measured-part")
+    assert "at the hardness" in page.inner_text('[data-caption="contact"]')
+    assert asked(page, "nameless", "measured") == []
+    page.select_option("[data-part-map]", "2")
+    page.wait_for_selector('[data-result="answers"]:not(.dimmed)')
+    assert page.input_value("[data-part-map]") == "2"
+    page.click('[aria-label="leave out broken.x3p"]')
+    maps.nth(3).wait_for(state="detached")
+    assert maps.count() == 3
+    assert "3 maps" in page.inner_text("[data-part-count]")
+    page.click(EXAMPLE)
+    page.locator("#measured [data-name]", has_text="ground-steel").wait_for()
+    assert not page.is_visible("[data-part]")
     page.context.close()
 
 

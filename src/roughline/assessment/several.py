@@ -80,6 +80,7 @@ def assess_part(
     announce: Announce | None = None,
     progress: LoadProgress | None = None,
     map_progress: MapProgress | None = None,
+    answer: Callable[[Question], Assessment] | None = None,
 ) -> PartAssessment:
     """Answer one question for several maps of a part.
 
@@ -96,6 +97,8 @@ def assess_part(
         As for :func:`assess_body`, map by map.
     map_progress : callable, optional
         Called with (maps done, maps in all).
+    answer : callable, optional
+        Answers the question of one map instead of :func:`assess_body`, such as from what is kept.
 
     Raises
     ------
@@ -104,7 +107,7 @@ def assess_part(
     KeyboardInterrupt
         On Ctrl-C before the first map was done.
     """
-    answer = partial(assess_body, announce=announce, progress=progress)
+    answer = answer or partial(assess_body, announce=announce, progress=progress)
     _refuse_unlike(questions)
     done = _Pressed()
     todo = list(zip(names or names_of(questions), questions, strict=True))

@@ -124,9 +124,11 @@ def evaluate_case(ensemble: Ensemble, fractal_dimension: float, realisation: int
     seed = ensemble.seed_of(realisation)
     make = spectrum.line if ensemble.model == "reduced" else spectrum.surface
     body = make(ensemble.n, seed)
+    hardness = None if ensemble.hardness_bar is None else ensemble.hardness_bar * body.rms_slope
     curve = press(
         body,
         E_star=1.0,
+        hardness=hardness,
         forces=np.array(ensemble.force_bars),
         periodic=ensemble.boundary == "periodic",
         throw=False,

@@ -95,7 +95,8 @@ def memory_of(ensemble: Ensemble) -> int:
     if ensemble.model == "reduced":
         return _WORKER_BYTES + _LINE_BYTES * ensemble.n
     shape = (ensemble.n, ensemble.n)
-    pressing = estimates.memory_for(shape, ensemble.boundary == "periodic", 0)
+    periodic, yielding = ensemble.boundary == "periodic", ensemble.hardness_bar is not None
+    pressing = estimates.memory_for(shape, periodic, 0, yielding=yielding)
     heights = 8 * ensemble.n**2
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
 

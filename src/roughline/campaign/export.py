@@ -10,6 +10,7 @@ import numpy as np
 
 from roughline.campaign.layout import CASE_STATUS, DONE, VARIABLES
 from roughline.campaign.store import Store
+from roughline.contact.curve import Status
 from roughline.errors import InputError, StoreError
 from roughline.statistics.averages import average
 
@@ -91,7 +92,7 @@ def mean_table(data: xarray.Dataset) -> pd.DataFrame:
                 f"{name}_high": mean.high,
                 f"{name}_standard_deviation": mean.scatter,
             }
-        columns["realisations_converged"] = np.isfinite(one.stiffness.values).sum(axis=0)
+        columns["realisations_converged"] = (one.status.values == Status.CONVERGED).sum(axis=0)
         columns["realisations_resolved"] = (one.resolved.values == 1).sum(axis=0)
         done = int((one[CASE_STATUS.name].values == DONE).sum())
         columns["realisations_done"] = np.full(force.size, done)

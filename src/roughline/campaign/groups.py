@@ -34,7 +34,8 @@ def refuse_other_settings(root: Any, ensemble: Ensemble, path: Path) -> None:
     """
     if ensemble.name not in root:
         return
-    wanted = json.loads(json.dumps(ensemble.identity()))
+    # of elastic bodies, neither the settings nor what is stored names a hardness
+    wanted = {"hardness_bar": None, **json.loads(json.dumps(ensemble.identity()))}
     group = root[ensemble.name]
     stored = group.attrs
     if {key: stored.get(key) for key in wanted} == wanted:

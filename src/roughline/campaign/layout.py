@@ -41,6 +41,8 @@ class Variable:
         What it extends over.
     of_lines : bool
         Whether the reduced model gives it.
+    of_yielding : bool
+        Whether only bodies with a hardness have it.
     averaged : bool
         Whether tables of means over the realisations have it.
     """
@@ -51,6 +53,7 @@ class Variable:
     meaning: str
     dims: tuple[str, ...] = DIMENSIONS
     of_lines: bool = True
+    of_yielding: bool = False
     averaged: bool = False
 
     @property
@@ -63,8 +66,15 @@ def _of_curve(name: str, meaning: str = "", *, averaged: bool = False) -> Variab
     """Declare that stores keep a quantity of the curve; flags are small integers there."""
     quantity = QUANTITIES[name]
     dtype, fill = ("f8", np.nan) if quantity.dtype == "f8" else ("i1", -1)
-    meaning = meaning or quantity.long_name
-    return Variable(name, dtype, fill, meaning, of_lines=quantity.of_lines, averaged=averaged)
+    return Variable(
+        name,
+        dtype,
+        fill,
+        meaning or quantity.long_name,
+        of_lines=quantity.of_lines,
+        of_yielding=quantity.of_yielding,
+        averaged=averaged,
+    )
 
 
 def _of_body(name: str, meaning: str) -> Variable:
@@ -76,6 +86,11 @@ _DECLARED = (
     _of_curve("depth", "depth since touch / h", averaged=True),
     _of_curve("area_fraction", "real over nominal contact area, cells in contact", averaged=True),
     _of_curve("area_fraction_corrected"),
+    _of_curve("unloading_stiffness", "raw stiffness on unloading k_u / (E* L)", averaged=True),
+    _of_curve("plastic_fraction", averaged=True),
+    _of_curve("indentation", "largest permanent indentation / h", averaged=True),
+    _of_curve("work", "work done by the load / (E* h² L)", averaged=True),
+    _of_curve("dissipated_work", "work dissipated by indentation / (E* h² L)", averaged=True),
     _of_curve("status", "0 converged, 1 stalled, 2 max_iterations, 3 no tangent, -1 not done"),
     _of_curve(
         "resolved",
@@ -111,5 +126,13 @@ COORDINATES = (
 
 
 def variables_of(ensemble: Ensemble) -> list[Variable]:
-    """Return what is kept of an ensemble; the reduced model gives no contact area."""
-    return [each for each in _DECLARED if ensemble.model == "full" or each.of_lines]
+    """Return what is kept of an ensemble.
+
+    The reduced model gives no contact area, and elastic bodies no indentation.
+    """
+    return [
+        each
+        for each in _DECLARED
+        if (ensemble.model == "full" or each.of_lines)
+        and (ensemble.hardness_bar is not None or not each.of_yielding)
+    ]

@@ -47,6 +47,9 @@ class Ensemble:
         q_roll / q_low: the spectrum is flat below q_roll.
     cutoff_ratio : float or None
         q_high / q_low; None for the grid's own end.
+    hardness_bar : float or None
+        H / (E* g) with g the rms slope of each body, its own :attr:`~roughline.Surface.rms_slope`
+        on its grid. None for elastic bodies, and what infinity becomes. Full model only.
 
     Raises
     ------
@@ -64,11 +67,12 @@ class Ensemble:
     boundary: Boundary
     roll_off_ratio: float = 1.0
     cutoff_ratio: float | None = None
+    hardness_bar: float | None = None
 
     def __post_init__(self) -> None:
-        def refuse(what: str) -> None:
-            raise InputError(f"ensemble {self.name!r}: {what}")
-
+        refuse = self._refuse
+        if self.hardness_bar == math.inf:
+            object.__setattr__(self, "hardness_bar", None)
         if not _NAME.fullmatch(self.name):
             refuse("a name has letters, digits, hyphens, dots and underscores")
         if self.model not in _LARGEST:
@@ -89,11 +93,7 @@ class Ensemble:
                 refuse(f"fractal dimension {dimension}; allowed is 2 to 3")
         if len(set(self.fractal_dimensions)) < len(self.fractal_dimensions):
             refuse("a fractal dimension is given twice; each is computed once")
-        forces = np.array(self.force_bars, dtype=np.float64)
-        if not forces.size:
-            refuse("no force_bars: give at least one")
-        if not (np.isfinite(forces).all() and forces[0] > 0 and (np.diff(forces) > 0).all()):
-            refuse("force_bars must be positive, finite and rising")
+        self._refuse_forces()
         if not 1 <= self.roll_off_ratio < math.inf:
             refuse(f"roll_off_ratio is {self.roll_off_ratio}; q_roll / q_low is 1 or more")
         end = self.n / 2 if self.cutoff_ratio is None else self.cutoff_ratio
@@ -102,6 +102,48 @@ class Ensemble:
                 f"roll_off_ratio {self.roll_off_ratio:g} and cutoff_ratio {end:g} on {self.n} "
                 "points; roll_off_ratio < cutoff_ratio <= points / 2 is needed"
             )
+        if self.hardness_bar is not None:
+            self._refuse_hardness(self.hardness_bar)
+
+    def _refuse(self, what: str) -> None:
+        raise InputError(f"ensemble {self.name!r}: {what}")
+
+    def _refuse_forces(self) -> None:
+        """Refuse forces that a plan cannot have."""
+        if not self.force_bars:
+            self._refuse("no force_bars: give at least one")
+        before = 0.0
+        for force in self.force_bars:
+            if not before < force < math.inf:
+                after = f" after {before:g}" if before else ""
+                self._refuse(
+                    f"force_bars must be positive, finite and rising, and {force:g} came{after}: "
+                    "sort them; a plan has no histories, press a load that falls again with "
+                    "rl.press(surface, forces=[...])"
+                )
+            before = force
+
+    def _refuse_hardness(self, hardness_bar: float) -> None:
+        """Refuse a hardness that a plan cannot have, and loads that no body of it bears."""
+        if not hardness_bar > 0:
+            self._refuse(
+                f"hardness_bar is {hardness_bar}; a positive H / (E* times the rms slope) is "
+                "needed, or none for elastic bodies"
+            )
+        if self.model == "reduced":
+            self._refuse(
+                f"hardness_bar is {hardness_bar:g}, and the reduced model has no yield: leave it "
+                'out, or take model = "full"'
+            )
+        for dimension in self.fractal_dimensions:
+            # differences on the grid miss some of the slope that the waves have
+            most = hardness_bar * self.spectrum(dimension).lattice(self.n).rms_slope
+            if not self.force_bars[-1] < most:
+                self._refuse(
+                    f"force_bar {self.force_bars[-1]:g} at fractal dimension {dimension:g}: bodies "
+                    f"of hardness_bar {hardness_bar:g} bear less than H A_0, which is at most "
+                    f"{most:.3g} here: give smaller force_bars, or a larger hardness_bar"
+                )
 
     def spectrum(self, fractal_dimension: float) -> SelfAffine:
         """Return the spectrum of the bodies of one fractal dimension."""
@@ -127,6 +169,8 @@ class Ensemble:
             del settings[extent]
         settings["force_bars"] = list(self.force_bars)
         settings["cutoff_ratio"] = self.cutoff_ratio or "grid"
+        if self.hardness_bar is None:  # so that stores of elastic bodies are as they always were
+            del settings["hardness_bar"]
         return settings
 
     @property

@@ -1,12 +1,13 @@
 """Plans in TOML: read whole, checked whole, before anything is computed.
 
-A plan has a ``name``, a ``seed`` and tables ``[[ensemble]]``. Lists of points or of roll-off ratios
-make one ensemble for each combination, named after it.
+A plan has a ``name``, a ``seed`` and tables ``[[ensemble]]``. Lists of points, of roll-off ratios
+or of hardnesses make one ensemble for each combination, named after it.
 """
 
 from __future__ import annotations
 
 import difflib
+import math
 import tomllib
 from collections.abc import Callable, Iterable
 from itertools import product
@@ -87,11 +88,14 @@ def _ensembles(table: _Table, seed: int) -> Iterable[Ensemble]:
     forces = table.take("force_bars", _numbers)
     cutoff = table.take("cutoff_ratio", _number, None)
     boundary = table.take("boundary", _text, "none" if model == "reduced" else "free")
+    hardnesses = table.take("hardness_bar", _numbers, (math.inf,))
     table.refuse_what_is_left()
-    for n, roll_off in product(points, roll_offs):
+    for n, roll_off, hardness in product(points, roll_offs, hardnesses):
         parts = [name]
         parts += [f"n{n}"] if len(points) > 1 else []
         parts += [f"roll{roll_off:g}"] if len(roll_offs) > 1 else []
+        yielding = f"hardness{hardness:g}" if hardness < math.inf else "elastic"
+        parts += [yielding] if len(hardnesses) > 1 else []
         yield Ensemble(
             name="-".join(parts),
             model=model,
@@ -103,6 +107,7 @@ def _ensembles(table: _Table, seed: int) -> Iterable[Ensemble]:
             boundary=boundary,
             roll_off_ratio=roll_off,
             cutoff_ratio=cutoff,
+            hardness_bar=hardness,
         )
 
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.report.contact_tables import (
     leading_keys,
@@ -16,7 +15,7 @@ from roughline.report.contact_tables import (
     unit_shown,
 )
 from roughline.report.values import with_interval
-from roughline.topography.body import Surface
+from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering
 
 NO_MEAN = "-"
@@ -65,7 +64,8 @@ def maps_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of what each map is, and of those that were not pressed."""
     header = ["map", "points", "sides", "rms height", "rms slope"]
     rows = [
-        [name, *_described(each)] for name, each in zip(part.names, part.assessments, strict=True)
+        [name, *body_in_words(each.body)]
+        for name, each in zip(part.names, part.assessments, strict=True)
     ]
     rows += [[name, "refused", "", "", ""] for name in part.refused]
     rows += [[name, "not pressed", "", "", ""] for name in part.left]
@@ -117,8 +117,8 @@ def star_is_shown_of(part: PartAssessment) -> bool:
     return any(map(star_is_shown, part.assessments))
 
 
-def _described(assessment: Assessment) -> list[str]:
-    body = assessment.body
+def body_in_words(body: Body) -> list[str]:
+    """Points, sides, rms height and rms slope of a map or a line scan."""
     if isinstance(body, Surface):
         points = f"{body.shape[0]} x {body.shape[1]}"
         sides = " x ".join(engineering(size, "m", 3) for size in body.sizes)

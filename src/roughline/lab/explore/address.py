@@ -9,7 +9,7 @@ from dataclasses import fields, replace
 import roughline as rl
 from roughline.lab.controls import Control, ControlError, refuse_strange
 from roughline.lab.explore import controls as c
-from roughline.lab.explore.bodies import rms_height
+from roughline.lab.explore.bodies import most_force_bar, rms_height, rms_slope
 from roughline.lab.explore.state import ExploreState
 from roughline.units import engineering, in_si, load_in_newtons
 
@@ -64,7 +64,16 @@ def state_of(said: Mapping[str, str], most_points: int) -> ExploreState:
             "sides: take more points, or a longer roll-off",
             c.POINTS.key,
         )
-    return replace(state, F=_force_bar(said.get("F", str(c.FORCE.default)), state))
+    state = replace(state, hardness_bar=_hardness_bar(said.get("hardness_bar", ""), state))
+    state = replace(state, F=_force_bar(said.get("F", str(c.FORCE.default)), state))
+    most = most_force_bar(state)
+    if most <= state.F:
+        raise ControlError(
+            f"the surface bears less than its hardness everywhere, F̄ = {most:.3g}: give a smaller "
+            "load, or a larger hardness",
+            c.FORCE.key,
+        )
+    return state
 
 
 def _dimension(text: str | None, hurst: str | None) -> float:
@@ -104,21 +113,33 @@ def _quantity(text: str, unit: str, key: str, name: str) -> str:
 def _in_sides(said: Mapping[str, str], control: Control, side: float) -> float:
     """A length as a share of the side; one with a unit is divided by it."""
     text = said.get(control.key, str(control.default))
+    return _in_scales(text, control, "m", side, "sides")
+
+
+def _in_scales(text: str, control: Control, unit: str, scale: float, called: str) -> float:
+    """A quantity over a scale, which is called by its plural; one with a unit is divided by it."""
     if not _HAS_UNIT.match(text):
         return control.read(text)
     try:
-        length = in_si(text, "m", control.name)
+        value = in_si(text, unit, control.name)
     except rl.UnitError as error:
         raise ControlError(str(error), control.key) from None
     try:
-        return control.checked(length / side)
+        return control.checked(value / scale)
     except ControlError:
-        low, high = (engineering(end * side, "m", 3) for end in (control.low, control.high))
+        low, high = (engineering(end * scale, unit, 3) for end in (control.low, control.high))
         raise ControlError(
             f"{control.name} is {text.strip()}; give one from {low} to {high}, which is "
-            f"{control.range} sides",
+            f"{control.range} {called}",
             control.key,
         ) from None
+
+
+def _hardness_bar(text: str, state: ExploreState) -> float | None:
+    """The dimensionless hardness, none for no text; a pressure is divided by E* ∇h."""
+    if not text.strip():
+        return None
+    return _in_scales(text, c.HARDNESS, "Pa", state.E_star * rms_slope(state), "E* ∇h")
 
 
 def _force_bar(text: str, state: ExploreState) -> float:

@@ -39,6 +39,26 @@ def rms_height(state: ExploreState) -> float:
     return state.slope / slope
 
 
+def hardness(state: ExploreState) -> float | None:
+    """Hardness of a state, the same on every grid; None if both bodies are elastic. [Pa]"""
+    if state.hardness_bar is None:
+        return None
+    return state.hardness_bar * state.E_star * rms_slope(state)
+
+
+def rms_slope(state: ExploreState) -> float:
+    """Rms slope of a state on its grid. [1]"""
+    return state.slope if state.rms == "slope" else surface_of(state, state.n).rms_slope
+
+
+def most_force_bar(state: ExploreState) -> float:
+    """Dimensionless force under which all of the area would yield. [1]"""
+    borne = hardness(state)
+    if borne is None:
+        return math.inf
+    return borne * state.length / (state.E_star * rms_height(state))
+
+
 def _spectrum(state: ExploreState, n: int, height: float) -> rl.SelfAffine:
     q_low = 2 * math.pi / state.length
     return rl.SelfAffine(

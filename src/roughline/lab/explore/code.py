@@ -6,11 +6,17 @@ import shlex
 from collections.abc import Mapping
 from typing import Any
 
+from roughline.assessment.question import UNLOADING
 from roughline.lab.explore.address import state_of
-from roughline.lab.explore.bodies import rms_height
+from roughline.lab.explore.bodies import hardness, rms_height
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
 from roughline.server.tasks import Progress
+
+_OF_YIELD = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
+print("plastic_fraction", curve.plastic_fraction[0])
+print("largest indentation over rms height", curve.indentation[0] / surface.rms_height)
+"""
 
 
 def code(arguments: Mapping[str, Any], progress: Progress) -> bytes:
@@ -24,6 +30,12 @@ def as_python(state: ExploreState) -> str:
     """Lines that generate the surface, and press it as the page does."""
     cutoff = max(state.cutoff, 2 / state.n)
     periodic = ", periodic=True" if state.periodic else ""
+    hardness_line, forces, of_yield = "", "forces=[force]", ""
+    if state.hardness_bar is not None:
+        bar = _number(state.hardness_bar)
+        hardness_line = f"hardness = {bar} * E_star * surface.rms_slope  # Pa\n"
+        path = f"[force * share for share in {(1.0, *UNLOADING)}]"  # the last ones unload
+        forces, of_yield = f"hardness=hardness, forces={path}", _OF_YIELD
     return f"""import math
 
 import roughline as rl
@@ -39,18 +51,19 @@ spectrum = rl.SelfAffine(
 )
 surface = spectrum.surface(n={state.n}, rng={state.seed})
 force = {_number(state.F)} * E_star * surface.rms_height * surface.length  # N
-curve = rl.press(surface, E_star=E_star, forces=[force]{periodic}, fields=True)
+{hardness_line}curve = rl.press(surface, E_star=E_star, {forces}{periodic}, fields=[0])
 
 print("stiffness_bar", curve.stiffness_bar[0])
 print("area_fraction_corrected", curve.area_fraction_corrected[0])
 print("depth over rms height", curve.depth[0] / surface.rms_height)
-"""
+{of_yield}"""
 
 
 def as_command(state: ExploreState) -> str:
     """Commands that write the surface to a file, and press it."""
     cutoff = max(state.cutoff, 2 / state.n)
     force = state.F * state.E_star * rms_height(state) * state.length
+    borne = hardness(state)
     generate = [
         *("roughline", "generate", "--out", "surface.nc"),
         *("--length", f"{_number(state.length)} m"),
@@ -64,6 +77,7 @@ def as_command(state: ExploreState) -> str:
         *("roughline", "press", "surface.nc"),
         *("--modulus", f"{_number(state.E_star)} Pa", "--load", f"{_number(force)} N"),
         *(["--periodic"] if state.periodic else []),
+        *(["--hardness", f"{_number(borne)} Pa", "--unload"] if borne is not None else []),
     ]
     return f"{shlex.join(generate)}\n{shlex.join(press)}\n"
 

@@ -87,6 +87,22 @@ FORCE = Control(
     "such as 2 MPa.",
     0.02,
 )
+HARDNESS = Control(
+    "hardness_bar",
+    "H/(E*∇h)",
+    "hardness",
+    0.02,
+    5.0,
+    0.5,
+    "logarithmic",
+    "The most that a point bears, over E* and the rms slope on the grid, or with a unit, such as "
+    "2 GPa. What goes beyond it indents the surface for good.",
+    0.02,
+)
+YIELDS = (
+    "Where the pressure reaches the hardness, points bear no more and are indented for good; "
+    "without it both bodies are elastic."
+)
 POINTS = Choice(
     "n",
     "points along a side",

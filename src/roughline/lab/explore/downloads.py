@@ -11,7 +11,7 @@ from typing import Any
 import roughline as rl
 from roughline.lab.controls import ControlError
 from roughline.lab.explore.address import state_of
-from roughline.lab.explore.bodies import rms_height, surface_of
+from roughline.lab.explore.bodies import hardness, rms_height, surface_of
 from roughline.lab.frames import frame
 from roughline.report.contact_figures import write_contact
 from roughline.server.tasks import Progress
@@ -41,6 +41,8 @@ def download(arguments: Mapping[str, Any], progress: Progress) -> bytes:
             surface,
             E_star=state.E_star,
             loads=force,
+            hardness=hardness(state),
+            unload=state.hardness_bar is not None,
             periodic=state.periodic,
             theories=state.theories,
             grid_error=False,

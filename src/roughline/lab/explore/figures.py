@@ -9,6 +9,13 @@ from roughline.lab.plots import embedded, empty_map, log_figure, themed
 
 _FORCE = "force F / (E* h L)"
 _FORCES = (1e-4, 10.0)
+_MARKS = (  # of the full model, and how they look
+    ("curve", "3D", "circle", 7, "dark-line", True),
+    ("unsure", "3D, fewer than ten cells touch", "circle", 7, "dark-line", False),
+    ("unloading", "3D, on unloading", "triangle", 7, "mark", False),
+    ("back", "3D, way back from this load", "square", 5, "here", True),
+    ("here", "3D, this load", "circle", 13, "here", True),
+)
 
 
 def figures() -> bytes:
@@ -59,24 +66,25 @@ def _draw_loads(plot: figure, name: str) -> None:
         source = ColumnDataSource({"x": [], "y": []}, name=f"{name} theory {i}")
         curve = plot.line("x", "y", source=source, line_dash=dashes, line_width=2)
         curve.glyph.tags = themed(line_color="theory")
-    for what, label, size, colour, filled in (
-        ("curve", "3D", 7, "dark-line", True),
-        ("unsure", "3D, fewer than ten cells touch", 7, "dark-line", False),
-        ("here", "3D, this load", 13, "here", True),
-    ):
+    for what, label, marker, size, colour, filled in _MARKS:
         source = ColumnDataSource({"x": [], "y": []}, name=f"{name} {what}")
+        look = {"source": source, "legend_label": label}
+        if what == "back":
+            line = plot.line("x", "y", line_width=2, **look)
+            line.glyph.tags = themed(line_color=colour)
         marks = plot.scatter(
             "x",
             "y",
-            source=source,
+            marker=marker,
             size=size,
             line_width=1.5,
-            legend_label=label,
             fill_alpha=float(filled),
+            **look,
         )
         marks.glyph.tags = themed(fill_color=colour, line_color=colour)
         item = plot.legend.items[-1]
-        item.name, item.visible = f"{name} {what} label", what != "unsure"  # shown if there are any
+        item.name = f"{name} {what} label"
+        item.visible = what in ("curve", "here")  # the others are shown if there are any
     cursor = Span(dimension="height", location=0.1, line_width=3, editable=True)
     cursor.name, cursor.tags = f"{name} cursor", themed(line_color="here", hover_line_color="mark")
     plot.add_layout(cursor)

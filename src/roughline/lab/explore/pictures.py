@@ -10,9 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
+from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
 from roughline.lab.explore.address import state_of
-from roughline.lab.explore.bodies import LINES, lines_of, rms_height, spectrum_of, surface_of
+from roughline.lab.explore.bodies import (
+    LINES,
+    hardness,
+    lines_of,
+    most_force_bar,
+    rms_height,
+    spectrum_of,
+    surface_of,
+)
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import (
     area_rows,
@@ -21,6 +30,8 @@ from roughline.lab.explore.words import (
     number_rows,
     status,
     stiffness_rows,
+    unloading_bar,
+    unloading_rows,
 )
 from roughline.lab.frames import frame
 from roughline.report.shading import shaded
@@ -35,6 +46,7 @@ _LONG_ROLL_OFF = 1 / 16  # down to which the coarser grid carries the spectrum
 _MOST_ROWS = 40  # of the spectrum's table
 _CURVE_POINTS = 256  # along a side of the surface whose whole curve is computed
 _CURVE_FORCES = np.geomspace(1e-3, 3, 13)
+_MOST_OF_HARDNESS = 0.9  # of the force under which all yields, where curves end
 _LINE_FORCES = np.geomspace(1e-4, 10, 41)
 
 Arguments = Mapping[str, Any]
@@ -92,10 +104,12 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     state = _state(arguments)
     n = min(state.n, _CURVE_POINTS)
     surface = surface_of(state, n)
+    most = _MOST_OF_HARDNESS * most_force_bar(state)
     pressed = rl.press(
         surface,
         E_star=state.E_star,
-        forces=_force(state, _CURVE_FORCES),
+        hardness=hardness(state),
+        forces=_force(state, _CURVE_FORCES[most > _CURVE_FORCES]),
         periodic=state.periodic,
         throw=False,
         progress=progress,
@@ -112,6 +126,29 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     )
 
 
+def unloading(arguments: Arguments, progress: Progress) -> bytes:
+    """The way back from the load of the state to none."""
+    state = _state(arguments)
+    n = min(state.n, _CURVE_POINTS)
+    pressed = rl.press(
+        surface_of(state, n),
+        E_star=state.E_star,
+        hardness=hardness(state),
+        forces=_force(state, state.F * np.array([1.0, *UNLOADING])),
+        periodic=state.periodic,
+        throw=False,
+        progress=progress,
+    )
+    return frame(
+        {
+            "state": state.address(),
+            "curve": _of_curve(pressed),
+            "stiffness_table": unloading_rows(pressed),
+            "area_table": area_rows(pressed),
+        }
+    )
+
+
 def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
     """The contact on a grid; on the grid of the state, with what finer ones may change."""
     started = time.perf_counter()
@@ -120,6 +157,7 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
     pressed = rl.press(
         surface,
         E_star=state.E_star,
+        hardness=hardness(state),
         forces=[_force(state, state.F)],
         periodic=state.periodic,
         fields=True,
@@ -132,7 +170,7 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
     arrays: dict[str, NDArray[Any]] = {"topography": shaded(surface)}
     if fields is not None:
         arrays |= {
-            "area": fields.contact.astype(np.uint8),
+            "area": fields.contact.astype(np.uint8) + fields.plastic,
             "pressure": fields.pressure / state.E_star,
             "gap": fields.gap / surface.rms_height,
             "displacement": fields.displacement / surface.rms_height,
@@ -165,8 +203,9 @@ def _is_first_step(arguments: Arguments) -> bool:
 
 def _numbers(state: ExploreState) -> dict[str, float]:
     """What the sliders of the page stand at."""
-    names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "F")
-    return {name: float(getattr(state, name)) for name in names}
+    names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "F", "hardness_bar")
+    values = {name: getattr(state, name) for name in names}
+    return {name: float(value) for name, value in values.items() if value is not None}
 
 
 def _force(state: ExploreState, force_bar: Any) -> Any:
@@ -185,6 +224,7 @@ def _of_curve(pressed: rl.Curve) -> dict[str, Any]:
     return {
         "force_bar": pressed.force_bar,
         "stiffness_bar": pressed.stiffness_bar,
+        "unloading_bar": None if pressed.hardness is None else unloading_bar(pressed),
         "area": pressed.area_fraction_corrected,
         "depth": pressed.depth / pressed.rms_height,
         "resolved": pressed.resolved,

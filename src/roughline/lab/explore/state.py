@@ -29,6 +29,8 @@ class ExploreState:
         Points along a side.
     boundary : {"free", "periodic"}
         Of the half-space.
+    hardness_bar : float or None
+        Hardness H / (E* ∇h), over the rms slope on the grid; None if both bodies are elastic. [1]
     F : float
         Dimensionless force F / (E* h L). [1]
     shown : str
@@ -48,6 +50,7 @@ class ExploreState:
     seed: int = int(c.SEED.default)
     n: int = int(c.POINTS.default)
     boundary: str = c.BOUNDARY.default
+    hardness_bar: float | None = None
     F: float = c.FORCE.default
     shown: str = c.SHOWN.default
     L: str = "1 mm"

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.assessment.uncertainty import Solution
 from roughline.contact.quantities import RESOLVED_FROM
+from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.engineering.intervals import Intervals
 from roughline.lab.explore.state import ExploreState
 from roughline.report.values import value_and_interval, with_interval
@@ -21,15 +22,16 @@ Item = dict[str, str]
 """One number of the answer strip: its key, symbol, value, unit and meaning."""
 
 
-def line_words(state: ExploreState, stiffness_bar: float, lines: int) -> list[Item]:
+def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
     """What the reduced model says at the load."""
+    without_yield = "" if state.hardness_bar is None else " Its springs do not yield."
     return [
         _item(
             "stiffness_1d",
             "k̄ (1D)",
-            decimal(stiffness_bar, _DIGITS),
+            decimal(stiffness, _DIGITS),
             f"Stiffness k / (E* L) of the reduced model, mean of {lines} lines with the same "
-            "waves. It is made for the free half-space.",
+            f"waves. It is made for the free half-space.{without_yield}",
         )
     ]
 
@@ -44,6 +46,7 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
         _stiffness(pressed, intervals),
         _area(pressed, intervals),
         *_pressure_and_depth(pressed, surface),
+        *_of_yield(pressed, intervals, surface),
         _roughness(surface),
     ]
 
@@ -86,7 +89,10 @@ def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[Item]:
             "p_c",
             f"{decimal(in_contact / pressed.E_star, _DIGITS)} E*",
             "Mean pressure within the contact, over the cells that touch.",
-            engineering(in_contact, "Pa", _DIGITS),
+            engineering(in_contact, "Pa", _DIGITS)
+            + (
+                f", {decimal(in_contact / pressed.hardness, _DIGITS)} H" if pressed.hardness else ""
+            ),
         ),
         _item(
             "depth",
@@ -103,6 +109,47 @@ def _pressure_and_depth(pressed: rl.Curve, surface: rl.Surface) -> list[Item]:
             f"{engineering(force / surface.area, 'Pa', _DIGITS)} over the nominal area",
         ),
     ]
+
+
+def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surface) -> list[Item]:
+    """Stiffness on unloading, share of the contact that yields, and indentation."""
+    if pressed.hardness is None:
+        return []
+    assert pressed.unloading_stiffness is not None
+    assert pressed.plastic_fraction is not None
+    assert pressed.indentation is not None
+    ends = _first(intervals.unloading) if intervals else None
+    indentation = float(pressed.indentation[0])
+    return [
+        _item(
+            "unloading",
+            "k̄_u (3D)",
+            decimal(float(unloading_bar(pressed)[0]), _DIGITS),
+            "Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs back, while on "
+            "loading the spots at the hardness bear no more. Ultrasound and currents feel it.",
+            with_interval(float(pressed.unloading_stiffness[0]), ends, "N/m"),
+        ),
+        _item(
+            "plastic",
+            "plastic",
+            f"{decimal(100 * float(pressed.plastic_fraction[0]), _DIGITS)}%",
+            "Share of the contact that is at the hardness, which stands below it.",
+            f"H {engineering(pressed.hardness, 'Pa', _DIGITS)}",
+        ),
+        _item(
+            "indentation",
+            "indentation",
+            f"{decimal(indentation / surface.rms_height, _DIGITS)} h",
+            "Largest indentation that stays when the load is taken off.",
+            engineering(indentation, "m", _DIGITS),
+        ),
+    ]
+
+
+def unloading_bar(pressed: rl.Curve) -> NDArray[np.float64]:
+    """Stiffness on unloading, dimensionless as that on loading. [1]"""
+    assert pressed.unloading_stiffness is not None
+    return stiffness_bar(pressed.unloading_stiffness, pressed.E_star, pressed.length, PAPER_PUNCH)
 
 
 def _roughness(surface: rl.Surface) -> Item:
@@ -127,7 +174,15 @@ def status(pressed: rl.Curve, n: int, seconds: float, *, is_coarse: bool) -> str
 
 def stiffness_rows(pressed: rl.Curve) -> list[list[str]]:
     """Rows of the table below the curve of the stiffness: F̄, k̄ and the model."""
-    return [[*row, "3D"] for row in _rows(pressed, pressed.stiffness_bar)]
+    rows = [[*row, "3D"] for row in _rows(pressed, pressed.stiffness_bar)]
+    if pressed.hardness is not None:
+        rows += [[*row, "3D, k_u"] for row in _rows(pressed, unloading_bar(pressed))]
+    return rows
+
+
+def unloading_rows(pressed: rl.Curve) -> list[list[str]]:
+    """The same of the way back from a load, which is the first."""
+    return [[*row, "3D, way back"] for row in _rows(pressed, unloading_bar(pressed))]
 
 
 def area_rows(pressed: rl.Curve) -> list[list[str]]:
@@ -147,7 +202,7 @@ def _rows(pressed: rl.Curve, values: NDArray[np.float64]) -> list[list[str]]:
     for i, row in enumerate(rows):
         if not pressed.converged[i]:
             row[1] = rl.Status(pressed.status[i]).reason
-        elif not pressed.resolved[i]:
+        elif not pressed.resolved[i] and pressed.force[i] > 0:
             row[1] += " *"
     return rows
 

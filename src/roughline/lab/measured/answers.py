@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,12 +13,17 @@ from numpy.typing import NDArray
 
 from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.part import PartAssessment
+from roughline.assessment.question import Question
+from roughline.assessment.several import assess_part
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
+from roughline.lab.measured.part import part_in_words
 from roughline.lab.measured.pictures import contact_drawing, curve_drawing
-from roughline.lab.measured.state import Arguments, at, question_of, said_of, source_of
+from roughline.lab.measured.state import Arguments, at, question_of, said_of, sources_of
 from roughline.lab.measured.words import in_controls
 from roughline.report.contact_tables import (
+    IF_ELASTIC,
     UNRESOLVED,
     answer_table,
     curve_table,
@@ -26,19 +34,36 @@ from roughline.server.tasks import Progress
 from roughline.topography.body import Surface
 from roughline.units import engineering
 
+_MOST_PRESSES = 16  # of one body: filled in two ways, repeated, elastic, and of other hardnesses
+
 
 def answer(arguments: Arguments, progress: Progress) -> bytes:
-    """Assess the question of the page; the result is kept for the report."""
+    """Assess the question of the page; the result is kept for the report.
+
+    Of several maps, `map` says by its number which of them is shown alone.
+    """
     result = assessed(arguments, progress)
+    if isinstance(result, Assessment):
+        return _framed(result)
+    wanted = arguments.get("map")
+    is_there = isinstance(wanted, int) and 0 <= wanted < len(result.assessments)
+    shown = int(wanted or 0) if is_there else 0
+    of_part = part_in_words(result, arguments)
+    return _framed(result.assessments[shown], part={**of_part, "shown": shown})
+
+
+def _framed(result: Assessment, **others: Any) -> bytes:
+    """The assessment of one body, as the page reads it."""
     arrays: dict[str, NDArray[Any]] = {}
     contact = None
     if isinstance(result.body, Surface):
         drawing = contact_drawing(result)
         contact, arrays = drawing.header, drawing.arrays
-    question = result.question
+    answers = answer_table(result, slice(None), with_elastic=True) if result.answers else None
     header = {
         "modulus": _modulus(result),
-        "answers": answer_table(result, slice(None)) if result.answers else None,
+        "answers": answers,
+        "if_elastic": IF_ELASTIC,
         "formulas": formula_table(result) if result.answers else None,
         "curve": curve_table(result),
         "star": f"* {UNRESOLVED}" if star_is_shown(result) else "",
@@ -47,39 +72,56 @@ def answer(arguments: Arguments, progress: Progress) -> bytes:
         "plot": curve_drawing(result),
         "contact": contact,
         "slip": _slip(result),
-        "can_report": question.pair is not None and bool(question.loads),
+        "can_report": result.question.pair is not None and bool(result.question.loads),
+        **others,
     }
     return frame(header, arrays)
 
 
-def assessed(arguments: Arguments, progress: Progress) -> Assessment:
-    """The assessment of the page's question: as it was kept, or else solved."""
-    said = said_of(arguments)
-    source = source_of(said, arguments["session"])
-    question = question_of(said, source)
+def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAssessment:
+    """The assessment of the page's question: as it was kept, or else solved.
 
-    def solve() -> Assessment:
-        with at("answers"):
-            return assess_body(question, progress=Steps(arguments, progress))
+    Of several maps each is kept as soon as it is done.
+    """
+    said, session = said_of(arguments), arguments["session"]
+    sources = sources_of(said, session)
+    questions = [question_of(said, each) for each in sources]
+    keys = {each.path: each.key for each in sources}
+    steps = Steps(arguments, progress)
 
-    return kept(arguments["session"], "assessment", sorted(said.items()), solve)
+    def solve(question: Question) -> Assessment:
+        assert isinstance(question.body, Path)
+        asked = sorted({**said, "file": keys[question.body]}.items())
+        made = partial(assess_body, question, progress=steps)
+        return kept(session, "assessment", asked, made, most=len(sources))
+
+    with at("answers"):
+        if len(sources) == 1:
+            return solve(questions[0])
+        nameless = replace(questions[0].reading, name=None)
+        replace(
+            questions[0], body=list(keys), reading=nameless
+        )  # refuses what no part can be asked
+        names = [each.name for each in sources]
+        return assess_part(questions, names=names, map_progress=steps.of_map, answer=solve)
 
 
 class Steps:
-    """Steps over all the times that a body is pressed, of which each counts its own loads.
+    """Steps over all the times that bodies are pressed, of which each counts its own loads.
 
     Parameters
     ----------
     arguments : mapping
-        Of the task; "presses" says how often the body is pressed.
+        Of the task; "presses" says how often each body is pressed.
     progress : callable
         Told (steps done, steps in all).
     """
 
     def __init__(self, arguments: Mapping[str, Any], progress: Progress) -> None:
         given = arguments.get("presses")
-        self._presses = given if isinstance(given, int) and 1 <= given <= 8 else 1
+        self._presses = given if isinstance(given, int) and 1 <= given <= _MOST_PRESSES else 1
         self._before, self._last, self._progress = 0, 0, progress
+        self._map, self._maps = 0, 1
 
     def __call__(self, done: int, total: int) -> None:
         """Tell of the loads of one pressing."""
@@ -87,7 +129,13 @@ class Steps:
             self._before += 1
         self._last = done
         presses = max(self._presses, self._before + 1)
-        self._progress(self._before * total + done, presses * total)
+        before = self._map * presses + self._before
+        self._progress(before * total + done, self._maps * presses * total)
+
+    def of_map(self, done: int, total: int) -> None:
+        """Begin the next of several maps."""
+        self._map, self._maps = done, total
+        self._before = self._last = 0
 
 
 def _modulus(result: Assessment) -> str:

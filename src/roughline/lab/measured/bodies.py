@@ -7,13 +7,21 @@ from typing import Any
 
 import numpy as np
 
+from roughline.assessment.hardness import Hardness, hardness_of
 from roughline.assessment.notes import meaning_of_loads
 from roughline.assessment.question import DEFAULT_LOADS, Question
 from roughline.engineering.limits import left_out
-from roughline.engineering.pair import MaterialPair
 from roughline.lab.controls import ControlError
 from roughline.lab.frames import frame
-from roughline.lab.measured.state import Arguments, at, bodies_of, loads_of, said_of
+from roughline.lab.measured.state import (
+    Arguments,
+    at,
+    bodies_of,
+    loads_of,
+    said_of,
+    yield_and_joint_of,
+)
+from roughline.lab.measured.words import in_controls
 from roughline.report.contact_tables import material_in_words
 from roughline.server.tasks import Progress
 from roughline.topography.body import Body, Line, Surface
@@ -23,12 +31,15 @@ from roughline.units import engineering, in_si
 def bodies(arguments: Arguments, progress: Progress) -> bytes:
     """E* of the bodies, and what each load is in all on the `sides` of the prepared body. [m]"""
     said = said_of(arguments)
-    given = bodies_of(said)
-    rows, notes = [], []
-    if "materials" in given:
-        pair = MaterialPair(*given["materials"])
-        modulus = pair.E_star
-        rows = [
+    given, others = bodies_of(said), yield_and_joint_of(said)
+    loads = loads_of(said)
+    body = _flat(arguments.get("sides"))
+    with at("joint_area" if "joint_area" in said else "hardness"):
+        question = Question(body or "no file yet", **given, **others, loads=loads)
+    rows = [["contact modulus E*", engineering(question.modulus, "Pa")]]
+    pair = question.pair
+    if pair is not None:
+        rows += [
             ["rough body", material_in_words(pair.first)],
             ["smooth body", material_in_words(pair.second)],
         ]
@@ -36,19 +47,29 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
             frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None
         notes = left_out(pair, frequency)
     else:
-        modulus = given["E_star"]
         notes = ["a contact modulus alone gives the curve, and no answers for materials"]
-    loads = loads_of(said)
+    hardness = hardness_of(question)
+    rows.append(["yield", _yield_in_words(question, hardness)])
     if not loads:
         notes.append(
             f"no load is given: {DEFAULT_LOADS} loads from first touch to saturation are taken"
         )
-    body = _flat(arguments.get("sides"))
-    meanings = []
-    if body is not None and loads:
-        meanings = meaning_of_loads(Question(body, E_star=modulus, loads=loads), body)
-    contact_modulus = ["contact modulus E*", engineering(modulus, "Pa")]
-    return frame({"rows": [contact_modulus, *rows], "loads": meanings, "notes": notes})
+    meanings = meaning_of_loads(question, body) if body is not None and loads else []
+    header = {
+        "rows": rows,
+        "loads": [in_controls(each) for each in meanings],
+        "notes": notes,
+        "yields": hardness is not None and not isinstance(body, Line),
+    }
+    return frame(header)
+
+
+def _yield_in_words(question: Question, hardness: Hardness | None) -> str:
+    """At which pressure the contact yields, and how well that is known."""
+    if hardness is None:
+        return "left out" if question.elastic else "no hardness is known: elastic"
+    known = "as given" if hardness.factor == 1 else f"known to a factor of {hardness.factor:g}"
+    return f"at {engineering(hardness.value, 'Pa')}, {known}"
 
 
 def _flat(sides: Any) -> Body | None:

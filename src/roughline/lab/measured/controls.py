@@ -10,6 +10,8 @@ MOST_POINTS = 4096
 """Most points along a side that are resampled to."""
 MOST_LOADS = 20
 """Most loads of one question."""
+MOST_MAPS = 20
+"""Most maps of one part; a page may have no more files."""
 
 FILLING = Choice(
     "fill",
@@ -48,6 +50,14 @@ BODIES = Choice(
     "materials",
     "Two materials give all answers; a contact modulus E* alone gives the curve.",
 )
+ELASTIC = Choice(
+    "elastic",
+    "yield",
+    {"no": "where a hardness is known", "yes": "elastic"},
+    "no",
+    "Points of the contact bear the hardness of the softer body at most, and what goes beyond it "
+    "indents the surface for good. Or both bodies are elastic, however high the pressures.",
+)
 BOUNDARY = Choice(
     "boundary",
     "half-space",
@@ -69,7 +79,7 @@ GRID_ERRORS = {"default": None, "yes": True, "no": False}
 KEYS = (
     *("unit", "channel", "size", "fill", "most_missing", "trend", "outliers", "crop", "low_pass"),
     *("resample", "bodies", "first", "second", "E", "loads", "boundary", "friction"),
-    *("frequency", "theories", "grid_error"),
+    *("frequency", "theories", "grid_error", "elastic", "hardness", "joint_area"),
 )
 """Keys of all controls, as in the address."""
 

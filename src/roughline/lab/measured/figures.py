@@ -11,8 +11,11 @@ from bokeh.models import (
     ColorBar,
     ColumnDataSource,
     DataRange1d,
+    FactorRange,
     GlyphRenderer,
     LinearColorMapper,
+    Range1d,
+    Span,
 )
 from bokeh.palettes import Cividis256
 from bokeh.plotting import figure
@@ -32,7 +35,7 @@ def figures() -> bytes:
     _take_boxes(before)
     return embedded(
         {
-            "measured-file": _map("file", *_ranges(), marks=True),
+            "measured-file": _map("file", *_ranges(), rings="here"),
             "measured-file-line": _lines("file line", {"heights": "dark-line"}, marks=True),
             "measured-spectrum": _spectrum(),
             "measured-before": before,
@@ -41,10 +44,11 @@ def figures() -> bytes:
                 "prepared line", {"before": "theory", "after": "dark-line"}
             ),
             "measured-topography": _map("topography", *contact),
-            "measured-contact": _map("contact", *contact, marks=True),
-            "measured-stiffness": _curve("stiffness", "stiffness k"),
+            "measured-contact": _map("contact", *contact, rings="theory"),
+            "measured-stiffness": _stiffness(),
             "measured-area": _curve("area", "real contact area A / A_0"),
             "measured-models": _models(),
+            "measured-part": _part(),
         }
     )
 
@@ -54,8 +58,11 @@ def _ranges() -> tuple[DataRange1d, DataRange1d]:
     return DataRange1d(range_padding=0), DataRange1d(range_padding=0)
 
 
-def _map(name: str, x_range: DataRange1d, y_range: DataRange1d, *, marks: bool = False) -> figure:
-    """A map whose sides keep their ratio; missing points are in a colour of their own."""
+def _map(name: str, x_range: DataRange1d, y_range: DataRange1d, *, rings: str = "") -> figure:
+    """A map whose sides keep their ratio, and rings of a colour around some of its points.
+
+    Missing points are in a colour of their own.
+    """
     plot = figure(
         x_range=x_range,
         y_range=y_range,
@@ -75,10 +82,10 @@ def _map(name: str, x_range: DataRange1d, y_range: DataRange1d, *, marks: bool =
         tags=[{"colours": {"nan_color": "here"}}],
     )
     plot.image(image="image", x="x", y="y", dw="dw", dh="dh", source=source, color_mapper=mapper)
-    if marks:
+    if rings:
         spikes = ColumnDataSource({"x": [], "y": []}, name=f"{name} spikes")
         drawn = plot.scatter("x", "y", source=spikes, size=13, line_width=2, fill_alpha=0)
-        _colour(drawn, line_color="here")
+        _colour(drawn, line_color=rings)
     plot.add_layout(ColorBar(color_mapper=mapper, title="", name=f"{name} bar"), "right")
     plot.grid.visible = False
     _finish(plot, name, "x", "y")
@@ -142,6 +149,16 @@ def _spectrum() -> figure:
     return plot
 
 
+def _stiffness() -> figure:
+    """Stiffness over force, that on unloading beside it."""
+    plot = _curve("stiffness", "stiffness k")
+    source = ColumnDataSource({"x": [], "y": []}, name="stiffness unloading")
+    look = {"source": source, "line_dash": "dashed", "line_width": 1.5}
+    _colour(plot.line("x", "y", legend_label="on unloading", **look), line_color="mark")
+    plot.legend.items[-1].name = "stiffness unloading label"
+    return plot
+
+
 def _curve(name: str, label: str) -> figure:
     """A quantity over force with its interval; open marks where the grid decides."""
     plot = _log_figure(_FORCE, label)
@@ -193,6 +210,32 @@ def _models() -> figure:
         _colour(drawn, fill_color=colour, line_color=colour)
     plot.legend.location = "bottom_right"
     _finish(plot, "models", None, None)
+    return plot
+
+
+def _part() -> figure:
+    """An answer of each map with its interval; their mean, and the interval of the part."""
+    plot = figure(
+        x_range=FactorRange(),
+        y_axis_type="log",
+        y_range=Range1d(0.1, 10),
+        tools=_TOOLS,
+        active_scroll="wheel_zoom",
+        sizing_mode="stretch_both",
+    )
+    whole = BoxAnnotation(name="part interval", fill_alpha=0.2, line_alpha=0.0, level="underlay")
+    whole.tags = [{"colours": {"fill_color": "here"}}]
+    mean = Span(name="part mean", dimension="width", line_width=2)
+    mean.tags = [{"colours": {"line_color": "here"}}]
+    for each in (whole, mean):
+        plot.add_layout(each)
+    source = ColumnDataSource({"map": [], "y": [], "low": [], "high": []}, name="part")
+    _colour(plot.segment("map", "low", "map", "high", source=source), line_color="dark-line")
+    drawn = plot.scatter("map", "y", source=source, size=8)
+    _colour(drawn, fill_color="dark-line", line_color="dark-line")
+    plot.xaxis.major_label_orientation = 0.6
+    plot.xgrid.visible = False
+    _finish(plot, "part", None, None)
     return plot
 
 

@@ -16,7 +16,13 @@ _MOST = {"assessment": 1, "body": 3, "measurement": 3}
 """How many are kept of each kind."""
 
 
-def kept(session: Mapping[str, Any], kind: str, asked: object, make: Callable[[], Value]) -> Value:
+def kept(
+    session: Mapping[str, Any],
+    kind: str,
+    asked: object,
+    make: Callable[[], Value],
+    most: int | None = None,
+) -> Value:
     """Return what was kept of a kind for a question, or else make and keep it.
 
     Parameters
@@ -29,6 +35,8 @@ def kept(session: Mapping[str, Any], kind: str, asked: object, make: Callable[[]
         What it depends on; two that print alike are the same.
     make : callable
         Makes it.
+    most : int, optional
+        How many of the kind are kept, if more than usual.
     """
     folder = Path(session["folder"])
     place = folder / f"{kind}-{digest(asked)}.pickle"
@@ -42,7 +50,7 @@ def kept(session: Mapping[str, Any], kind: str, asked: object, make: Callable[[]
     begun.write_bytes(pickle.dumps(made, protocol=5))
     begun.replace(place)
     by_age = sorted(folder.glob(f"{kind}-*.pickle"), key=lambda each: each.stat().st_mtime)
-    for older in by_age[: -_MOST[kind]]:
+    for older in by_age[: -(most or _MOST[kind])]:
         older.unlink(missing_ok=True)
     return made
 

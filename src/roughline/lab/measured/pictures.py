@@ -182,9 +182,10 @@ def contact_drawing(result: Assessment) -> Drawing:
     assert fields is not None
     assert result.curve.area_fraction_corrected is not None
     share = decimal(100 * float(result.curve.area_fraction_corrected[shown]), 4)
-    force = engineering(float(result.curve.force[shown]), "N")
-    arrays: dict[str, NDArray[Any]] = {"area": any_marked(fields.contact).astype(np.uint8).T}
-    units = {"area": {"unit": "", "range": [0, 1]}}
+    force = engineering(float(result.curve.force[shown]) * result.scale, "N")
+    marks = fields.contact.astype(np.uint8) + fields.plastic
+    arrays: dict[str, NDArray[Any]] = {"area": any_marked(marks).T}
+    units = {"area": {"unit": "", "range": [0, 2]}}  # gap, contact, contact at the hardness
     for name, values, unit in (
         ("pressure", fields.pressure, "Pa"),
         ("gap", np.maximum(fields.gap, 0), "m"),  # rounding leaves it just below in contact
@@ -198,6 +199,7 @@ def contact_drawing(result: Assessment) -> Drawing:
         **body.header,
         "load": f"corrected area {share}% at {force}",
         "fields": units,
+        "yields": result.curve.hardness is not None,
         "spots": _spots(fields.contact, surface, body.header["metres"]),
     }
     return Drawing(header, body.arrays | arrays)
@@ -215,16 +217,20 @@ def _spots(contact: Mask, surface: Surface, metres: float) -> dict[str, Any]:
 def curve_drawing(result: Assessment) -> dict[str, Any]:
     """Stiffness and area over force with their intervals, and theories beside them."""
     curve, solved = result.curve, result.curve.converged
-    force_factor, force_unit = prefix(_largest(curve.force[solved]), "N")
-    factor, unit = prefix(_largest(curve.stiffness[solved]), "N/m")
+    scale = result.scale
+    force_factor, force_unit = prefix(scale * _largest(curve.force[solved]), "N")
+    factor, unit = prefix(scale * _largest(curve.stiffness[solved]), "N/m")
+    force_factor, factor = scale * force_factor, scale * factor
     drawn: dict[str, Any] = {
         "force": curve.force[solved] * force_factor,
         "force_unit": force_unit,
+        "is_of_joint": result.question.joint is not None,
         "stiffness": curve.stiffness[solved] * factor,
         "stiffness_unit": unit,
         "resolved": curve.resolved[solved],
         "asked": np.isin(np.flatnonzero(solved), result.asked),
         "stiffness_interval": _ends(result.stiffness_interval, solved, factor),
+        "unloading": None,
         "area": None,
         "area_interval": _ends(result.area_interval, solved, 1.0),
         "theories": [
@@ -241,6 +247,8 @@ def curve_drawing(result: Assessment) -> dict[str, Any]:
     }
     if curve.area_fraction_corrected is not None:
         drawn["area"] = curve.area_fraction_corrected[solved]
+    if curve.hardness is not None and curve.unloading_stiffness is not None:
+        drawn["unloading"] = curve.unloading_stiffness[solved] * factor
     return drawn
 
 

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import roughline as rl
+from roughline.assessment.hardness import checked_hardness
+from roughline.assessment.nominal import area_of_joint
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.engineering.materials import Material, material
@@ -25,6 +27,7 @@ VERSION = "1"
 """Of the address; one of another version is refused."""
 
 _OF_THE_PAGE = ("view", "theme")
+_NEEDING = ("joint_area", "hardness", "friction", "frequency")  # more than is always there
 _KNOWN = ("v", "file", "example", *c.KEYS)
 
 Arguments = Mapping[str, Any]
@@ -76,23 +79,41 @@ def said_of(arguments: Arguments) -> Said:
 
 
 def source_of(said: Said, session: Mapping[str, Any]) -> Source:
-    """The file that a page means.
+    """The file that a page means, or the first of them.
 
     Raises
     ------
     ControlError
         If there is none, or it is gone.
     """
+    return sources_of(said, session)[0]
+
+
+def sources_of(said: Said, session: Mapping[str, Any]) -> list[Source]:
+    """The files that a page means: several are maps of one part.
+
+    Raises
+    ------
+    ControlError
+        If there is none, or one is gone.
+    """
     if key := said.get("example"):
         if key not in c.EXAMPLES:
             raise ControlError(
                 f'there is no example "{key[:40]}"; there are {", ".join(c.EXAMPLES)}', "file"
             )
-        return Source(path_of(key, Path(session["folder"]) / "results"), c.EXAMPLES[key].file, key)
-    path = session["files"].get(said.get("file"))
-    if path is None:
-        raise ControlError("the file is no longer here: choose it again", "file")
-    return Source(Path(path), session["names"][path], said["file"])
+        path = path_of(key, Path(session["folder"]) / "results")
+        return [Source(path, c.EXAMPLES[key].file, key)]
+    keys = said.get("file", "").split(",")
+    paths = [session["files"].get(key) for key in keys]
+    if None in paths:
+        which = "the file is" if len(paths) == 1 else "one of the files is"
+        raise ControlError(f"{which} no longer here: choose it again", "file")
+    names = [session["names"][path] for path in paths]
+    return [
+        Source(Path(path), f"{name} ({i})" if names.count(name) > 1 else name, key)
+        for i, (key, path, name) in enumerate(zip(keys, paths, names, strict=True), 1)
+    ]
 
 
 def reading_of(said: Said, name: str | None) -> Reading:
@@ -131,20 +152,20 @@ def preparation_of(said: Said) -> Preparation | None:
 
 
 def question_of(said: Said, source: Source) -> Question:
-    """The question that the page asks of its file.
+    """The question that the page asks of one of its files.
 
     Raises
     ------
     ControlError
         If a text cannot be used; it says at which control.
     """
-    given = bodies_of(said)
+    given = bodies_of(said) | yield_and_joint_of(said)
     loads = loads_of(said)
     with at("friction"):
         friction = _number(said.get("friction"), "the coefficient of friction")
     with at("frequency"):
         frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None
-    needs = next((key for key in ("friction", "frequency") if key in said), "")
+    needs = next((key for key in _NEEDING if key in said), "")
     reading, preparation = reading_of(said, source.name), preparation_of(said)
     with at(needs):
         return Question(
@@ -183,6 +204,16 @@ def bodies_of(said: Said) -> dict[str, Any]:
     if all(math.isinf(each.E) for each in pair):
         raise ControlError("both materials are rigid: one of them must give way", "second")
     return {"materials": tuple(pair)}
+
+
+def yield_and_joint_of(said: Said) -> dict[str, Any]:
+    """Hardness and area of the joint, as a question takes them."""
+    elastic = c.ELASTIC.read(said.get("elastic", c.ELASTIC.default)) == "yes"
+    with at("hardness"):
+        hardness = checked_hardness(said.get("hardness"), elastic=elastic)
+    with at("joint_area"):
+        joint_area = area_of_joint(said["joint_area"]) if "joint_area" in said else None
+    return {"elastic": elastic, "hardness": hardness, "joint_area": joint_area}
 
 
 def loads_of(said: Said) -> tuple[str, ...]:

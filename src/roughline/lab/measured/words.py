@@ -16,6 +16,9 @@ _CONTROLS = {
     "most_missing": "most missing",
     "trend": "trend",
     "crop": "crop",
+    "hardness": "hardness",
+    "elastic": '"elastic"',
+    "joint_area": "joint area",
 }
 
 

@@ -1,6 +1,6 @@
 // Explore: a random surface under both models, as sliders move.
 import {Controls} from "./controls.js";
-import {embedded, fillTable} from "./plots.js";
+import {embedded, fillTable, markKeys} from "./plots.js";
 import {Strip} from "./strip.js";
 import {bindTabs} from "./tabs.js";
 import {TakeAlong} from "./take_along.js";
@@ -8,7 +8,6 @@ import {Waiting} from "./waiting.js";
 
 const REST = 250; // without a move, until the full grid is computed [ms]
 const LABELS = {
-  area: "black: in contact",
   pressure: "pressure over E*; blank where nothing touches",
   gap: "gap in rms heights; blank where they touch",
   displacement: "deflection of the half-space in rms heights",
@@ -16,7 +15,9 @@ const LABELS = {
 const DASHES = ["– –", "· · ·", "– ·"]; // as theories are drawn
 const MOST_THEORIES = DASHES.length;
 const CONTACT = ["topography", "contact"], CURVES = ["stiffness", "area", "spectrum"]; // panels
-const STRIP = ["stiffness_3d", "stiffness_1d", "area", "pressure", "depth", "force", "roughness"];
+const STRIP = ["stiffness_3d", "unloading", "stiffness_1d", "area", "plastic", "pressure", "depth", "indentation",
+  "force", "roughness"];
+const OF_YIELD = ["unloading", "plastic", "indentation"];
 
 export async function open(link, address, said) {
   const view = new Explore(link, address);
@@ -55,6 +56,7 @@ class Explore {
   #take({view, theme, H, ...texts}) {
     this.#controls.take(H === undefined ? texts : {...texts, D_f: `H = ${H}`});
     this.#showHeightOrSlope();
+    this.#showHardness();
     const theories = (texts.theories ?? "").split(",");
     for (const box of this.#root.querySelectorAll("[data-theory]")) box.checked = theories.includes(box.dataset.theory);
   }
@@ -74,11 +76,13 @@ class Explore {
     }
     this.#ofLink = "";
     if (key === "rms") this.#showHeightOrSlope();
+    if (key === "hardness_bar") this.#showHardness();
+    this.#forgetWayBack();
     this.#stale = key !== "F" || this.#stale;
     this.#dim(key === "F" ? CONTACT : [...CONTACT, ...CURVES]);
     this.#askNow();
     clearTimeout(this.#rest);
-    this.#stop(["full", "curve"]);
+    this.#stop(["full", "curve", "back"]);
     this.#rest = setTimeout(() => this.#sharpen(), isFinal ? 0 : REST);
   }
 
@@ -89,7 +93,7 @@ class Explore {
   #cancel(works) {
     this.#stop(works);
     const left = {full: "the coarse answer is shown", curve: "the marks of the curves are of the surface before",
-      download: "nothing was saved"};
+      back: "the way back is not shown", download: "nothing was saved"};
     this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
   }
 
@@ -118,7 +122,7 @@ class Explore {
     const turn = this.#turn, args = {...this.#arguments(), refines};
     const progress = (message) => this.#waiting.progress(message);
     const error = (sentence, at) => {
-      if (turn === this.#turn) this.#stop(["full", "curve"]);
+      if (turn === this.#turn) this.#stop(["full", "curve", "back"]);
       this.#refuse(sentence, at, turn);
     };
     this.#waiting.begin("full");
@@ -130,6 +134,11 @@ class Explore {
           this.#waiting.begin("curve");
           this.#link.ask("explore.curve", "curve", {...args, refines: true}, {
             answer: (curve) => { this.#waiting.end("curve"); this.#drawCurve(curve); }, error, progress});
+        }
+        if (this.#controls.said.hardness_bar) {
+          this.#waiting.begin("back");
+          this.#link.ask("explore.unloading", "back", args, {
+            answer: (back) => { this.#waiting.end("back"); this.#drawWayBack(back); }, error, progress});
         }
         this.#waiting.end("full");
       },
@@ -157,7 +166,7 @@ class Explore {
     const {force_bar: x, stiffness_bar, area} = header.curve;
     this.#plots.set("stiffness here", {x, y: stiffness_bar});
     this.#plots.set("area here", {x, y: area});
-    this.#strip.add(header.strip);
+    this.#strip.add(header.strip, header.curve.unloading_bar === null ? OF_YIELD : []);
     this.#fillTables(header.strip);
     this.#say(header.status, !header.is_coarse);
     this.#undim(CONTACT);
@@ -181,9 +190,10 @@ class Explore {
   #drawField(header) {
     const shown = this.#controls.said.shown ?? "area";
     const field = header.arrays[shown];
-    this.#caption("shown", LABELS[shown]);
+    if (shown === "area") markKeys(this.#captionOf("shown"), header.curve.unloading_bar !== null);
+    else this.#caption("shown", LABELS[shown]);
     if (!field) return;
-    let high = 1;
+    let high = 2; // gap, contact, at the hardness
     if (shown !== "area") { high = 0; for (const value of field.values) if (value > high) high = value; }
     this.#plots.colours("contact", shown === "area" ? "marks" : shown === "pressure" ? "viridis" : "cividis");
     const low = shown === "pressure" ? 1e-6 * high : 0; // where nothing presses, the paper shows
@@ -202,6 +212,7 @@ class Explore {
       const kept = curve.force_bar.flatMap((x, i) => curve.converged[i] && values[i] !== null && curve.resolved[i] === wanted ? [i] : []);
       return {x: kept.map((i) => curve.force_bar[i]), y: kept.map((i) => values[i])};
     };
+    this.#setMarks("stiffness unloading", curve.force_bar, curve.unloading_bar ?? []);
     for (const plot of ["explore-stiffness", "explore-area"]) this.#plots.shows(plot, {what: "curve", grid});
     for (const [name, values] of [["stiffness", curve.stiffness_bar], ["area", curve.area]]) {
       this.#plots.set(`${name} curve`, rows(true, values));
@@ -214,7 +225,7 @@ class Explore {
       this.#plots.set(`stiffness theory ${i}`, {x: stiffness_bar ? force_bar : [], y: stiffness_bar ?? []});
       this.#plots.set(`area theory ${i}`, {x: force_bar, y: area});
     }
-    this.#plots.span("explore-stiffness", "y", curve.stiffness_bar, [1e-3, 1.3]);
+    this.#plots.span("explore-stiffness", "y", [...curve.stiffness_bar, ...(curve.unloading_bar ?? [])], [1e-3, 1.3]);
     this.#plots.span("explore-area", "y", curve.area, [1e-4, 1]);
     const failed = curve.converged.filter((each) => !each).length;
     const unsure = curve.resolved.some((each) => !each) ? "; hollow, and * in the table: fewer than ten cells touch" : "";
@@ -224,10 +235,38 @@ class Explore {
     this.#caption("stiffness", `marks of the curve on ${grid} points${note}`);
     this.#caption("area", `marks of the curve on ${grid} points${note}`);
     this.#caption("theories", drawn.map((each) => `${each}.`).join(" "));
-    fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness_table, ...this.#lineTable]);
-    fillTable("explore-area", ["F̄", "A/A_0"], area_table);
+    this.#curveTables = [stiffness_table, area_table];
+    this.#fillCurveTables();
   }
-  #lineTable = [];
+
+  #drawWayBack({curve, stiffness_table, area_table}) {
+    this.#setMarks("stiffness back", curve.force_bar, curve.unloading_bar);
+    this.#setMarks("area back", curve.force_bar, curve.area);
+    this.#backTables = [stiffness_table, area_table.map(([force, area]) => [force, `${area} (way back)`])];
+    this.#fillCurveTables();
+  }
+
+  #forgetWayBack() {
+    if (!this.#backTables[0].length) return;
+    for (const name of ["stiffness", "area"]) this.#setMarks(`${name} back`, [], []);
+    this.#backTables = [[], []];
+    this.#fillCurveTables();
+  }
+
+  // Draw what is positive, as logarithmic axes can, and name it in the legend if there is any.
+  #setMarks(name, x, y) {
+    const kept = x.flatMap((_, i) => (x[i] > 0 && y[i] > 0 ? [i] : []));
+    this.#plots.set(name, {x: kept.map((i) => x[i]), y: kept.map((i) => y[i])});
+    this.#plots.model(`${name} label`).visible = kept.length > 0;
+  }
+
+  #lineTable = []; #curveTables = [[], []]; #backTables = [[], []];
+
+  #fillCurveTables() {
+    const [stiffness, area] = [0, 1].map((i) => [...this.#curveTables[i], ...this.#backTables[i]]);
+    fillTable("explore-stiffness", ["F̄", "k̄", "model"], [...stiffness, ...this.#lineTable]);
+    fillTable("explore-area", ["F̄", "A/A_0"], area);
+  }
 
   #turn = 0; // of the questions: controls and cursor follow the answer to the newest alone
 
@@ -280,7 +319,14 @@ class Explore {
     this.#root.querySelector("[data-status]").textContent = text;
     if (atRest) this.#root.querySelector("[data-spoken]").textContent = `${text}; ${this.#strip.spoken}`;
   }
-  #caption(name, text) { this.#root.querySelector(`[data-caption="${name}"]`).textContent = text; }
+  #captionOf(name) { return this.#root.querySelector(`[data-caption="${name}"]`); }
+  #caption(name, text) { this.#captionOf(name).textContent = text; }
+
+  #showHardness() {
+    const yields = Boolean(this.#controls.said.hardness_bar);
+    this.#root.querySelector("#explore-yields").checked = yields;
+    this.#root.querySelector('[data-control="hardness_bar"]').hidden = !yields;
+  }
 
   #showHeightOrSlope() {
     const bySlope = this.#controls.said.rms === "slope";
@@ -293,6 +339,11 @@ class Explore {
     find("#another").addEventListener("click", () => {
       this.#controls.take({...this.#controls.said, seed: String(Math.floor(Math.random() * 1e6))});
       this.#changed("seed", true);
+    });
+    find("#explore-yields").addEventListener("change", ({target}) => {
+      const slider = find("#explore-hardness_bar");
+      const text = find("#explore-hardness_bar-text").value || slider.dataset.default;
+      this.#controls.set("hardness_bar", target.checked ? text : "");
     });
     bindTabs(this.#root);
     for (const box of this.#root.querySelectorAll("[data-theory]")) {

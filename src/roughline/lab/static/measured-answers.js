@@ -7,12 +7,13 @@ const TASKS = ["answers", "compare", "report"];
 const VERDICTS = {confirmed: "good", refuted: "error", undecided: "doubt"};
 
 export class Answers {
-  #link; #view; #waiting = {}; #contact = null; #arrays = {}; #isAnswered = false;
+  #link; #view; #part; #waiting = {}; #contact = null; #arrays = {}; #isAnswered = false;
   pictures = null;
 
-  constructor(link, view) {
+  constructor(link, view, part) {
     this.#link = link;
     this.#view = view;
+    this.#part = part;
     for (const name of TASKS) {
       this.#waiting[name] = new Waiting(view.find(`[data-waiting="${name}"]`), () => {
         link.stop(`measured ${name}`);
@@ -24,6 +25,7 @@ export class Answers {
     view.find("[data-report]").addEventListener("click", () => this.#report());
     for (const button of view.findAll("[data-code]")) button.addEventListener("click", () => this.#code(button.dataset.code));
     view.find("[data-shown]").addEventListener("change", () => this.#drawField());
+    view.find("[data-part-map]").addEventListener("change", ({target}) => this.#press(Number(target.value)));
     view.find("[data-copy]").addEventListener("click", () => navigator.clipboard?.writeText(view.find("[data-code-dialog] pre").textContent));
   }
 
@@ -68,17 +70,20 @@ export class Answers {
     });
   }
 
-  #press() {
+  // Press the body, or all maps of a part, of which one is shown alone.
+  #press(map = 0) {
     this.#view.find('[data-result="answers"]').classList.add("dimmed");
-    this.#ask("measured.answer", "answers", (answer) => this.#show(answer), {presses: this.#presses()});
+    this.#ask("measured.answer", "answers", (answer) => this.#show(answer), {presses: this.#presses(), map});
   }
 
-  // How often the body is pressed: again where points were filled, and for the larger surface.
+  // How often a body is pressed: again where points were filled, for the larger surface, and, where it
+  // yields, without yield and as soft and as hard as it may be.
   #presses() {
-    const {body, isFilled, state} = this.#view;
+    const {body, isFilled, state, yields} = this.#view;
     if (!body || body.kind !== "surface") return 1;
-    const again = body.is_cut_out && state.boundary !== "periodic" && state.bodies !== "modulus";
-    return (isFilled ? 2 : 1) * (again ? 2 : 1);
+    const isRepeated = state.boundary === "periodic" || Boolean(state.joint_area);
+    const again = body.is_cut_out && !isRepeated && state.bodies !== "modulus";
+    return ((isFilled ? 2 : 1) + (yields ? 3 : 0)) * (again ? 2 : 1);
   }
 
   #show(answer) {
@@ -89,10 +94,14 @@ export class Answers {
     this.changed();
     view.find("[data-changed]").hidden = true;
     view.find('[data-result="answers"]').classList.remove("dimmed");
+    this.#part.show(answer.part ?? null, this.pictures);
     view.find("[data-modulus]").textContent = answer.modulus;
     fillTable("measured-answers", ...(answer.answers ?? answer.curve));
+    for (const cell of view.findAll('[data-table="measured-answers"] td:first-child')) {
+      cell.parentElement.classList.toggle("elastic", cell.textContent === answer.if_elastic);
+    }
     view.find("[data-star]").textContent = answer.star;
-    fillList(view, "answer-remarks", [...answer.remarks, ...answer.theories]);
+    fillList(view, "answer-remarks", [...(answer.part ? [] : answer.remarks), ...answer.theories]); // the part has all
     fillTable("measured-formulas", ...(answer.formulas ?? [["no answers follow from a contact modulus alone"], []]));
     view.find("[data-slip]").hidden = !answer.slip;
     if (answer.slip) fillTable("measured-slip", ["displacement", "tangential force"], answer.slip.rows);
@@ -118,7 +127,7 @@ export class Answers {
       for (const cell of view.findAll('[data-table="measured-models"] td')) {
         if (cell.textContent in VERDICTS) cell.className = VERDICTS[cell.textContent];
       }
-    });
+    }, {state: this.#view.stateOfMap});
   }
 
   #report() {

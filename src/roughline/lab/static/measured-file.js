@@ -2,16 +2,18 @@
 const SHOWN_FROM = 2e6; // size from which on the upload is shown as it goes [bytes]
 
 export class Source {
-  #link; #view; #waiting; #request = null;
+  #link; #view; #waiting; #request = null; #turn = 0;
 
   constructor(link, view, waiting) {
     this.#link = link;
     this.#view = view;
     this.#waiting = waiting;
     const input = view.find("[data-file]"), drop = view.find("[data-drop]");
-    view.find("[data-choose]").addEventListener("click", () => input.click());
+    let isMore = false; // whether what is chosen comes beside the maps that are there
+    view.find("[data-choose]").addEventListener("click", () => { isMore = false; input.click(); });
+    view.find("[data-add-maps]").addEventListener("click", () => { isMore = true; input.click(); });
     input.addEventListener("change", () => {
-      if (input.files.length) this.#bring(input.files[0]);
+      this.#bring([...input.files], isMore);
       input.value = ""; // the same file may be chosen again
     });
     for (const button of view.findAll("[data-example]")) {
@@ -28,46 +30,65 @@ export class Source {
       event.preventDefault();
       over(false);
       const {files} = event.dataTransfer;
-      if (files.length === 1) this.#bring(files[0]);
-      else view.refuse(files.length ? "Drop one file at a time." : "This is no file: drop one, or choose it.", "file");
+      if (files.length) this.#bring([...files], false);
+      else view.refuse("This is no file: drop one, or choose it.", "file");
     });
   }
 
-  // Stop a file on its way.
+  // Stop files on their way.
   stop() {
+    this.#turn++;
     this.#request?.abort();
-    this.#request = null;
-    this.#said("");
-  }
-
-  #bring(file) {
-    this.stop();
-    this.#view.refuse("", "file");
-    if (!this.#link.session) { this.#view.refuse("The lab is not connected: try again in a moment.", "file"); return; }
-    const request = this.#request = new XMLHttpRequest();
-    request.open("POST", `/upload?session=${encodeURIComponent(this.#link.session)}&name=${encodeURIComponent(file.name)}`);
-    request.upload.addEventListener("progress", ({loaded, total}) => {
-      if (total < SHOWN_FROM) return;
-      this.#waiting.progress({done: loaded, total, left: null});
-      this.#said(`bringing ${file.name}: ${(loaded / 1e6).toFixed(0)} of ${(total / 1e6).toFixed(0)} MB`);
-    });
-    request.addEventListener("load", () => {
-      this.#done();
-      if (request.status === 200) this.#view.takeSource({file: JSON.parse(request.responseText).file});
-      else this.#view.refuse(sentence(request), "file");
-    });
-    request.addEventListener("error", () => {
-      this.#done();
-      this.#view.refuse(`${file.name} did not arrive: it may be larger than this lab takes, it cannot be read, or the connection was lost.`, "file");
-    });
-    this.#waiting.begin();
-    request.send(file);
-  }
-
-  #done() {
     this.#request = null;
     this.#waiting.end();
     this.#said("");
+  }
+
+  // Bring files one after the other; one that is refused does not keep the others away.
+  async #bring(files, isMore) {
+    if (!files.length) return;
+    this.stop();
+    this.#view.refuse("", "file");
+    const before = isMore ? this.#view.files : [], most = Number(this.#view.find("[data-drop]").dataset.most);
+    if (before.length + files.length > most) {
+      this.#view.refuse(`${before.length + files.length} files: up to ${most} maps can be one part.`, "file");
+      return;
+    }
+    if (!this.#link.session) { this.#view.refuse("The lab is not connected: try again in a moment.", "file"); return; }
+    const turn = this.#turn, came = [], refused = [];
+    this.#waiting.begin();
+    for (const [i, file] of files.entries()) {
+      const of = files.length > 1 ? ` (${i + 1} of ${files.length})` : "";
+      const {key, refusal} = await this.#sent(file, of);
+      if (turn !== this.#turn) return; // stopped
+      if (key) came.push(key);
+      else refused.push(refusal);
+    }
+    this.stop();
+    if (came.length) this.#view.takeSource({file: [...before, ...came].join(",")});
+    this.#view.refuse(refused.join(" "), "file");
+  }
+
+  // Send a file; gives its key, or why it was refused.
+  #sent(file, of) {
+    return new Promise((done) => {
+      const request = this.#request = new XMLHttpRequest();
+      request.open("POST", `/upload?session=${encodeURIComponent(this.#link.session)}&name=${encodeURIComponent(file.name)}`);
+      request.upload.addEventListener("progress", ({loaded, total}) => {
+        if (total < SHOWN_FROM) return;
+        this.#waiting.progress({done: loaded, total, left: null});
+        this.#said(`bringing ${file.name}${of}: ${(loaded / 1e6).toFixed(0)} of ${(total / 1e6).toFixed(0)} MB`);
+      });
+      request.addEventListener("load", () => {
+        if (request.status === 200) done({key: JSON.parse(request.responseText).file});
+        else done({refusal: sentence(request)});
+      });
+      request.addEventListener("abort", () => done({refusal: ""}));
+      request.addEventListener("error", () => done({
+        refusal: `${file.name} did not arrive: it may be larger than this lab takes, it cannot be read, or the connection was lost.`,
+      }));
+      request.send(file);
+    });
   }
 
   #said(text) { this.#view.find('[data-waiting="file"] [data-said]').textContent = text; }

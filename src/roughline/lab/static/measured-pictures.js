@@ -1,8 +1,8 @@
 // Pictures of My surface: heights, spectrum, contact and curves, and their tables.
-import {fillTable} from "./plots.js";
+import {fillTable, markKeys} from "./plots.js";
 
 const FIELDS = {
-  area: ["marks", "black: in contact"],
+  area: ["marks", ""],
   pressure: ["viridis", "pressure"],
   gap: ["cividis", "gap"],
   displacement: ["cividis", "deflection of the half-space"],
@@ -119,7 +119,10 @@ export class Pictures {
     this.#plots.set("contact spikes", contact.spots);
     this.#plots.colours("contact", palette);
     this.#map("contact", arrays[shown], contact, field.range, field.unit);
-    this.#caption("contact", `${meaning}; ${contact.load}${contact.spots.x.length ? "; rings: the few points that touch" : ""}`);
+    const caption = this.#view.find('[data-caption="contact"]');
+    if (shown === "area") markKeys(caption, contact.yields);
+    else caption.textContent = meaning;
+    caption.append(`; ${contact.load}${contact.spots.x.length ? "; rings: the few points that touch" : ""}`);
     const rows = Object.entries(contact.fields).filter(([name]) => name !== "area")
       .map(([name, {unit, range}]) => [`largest ${name}`, `${range[1].toPrecision(4)} ${unit}`]);
     fillTable("measured-contact", ["quantity", "value"], [["contact", contact.load], ...rows]);
@@ -130,7 +133,25 @@ export class Pictures {
     this.#quantity("stiffness", plot, plot.stiffness, plot.stiffness_interval, `stiffness k [${plot.stiffness_unit}]`);
     this.#toggle("measured-area", plot.area !== null);
     if (plot.area) this.#quantity("area", plot, plot.area, plot.area_interval, "real contact area A / A_0");
+    this.#plots.set("stiffness unloading", plot.unloading ? {x: plot.force, y: plot.unloading} : {x: [], y: []});
+    this.#plots.model("stiffness unloading label").visible = plot.unloading !== null;
     for (const id of ["measured-stiffness", "measured-area"]) fillTable(id, ...table);
+  }
+
+  // One answer of each map of a part, their mean, and the interval of the part.
+  drawPart({names, load, name, unit, values, low, high, mean, interval}) {
+    const maps = names.map((text, i) => `${i + 1} ${text.length > 18 ? `${text.slice(0, 17)}…` : text}`);
+    this.#root("measured-part").x_range.factors = maps;
+    this.#plots.set("part", {map: maps, y: values, low, high});
+    this.#plots.model("part mean").setv({location: mean ?? 0, visible: mean !== null});
+    this.#plots.model("part interval").setv({bottom: interval[0] ?? 0, top: interval[1] ?? 0, visible: interval[0] !== null});
+    this.#plots.span("measured-part", "y", [...values, ...low, ...high, mean, ...interval]);
+    this.#label("part", null, unit ? `${name} [${unit}]` : name);
+    this.#caption("part", `at ${load}; marks: each map and its interval; band: that of the mean, for the part`);
+    this.#settle("measured-part", `${maps} ${name}`);
+    const cell = (value) => (Number.isFinite(value) ? `${value.toPrecision(3)} ${unit}` : "-");
+    fillTable("measured-part", ["map", "value", "from", "to"],
+      [...names.map((text, i) => [text, cell(values[i]), cell(low[i]), cell(high[i])]), ["mean", cell(mean), ...interval.map(cell)]]);
   }
 
   #quantity(name, plot, values, interval, label) {
@@ -146,7 +167,7 @@ export class Pictures {
     this.#plots.set(`${name} interval`, {x: ends.map((i) => plot.force[i]), low: ends.map((i) => interval[0][i]), high: ends.map((i) => interval[1][i])});
     const known = plot.theories.filter((each) => each[name]);
     this.#plots.set(`${name} theories`, {xs: known.map((each) => each.force), ys: known.map((each) => each[name]), name: known.map((each) => each.name)});
-    this.#label(name, `force F [${plot.force_unit}]`, label);
+    this.#label(name, `force F${plot.is_of_joint ? " on the joint" : ""} [${plot.force_unit}]`, label);
     this.#caption(name, known.length ? `dashed: ${known.map((each) => each.name).join(", ")}` : "");
   }
 

@@ -2,6 +2,7 @@
 import {Controls} from "./controls.js";
 import {Answers} from "./measured-answers.js";
 import {Source} from "./measured-file.js";
+import {Part} from "./measured-part.js";
 import {Pictures, fillList} from "./measured-pictures.js";
 import {embedded, fillTable} from "./plots.js";
 import {Waiting} from "./waiting.js";
@@ -11,7 +12,7 @@ const DEFAULTS = {first: "steel", second: "copper", loads: "2 MPa"};
 const OF_FILE = ["unit", "channel", "size"]; // asked anew with each file
 const OF_READING = [...OF_FILE, "fill", "most_missing"];
 const OF_PREPARATION = ["trend", "outliers", "crop", "low_pass", "resample"];
-const OF_BODIES = ["bodies", "first", "second", "E", "loads", "frequency"];
+const OF_BODIES = ["bodies", "first", "second", "E", "loads", "frequency", "elastic", "hardness", "joint_area"];
 
 export async function open(link, address, said) {
   const view = new Measured(link, address);
@@ -21,7 +22,7 @@ export async function open(link, address, said) {
 
 class Measured {
   #link; #address; #root = document.querySelector("#measured");
-  #controls; #pictures; #source; #answers; #waiting = {};
+  #controls; #pictures; #source; #part; #answers; #waiting = {};
   #read = null; // what the file holds, as last read
   #prepared = null; // the same, prepared
 
@@ -37,7 +38,8 @@ class Measured {
       });
     }
     this.#source = new Source(link, this, this.#waiting.file);
-    this.#answers = new Answers(link, this);
+    this.#part = new Part(link, this);
+    this.#answers = new Answers(link, this, this.#part);
     this.#bind();
   }
 
@@ -50,7 +52,7 @@ class Measured {
     this.#pictures = new Pictures(this, await embedded("measured"));
     this.#answers.pictures = this.#pictures;
     this.#pictures.onBox((crop) => this.set("crop", crop));
-    if (said.example) this.#look();
+    if (said.example) this.look();
   }
 
   shown() { this.#write(); }
@@ -58,25 +60,34 @@ class Measured {
   // A new session has none of the files of the old one.
   reconnected() {
     this.#answers.forget();
-    if (this.#controls.said.example) { this.#look(); return; }
-    if (!this.#controls.said.file) return;
+    if (this.#controls.said.example) { this.look(); return; }
+    const {file, ...kept} = this.#controls.said;
+    if (!file) return;
+    this.#take(kept);
     this.#forgetFile();
+    this.#part.check();
     this.refuse("The connection was lost, and the file went with it: choose it again.", "file");
   }
 
   // All that is set, as the server reads it.
   get state() { return {v: VERSION, ...this.#controls.said}; }
+  // The same of the one map that is shown.
+  get stateOfMap() { return this.#part.shown ? {...this.state, file: this.#part.shown} : this.state; }
+  get files() { return (this.#controls.said.file ?? "").split(",").filter(Boolean); }
+  get yields() { return this.#yields; }
+  #yields = false;
   get body() { return this.#prepared?.body ?? null; }
   get name() { return this.#read?.name ?? ""; }
   get isFilled() { return (this.#prepared?.missing ?? 0) > 0; }
 
   // Take a file that has come, or an example.
   takeSource(source) {
-    const {file, example, crop, ...kept} = this.#controls.said;
-    for (const key of OF_FILE) delete kept[key];
+    const {file, example, ...kept} = this.#controls.said;
+    const isOther = !(source.file ?? "").split(",").some((each) => this.files.includes(each));
+    if (isOther) for (const key of [...OF_FILE, "crop"]) delete kept[key];
     this.#take({...kept, ...source});
     this.#forgetFile();
-    this.#look();
+    this.#part.check();
   }
 
   set(key, text) {
@@ -108,8 +119,11 @@ class Measured {
     this.refuse("", "");
     this.#write();
     if (key === "bodies") this.#take(this.#controls.said);
-    if (OF_READING.includes(key)) this.#look();
-    else if (OF_PREPARATION.includes(key)) this.#prepare();
+    if (OF_READING.includes(key)) this.#part.check();
+    else if (OF_PREPARATION.includes(key)) {
+      if (this.#part.shown) this.#part.check();
+      else this.#prepare();
+    }
     if (OF_BODIES.includes(key)) this.#askBodies();
     this.#answers.changed();
   }
@@ -122,25 +136,25 @@ class Measured {
 
   #forgetFile() {
     this.#read = this.#prepared = null;
-    for (const name of ["file", "preparation", "answers", "compare"]) this.#showResult(name, false);
+    for (const name of ["file", "map", "preparation", "answers", "compare"]) this.showResult(name, false);
     for (const place of this.findAll("[data-asked]")) place.hidden = true;
     this.#answers.forget();
     this.#askBodies();
   }
 
-  // Read the file.
-  #look() {
+  // Read the file, or the map of a part that is shown.
+  look() {
     const {file, example} = this.#controls.said;
     if (!file && !example) return;
     this.#wait("file");
-    this.#link.ask("measured.look", "measured file", {state: this.state}, {
+    this.#link.ask("measured.look", "measured file", {state: this.stateOfMap}, {
       answer: (read) => {
         this.#end("file");
         this.#read = read;
         this.#write();
         this.refuse("", "file");
         this.#showAsked(read);
-        this.#showResult("file", true);
+        for (const name of ["file", "map"]) this.showResult(name, true);
         this.find("[data-name]").textContent = read.name;
         fillList(this, "obstacles", read.obstacles);
         fillList(this, "remarks", read.remarks);
@@ -150,7 +164,7 @@ class Measured {
       },
       error: (sentence, at) => {
         this.#end("file");
-        if (!this.#read) this.#forgetFile();
+        if (!this.#read) { this.#forgetFile(); this.#part.showTable(); }
         this.refuse(sentence, at || "file");
       },
     });
@@ -181,7 +195,7 @@ class Measured {
     const isAsked = OF_PREPARATION.some((key) => this.#controls.said[key]);
     if (!isAsked) { this.#link.stop("measured preparation"); this.#end("preparation"); this.#showPrepared(this.#read); return; }
     this.#wait("preparation");
-    this.#link.ask("measured.prepare", "measured preparation", {state: this.state}, {
+    this.#link.ask("measured.prepare", "measured preparation", {state: this.stateOfMap}, {
       answer: (prepared) => { this.#end("preparation"); this.#showPrepared(prepared); },
       error: (sentence, at) => { this.#end("preparation"); this.refuse(sentence, at || "preparation"); },
     });
@@ -190,7 +204,7 @@ class Measured {
   #showPrepared(prepared) {
     this.#prepared = prepared;
     for (const key of ["preparation", ...OF_PREPARATION]) this.refuse("", key);
-    this.#showResult("preparation", prepared.body !== null);
+    this.showResult("preparation", prepared.body !== null);
     if (prepared.body) {
       this.#pictures.drawPrepared(this.#read, prepared, this.#controls.said.crop ?? "");
       this.find("[data-prepared-numbers]").open = prepared !== this.#read;
@@ -203,7 +217,7 @@ class Measured {
     this.#answers.ready();
   }
 
-  #showResult(name, isShown) {
+  showResult(name, isShown) {
     this.find(`[data-result="${name}"]`).hidden = !isShown;
     const empty = this.find(`[data-empty="${name}"]`);
     if (empty) empty.hidden = isShown;
@@ -211,7 +225,8 @@ class Measured {
 
   #askBodies() {
     this.#link.ask("measured.bodies", "measured bodies", {state: this.state, sides: this.body?.sides ?? null}, {
-      answer: ({rows, loads, notes}) => {
+      answer: ({rows, loads, notes, yields}) => {
+        this.#yields = yields;
         for (const key of ["", ...OF_BODIES]) this.refuse("", key);
         fillTable("measured-bodies", ["", ""], rows);
         fillList(this, "loads", loads);

@@ -70,11 +70,11 @@ export class Plots {
     this.set(name, {image: [ndarray(values, {dtype, shape})], x: [0], y: [0], dw: [width], dh: [height]});
   }
 
-  // Give a map a palette: one of Bokeh's, or "marks", paper and ink.
+  // Give a map a palette: one of Bokeh's, or "marks": gap, contact, contact at the hardness.
   colours(name, palette) {
     if (this.#palette[name] === `${palette} ${colour("paper")}`) return;
     this.#palette[name] = `${palette} ${colour("paper")}`;
-    const wanted = palette === "marks" ? [colour("paper"), colour("ink")] : this.palettes[palette];
+    const wanted = palette === "marks" ? [colour("paper"), colour("ink"), colour("plastic")] : this.palettes[palette];
     this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper")});
     this.model(`${name} bar`).visible = palette !== "marks";
   }
@@ -111,6 +111,16 @@ export class Plots {
   onMove(name, moved) {
     this.model(name).properties.location.change.connect(() => moved(this.model(name).location));
   }
+}
+
+// Say what the colours of a map of marks mean; points at the hardness only where there may be any.
+export function markKeys(place, yields) {
+  const key = (name, text) => {
+    const patch = document.createElement("span");
+    patch.className = `patch ${name}`;
+    return [patch, text];
+  };
+  place.replaceChildren(...key("ink", "in contact"), ...(yields ? key("plastic", "of it at the hardness: indented for good") : []));
 }
 
 // Put rows below a plot.
@@ -154,6 +164,7 @@ function recolour(made) {
     Figure: {background_fill_color: paper, border_fill_color: paper, border_line_color: paper, outline_line_color: line},
     LinearAxis: labels,
     LogAxis: labels,
+    CategoricalAxis: labels,
     Grid: {grid_line_color: grid},
     Legend: {label_text_color: text, title_text_color: text, background_fill_color: paper, background_fill_alpha: 0.85,
       border_line_color: null, label_text_font_size: "11px", spacing: 0, padding: 4},

@@ -8,8 +8,9 @@ export class Strip {
     this.#order = order;
   }
 
-  // Take numbers in words: key, symbol, value, what stands below, and what it means.
-  add(items) {
+  // Take numbers in words: key, symbol, value, what stands below, and what it means; those of some keys go.
+  add(items, gone = []) {
+    for (const key of gone) this.#items.delete(key);
     for (const item of items) {
       if (!this.#items.has(item.key)) this.#items.set(item.key, {element: empty(item.key)});
       write(this.#items.get(item.key), item);

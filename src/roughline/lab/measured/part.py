@@ -1,0 +1,96 @@
+"""Several maps of a part: each read and checked, and what they gave together."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+import roughline as rl
+from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.assessment.source import Topography
+from roughline.engineering.answer import Answer
+from roughline.lab.frames import frame
+from roughline.lab.measured.state import (
+    Arguments,
+    preparation_of,
+    reading_of,
+    said_of,
+    sources_of,
+)
+from roughline.lab.measured.words import in_controls
+from roughline.report.contact_tables import UNRESOLVED, leading_keys, unit_shown
+from roughline.report.part_tables import (
+    body_in_words,
+    leading_table,
+    maps_table,
+    part_table,
+    star_is_shown_of,
+)
+from roughline.report.values import scale_of
+from roughline.server.tasks import Progress, without_paths
+
+_SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
+
+
+def maps(arguments: Arguments, progress: Progress) -> bytes:
+    """Each map of a part as it is read and prepared, or why it is refused."""
+    said = said_of(arguments)
+    sources = sources_of(said, arguments["session"])
+    preparation = preparation_of(said)
+    rows = []
+    for i, source in enumerate(sources):
+        progress(i, len(sources))
+        row = {"file": source.key, "name": source.name, "cells": [], "refused": ""}
+        reading = reading_of(said, source.name)
+        try:
+            row["cells"] = body_in_words(Topography.of(source.path, reading, preparation).body)
+        except rl.InputError as error:
+            row["refused"] = without_paths(in_controls(str(error)), arguments)
+        rows.append(row)
+    return frame({"maps": rows})
+
+
+def part_in_words(part: PartAssessment, arguments: Arguments) -> dict[str, Any]:
+    """Tables, remarks and the drawing of a part."""
+    loads = range(len(part.headings))
+    return {
+        "names": part.names,
+        "maps": maps_table(part),
+        "leading": leading_table(part),
+        "answers": part_table(part, loads) if part.answers else None,
+        "star": f"* {UNRESOLVED}" if star_is_shown_of(part) else "",
+        "remarks": [in_controls(without_paths(each, arguments)) for each in part.remarks],
+        "load": part.headings[part.largest],
+        "drawings": _drawings(part),
+    }
+
+
+def _drawings(part: PartAssessment) -> list[dict[str, Any]]:
+    """Answers that differ between the maps at the largest load, the leading ones first."""
+    leading = [key for key in leading_keys(part.assessments[0]) if key in part.answers]
+    others = [key for key in part.answers if key not in leading]
+    drawn = [_drawing(part.answers[key], part.largest) for key in leading + others]
+    return [each for each in drawn if np.ptp(each["values"]) > _SAME * np.max(each["values"])]
+
+
+def _drawing(answer: PartAnswer, load: int) -> dict[str, Any]:
+    """One answer of each map at a load with its interval, the mean, and the part's interval."""
+    values = np.array([each.values[load] for each in answer.of_maps])
+    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer.of_maps[0]))
+    low, high = factor * np.array([_ends(each, load) for each in answer.of_maps]).T
+    return {
+        "name": f"{answer.name} {answer.symbol}",
+        "unit": unit.strip(),
+        "values": values * factor,
+        "low": low,
+        "high": high,
+        "mean": answer.mean[load] * factor,
+        "interval": [answer.low[load] * factor, answer.high[load] * factor],
+    }
+
+
+def _ends(answer: Answer, load: int) -> tuple[float, float]:
+    """Both ends of the interval of one map; its value where there is none."""
+    low, high = answer.ends or (answer.values, answer.values)
+    return float(low[load]), float(high[load])

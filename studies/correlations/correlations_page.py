@@ -1,0 +1,246 @@
+"""The page on the handbooks' correlations: every number in it comes from the data."""
+
+from __future__ import annotations
+
+from conductance import BANDS, BOXES, DIMENSIONS, ELASTIC, FULL, PRESSURES, WINDOW, plan
+from correlation_claims import EXPONENT_TOLERANCE, MIXED, claims, claims_table
+from correlation_dependences import dependences
+from correlation_tables import (
+    area_table,
+    between_table,
+    ensembles_table,
+    handbook_table,
+    root_sum_table,
+    scatter_table,
+)
+from findings import (
+    MIDDLE,
+    change_with_band,
+    common_law,
+    core_seconds,
+    extremes,
+    failed_loads,
+    heights,
+    over_bearing_area,
+    over_root_sum,
+    slope_spread,
+    spots_of_the_correlation,
+)
+from judgement import LEVEL
+
+from roughline._version import __version__
+from roughline.report.page import Section, render_markdown
+
+TITLE = "The handbooks' conductance of joints, put to the test"
+FOLDER = "figures/correlations"
+BETWEEN = 0.3
+"""Hardness at which elastic and plastic deformation both count."""
+_FROM_TO = f"{WINDOW[0]:g} to {WINDOW[1]:g}"
+
+
+def page() -> str:
+    """Return the page as Markdown; its figures lie in a folder beside it."""
+    sections = [
+        _claims_section(),
+        _elastic_section(),
+        _plastic_section(),
+        _between_section(),
+        _area_section(),
+        _scatter_section(),
+        *dependences(),
+        _methods_section(),
+        _references_section(),
+    ]
+    return render_markdown(TITLE, _lead(), sections, FOLDER)
+
+
+def _lead() -> str:
+    elastic, plastic = (extremes(lambda one: one.ratio, (each,)) for each in (ELASTIC, FULL))
+    band = change_with_band(FULL, MIDDLE, min(BANDS), max(BANDS))
+    return (
+        "Handbooks give the conductance of a joint by a correlation: Mikic's for elastic contact, "
+        "Cooper, Mikic and Yovanovich's (CMY) for plastic contact, Holm's for a single spot. Here "
+        "they are held against contact with every interaction, on Gaussian isotropic surfaces "
+        f"with a hardness, at pressures from {_FROM_TO} of E*∇h or of H. Elastic surfaces conduct "
+        f"{_spread(elastic)} of what Mikic's correlation says, and fully plastic ones "
+        f"{_spread(plastic)} of what CMY's says, where the longest waves are {_main_band()} times "
+        f"as long as the shortest. From {min(BANDS)} to {max(BANDS)} times, the ratio to CMY's "
+        f"changes by {band.value:+.0%}. To our knowledge they had not been tested so before."
+    )
+
+
+def _claims_section() -> Section:
+    return Section(
+        "Verdicts",
+        [
+            "A statement is confirmed where the whole interval lies within the tolerance, refuted "
+            "where it lies outside at some pressure, and undecided else. The intervals hold at "
+            f"{LEVEL:.0%} for all pressures together, and are widened to one side by twice the "
+            "difference of two grids, which is the error of one that halves with the spacing. "
+            f"Exponents are judged to ±{EXPONENT_TOLERANCE:g}. How many surfaces would decide is "
+            "told from the scatter, if the mean stays where it is.",
+        ],
+        tables=[claims_table(claims())],
+    )
+
+
+def _elastic_section() -> Section:
+    law = common_law(ELASTIC)
+    return Section(
+        "Elastic surfaces and Mikic",
+        [
+            f"![The conductance over the pressure]({FOLDER}/conductance.png)",
+            "Dimensionless conductance h_c σ/(κ_s m) over the pressure, with the handbooks' lines. "
+            "σ is the rms height, m = ∇h/√π the mean absolute slope of a cut, κ_s the harmonic "
+            "mean of the conductivities. Means of the surfaces.",
+            "Conductance over Mikic's, and the power law c (√2 p/(E* m))^a that fits best from "
+            f"{_FROM_TO}; 95 % intervals, at each pressure alone.",
+            f"One law for all three Hurst exponents, {law.prefactor:.2f} (√2 p/(E* m))^"
+            f"{law.exponent:.3f}, is within {law.deviation:.0%} of every mean from {_FROM_TO}. "
+            "The data bend: at the highest pressures, where gaps close, conductance rises faster.",
+        ],
+        tables=[handbook_table(ELASTIC)],
+    )
+
+
+def _plastic_section() -> Section:
+    def spots(pressure: float) -> str:
+        counts = [spots_of_the_correlation(dimension, pressure) for dimension in DIMENSIONS]
+        return f"{min(counts):.1f} to {max(counts):.1f}"
+
+    law = common_law(FULL)
+    return Section(
+        "Fully plastic surfaces and Cooper, Mikic and Yovanovich",
+        [
+            f"![Ratios to the handbooks]({FOLDER}/ratios.png)",
+            "Left: elastic surfaces over Mikic's correlation. Middle: surfaces with a hardness "
+            "over CMY's. Right: both over the band of waves. 95 % intervals; grey: ±10 and ±20 %.",
+            f"Conductance over CMY's at H/(E*∇h) = {FULL:g}, where "
+            f"{_plastic_share(FULL):.0%} or more of the contact is at the hardness, and the power "
+            f"law c (p/H)^a that fits best from {_FROM_TO}.",
+            f"One law for all three Hurst exponents, {law.prefactor:.2f} (p/H)^{law.exponent:.3f}, "
+            f"is within {law.deviation:.0%} of every mean from {_FROM_TO}. It holds for this band "
+            "of waves only ([below](#how-wide-the-band-of-waves-is)).",
+            f"At p/H = {PRESSURES[0]:g} there are few spots: the correlation's own area and "
+            f"conductance are those of {spots(PRESSURES[0])} equal round ones, and those of "
+            f"{spots(WINDOW[0])} at {WINDOW[0]:g}, where the verdicts begin.",
+        ],
+        tables=[handbook_table(FULL)],
+    )
+
+
+def _between_section() -> Section:
+    least, most = extremes(over_root_sum, MIXED)
+    over_cmy, over_mikic = (
+        extremes(ratio, (BETWEEN,))
+        for ratio in (lambda one: one.over_yovanovich, lambda one: one.over_mikic)
+    )
+    return Section(
+        "From weak to full plasticity",
+        [
+            "The conductance under the same p/H over both correlations, with the mean contact "
+            "pressure p_c over H that the elastic body would have at p/(E*∇h) = 0.01, and the "
+            "share of the contact that is at the hardness, at p/H = 0.01.",
+            f"In its own limit each correlation promises too much, and between them both promise "
+            f"too little: at H/(E*∇h) = {BETWEEN:g} surfaces conduct {_spread(over_cmy)} of what "
+            f"CMY's says and {_spread(over_mikic)} of what Mikic's says, from {_FROM_TO}.",
+            "The second table holds a rule against the data that was found here and has no "
+            "derivation: h_c² = h_e² + h_p², with h_e of the elastic body under the same load and "
+            f"h_p of the fully plastic one under the same p/H. Conductance over that is "
+            f"{least:.2f} to {most:.2f} in the mean from {_FROM_TO}.",
+        ],
+        tables=[between_table(), root_sum_table()],
+    )
+
+
+def _area_section() -> Section:
+    least, most = extremes(over_bearing_area, (FULL,))
+    return Section(
+        "The plastic limit: area, and Holm's spot",
+        [
+            f"In the plastic limit the real area is p/H times the nominal one: {least:.3f} to "
+            f"{most:.3f} times that from {_FROM_TO} at H/(E*∇h) = {FULL:g}. The area never is "
+            "smaller, as no point bears more than H. So the correlation's area is right, and what "
+            "it is wrong about is how well that area conducts.",
+            "Holm's formula puts all load on one round spot. Spots apart conduct better, the "
+            "more so the larger the nominal area is: the numbers are for one with "
+            f"{_main_waves()} roll-off waves along its side. Hurst {3 - MIDDLE:.1f}.",
+        ],
+        tables=[area_table()],
+    )
+
+
+def _scatter_section() -> Section:
+    return Section(
+        "How far a single surface is off",
+        [
+            "Standard deviation of single surfaces over the mean, of nominal areas with "
+            f"{_main_waves()} roll-off waves along a side. A correlation cannot know it.",
+        ],
+        tables=[scatter_table()],
+    )
+
+
+def _methods_section() -> Section:
+    found, (failed, loads) = heights(), failed_loads()
+    bearing = ", ".join(f"{height:.2f} ({gaussian:.2f})" for _, height, gaussian in found.bearing)
+    shares = ", ".join(f"{share:g}" for share, _, _ in found.bearing)
+    seed = plan().ensembles[0].seed
+    unsolved = "All loads were solved" if not failed else f"{failed} loads were not solved"
+    return Section(
+        "What was computed, and how",
+        [
+            "Elastic, perfectly plastic contact: pressures from 0 to H, overlap at H becomes a "
+            "permanent indentation ([the model](science.md)). What is displaced vanishes: there "
+            "is no pile-up, and H is the same everywhere and at every depth. Barber's identity "
+            "gives the conductance from the stiffness on unloading of a periodic surface, "
+            "h_c = κ_s k_u/(E* A_0), exactly. H is given over E* times each surface's own rms "
+            "slope, from differences on its grid, and the same slope is used in m. Slopes of "
+            f"surfaces of one ensemble differ by {slope_spread():.0e}. Means over the surfaces at "
+            "fixed pressure, read between the loads.",
+            "Moduli of the waves are fixed and their phases random; the many waves make the "
+            f"heights Gaussian: skewness {found.skewness[0]:+.3f} (standard deviation "
+            f"{found.skewness[1]:.3f}), excess kurtosis {found.excess_kurtosis[0]:+.3f} "
+            f'({found.excess_kurtosis[1]:.3f}) in the ensembles "main". Heights above which '
+            f"shares of {shares} of the area lie, over σ: {bearing}, with those of Gaussian "
+            "heights in brackets.",
+            f"{unsolved} of {loads}, each certified below 1e-6; means leave out the others.",
+        ],
+        tables=[ensembles_table()],
+        note=(
+            f"To repeat: `make correlations` (version {__version__}), about "
+            f"{core_seconds() / 60:.0f} min on one core, beside other work; it can be interrupted, "
+            f"and goes on. Surface i has the seed SeedSequence({seed}, spawn_key=(i,))."
+        ),
+    )
+
+
+def _references_section() -> Section:
+    return Section(
+        "References",
+        notes=[
+            "B. B. Mikic, Int. J. Heat Mass Transfer 17, 205 (1974).",
+            "M. G. Cooper, B. B. Mikic, M. M. Yovanovich, Int. J. Heat Mass Transfer 12, 279 "
+            "(1969); M. M. Yovanovich, IEEE Trans. Compon. Packag. Technol. 28, 182 (2005).",
+            "R. Holm, *Electric Contacts*, 4th ed. (1967).",
+            "J. R. Barber, Proc. R. Soc. A 459, 53 (2003).",
+            "A. Almqvist, F. Sahlin, R. Larsson, S. Glavatskih, Tribol. Int. 40, 574 (2007).",
+        ],
+    )
+
+
+def _spread(ends: tuple[float, float]) -> str:
+    return f"{ends[0]:.0%} to {ends[1]:.0%}"
+
+
+def _main_band() -> int:
+    return next(width for width, prefix in BANDS.items() if prefix == "main")
+
+
+def _main_waves() -> int:
+    return next(waves for waves, prefix in BOXES.items() if prefix == "main")
+
+
+def _plastic_share(hardness: float) -> float:
+    """Return the smallest mean share of the contact at the hardness in the window."""
+    return extremes(lambda one: one.plastic, (hardness,))[0]

@@ -1,0 +1,224 @@
+"""What the page says beside verdicts: laws that fit, root sums of squares, and dependences."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from statistics import NormalDist
+
+import numpy as np
+from conductance import (
+    BANDS,
+    BOXES,
+    DIMENSIONS,
+    ELASTIC,
+    FINE_HARDNESSES,
+    FULL,
+    Sample,
+    data,
+    holm,
+    plan,
+    sample,
+    yovanovich,
+)
+from judgement import Ratio, grid_shift
+from reduce import BEARING
+
+from roughline.computing.arrays import Real
+from roughline.statistics.averages import average, relative_difference
+from roughline.statistics.bootstrap import IntervalEstimate
+
+MIDDLE = 2.5
+"""Fractal dimension of the surfaces that are shown where one is enough."""
+ELASTIC_BANDS = tuple(BANDS)[:-1]
+"""Bands q_high / q_roll of which there are elastic bodies."""
+
+
+@dataclass(frozen=True)
+class CommonLaw:
+    """One power law for all fractal dimensions.
+
+    Attributes
+    ----------
+    prefactor, exponent : float
+        Geometric mean of the prefactors and mean of the exponents of the single laws.
+    deviation : float
+        Largest relative deviation of a mean conductance from it in the window.
+    """
+
+    prefactor: float
+    exponent: float
+    deviation: float
+
+
+def common_law(hardness_bar: float) -> CommonLaw:
+    """Return the law of the bodies of one hardness, whatever their fractal dimension."""
+    samples = [sample("main", hardness_bar, dimension) for dimension in DIMENSIONS]
+    laws = [one.fit() for one in samples]
+    prefactor = math.exp(np.mean([math.log(law.prefactor) for law in laws]))
+    exponent = float(np.mean([law.exponent for law in laws]))
+    deviations = [
+        average(one.conductance).mean / (prefactor * one.variable**exponent) - 1 for one in samples
+    ]
+    inside = samples[0].in_window
+    return CommonLaw(prefactor, exponent, float(np.abs(deviations)[:, inside].max()))
+
+
+def over_root_sum(one: Sample) -> Real:
+    """Conductance over sqrt(h_e² + h_p²) of the same surfaces, shape (realisations, pressures).
+
+    h_e is that of the elastic surface under the same load, h_p that of the fully plastic one under
+    the same p / H. NaN where the load is below those of the elastic surface.
+    """
+    elastic, plastic = (
+        sample(one.prefix, hardness, one.fractal_dimension, every=one.every)
+        for hardness in (ELASTIC, FULL)
+    )
+    wanted = np.log(one.pressure * one.hardness_bar)
+    x, count = np.log(elastic.pressure), one.count
+    rows = [np.interp(wanted, x, row, left=math.nan) for row in np.log(elastic.conductance[:count])]
+    return one.conductance / np.hypot(np.exp(rows), plastic.conductance[:count])
+
+
+def over_holm(one: Sample) -> Real:
+    """Conductance over that of Holm's single spot, shape (realisations, pressures)."""
+    return one.conductance / holm(one.pressure, one.slope)
+
+
+def over_bearing_area(one: Sample) -> Real:
+    """A / A_0 over p / H, shape (realisations, pressures)."""
+    return one.area / one.pressure
+
+
+def elastic_pressure_over_hardness(one: Sample) -> float:
+    """Mean contact pressure over H of the elastic bodies under p / (E* g) = 0.01."""
+    elastic = sample("main", ELASTIC, one.fractal_dimension)
+    area = elastic.mean_at(elastic.area, 1e-2).mean[0]
+    return float(1e-2 / area / one.hardness_bar)
+
+
+def change_with_band(
+    hardness_bar: float, dimension: float, narrow: int, wide: int
+) -> IntervalEstimate:
+    """Return the relative change of the ratio at a pressure of 0.01 from one band to another."""
+    first, second = (sample(BANDS[width], hardness_bar, dimension) for width in (narrow, wide))
+    return _change(second, first, 1e-2)
+
+
+def change_with_box(hardness_bar: float, dimension: float, pressure: float) -> IntervalEstimate:
+    """Return the relative change of the ratio from 8 to 16 roll-off waves along a side."""
+    first, second = (sample(BOXES[waves], hardness_bar, dimension) for waves in (8, 16))
+    return _change(second, first, pressure)
+
+
+def change_with_boundary(
+    hardness_bar: float, dimension: float, pressure: float
+) -> IntervalEstimate:
+    """Return the relative change of the ratio from the periodic to the free half-space."""
+    free = sample("free", hardness_bar, dimension)
+    periodic = sample("main", hardness_bar, dimension)
+    places = [_place(one, pressure) for one in (free, periodic)]
+    ends = relative_difference(
+        free.ratio[:, places[0]], periodic.ratio[: free.count, places[1]], paired=True
+    )
+    return IntervalEstimate(*(float(end[0]) for end in ends))
+
+
+def _change(second: Sample, first: Sample, pressure: float) -> IntervalEstimate:
+    values = [one.ratio[:, _place(one, pressure)] for one in (second, first)]
+    ends = relative_difference(*values, paired=False)
+    return IntervalEstimate(*(float(end[0]) for end in ends))
+
+
+def _place(one: Sample, pressure: float) -> list[int]:
+    return [int(np.abs(one.pressure / pressure - 1).argmin())]
+
+
+@dataclass(frozen=True)
+class Heights:
+    """How Gaussian the heights are: means over the surfaces, and standard deviations.
+
+    Attributes
+    ----------
+    skewness, excess_kurtosis : tuple of float
+        Mean, and standard deviation of single surfaces.
+    bearing : tuple of tuple of float
+        A share of the area, the mean height above which it lies, and that of Gaussian heights.
+    """
+
+    skewness: tuple[float, float]
+    excess_kurtosis: tuple[float, float]
+    bearing: tuple[tuple[float, float, float], ...]
+
+
+def heights() -> Heights:
+    """Return how Gaussian the heights are."""
+
+    def moments(name: str) -> tuple[float, float]:
+        values = data()[f"heights/{name}"]
+        return float(values.mean()), float(values.std(ddof=1))
+
+    found = data()["heights/bearing_height"].mean(axis=(0, 1))
+    gaussian = [NormalDist().inv_cdf(1 - share) for share in BEARING]
+    return Heights(
+        moments("skewness"),
+        moments("excess_kurtosis"),
+        tuple(zip(BEARING, found.tolist(), gaussian, strict=True)),
+    )
+
+
+def nayak(prefix: str, dimension: float) -> float:
+    """Nayak's parameter m_0 m_4 / m_2² of the surfaces of an ensemble."""
+    ensemble = next(each for each in plan().ensembles if each.name.startswith(f"{prefix}-"))
+    lattice = ensemble.spectrum(dimension).lattice(ensemble.n)
+    return 1.5 * lattice.moment(0) * lattice.moment(4) / lattice.moment(2) ** 2
+
+
+def failed_loads() -> tuple[int, int]:
+    """Return how many loads were not solved, and how many there are."""
+    status = [values for name, values in data().items() if name.endswith("/status")]
+    return sum(int((each != 0).sum()) for each in status), sum(each.size for each in status)
+
+
+def core_seconds() -> float:
+    """Return the time of all bodies on one core. [s]"""
+    return sum(float(value) for name, value in data().items() if name.endswith("/core_seconds"))
+
+
+def extremes(ratio: Ratio, hardnesses: tuple[float, ...]) -> tuple[float, float]:
+    """Return the smallest and the largest mean of a ratio in the window, at any Hurst exponent."""
+    samples = [
+        sample("main", hardness, dimension) for hardness in hardnesses for dimension in DIMENSIONS
+    ]
+    means = [average(ratio(one)[:, one.in_window]).mean for one in samples]
+    return float(min(map(min, means))), float(max(map(max, means)))
+
+
+def spots_of_the_correlation(dimension: float, pressure: float) -> float:
+    """Number n of equal round spots whose area is p / H and whose conductance is the correlation's.
+
+    They have n pi a² = p / H and 2 n a = h_c / kappa_s, on the nominal area of the main surfaces.
+    """
+    slope = sample("main", FULL, dimension).slope
+    conductance = float(yovanovich(np.array(pressure))) * slope / math.sqrt(math.pi)
+    return math.pi * conductance**2 / (4 * pressure)
+
+
+def slope_spread() -> float:
+    """Largest standard deviation of the rms slopes of an ensemble, over their mean."""
+    slopes = [values for name, values in data().items() if name.endswith("/rms_slope")]
+    return max(float((each.std(axis=1) / each.mean(axis=1)).max()) for each in slopes)
+
+
+def worst_grid_shift() -> float:
+    """Largest mean shift of a ratio in the window on twice the points, without its sign."""
+    samples = [
+        sample("main", hardness, dimension)
+        for hardness in (ELASTIC, *FINE_HARDNESSES)
+        for dimension in DIMENSIONS
+    ]
+    shifts = [
+        np.array([shift.value for shift in grid_shift(one, lambda each: each.ratio)])
+        for one in samples
+    ]
+    return float(np.abs(shifts)[:, samples[0].in_window].max())

@@ -1,0 +1,81 @@
+"""Reduce the store of the study to what its page needs, less than a megabyte.
+
+    python studies/correlations/reduce.py out/correlations.zarr
+
+writes ``data.npz``: arrays of the store by "ENSEMBLE/VARIABLE", in single precision, and how
+Gaussian the heights are. What the ensembles are stands in ``plan.toml``.
+"""
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from roughline import campaign
+from roughline.campaign.batch import evaluate_case
+from roughline.campaign.layout import DONE
+from roughline.computing import fft
+from roughline.computing.arrays import Real
+
+HERE = Path(__file__).parent
+DATA = HERE / "data.npz"
+PLAN = HERE / "plan.toml"
+KEPT = ("stiffness", "unloading_stiffness", "area_fraction", "plastic_fraction", "status")
+BEARING = (1e-1, 1e-2, 1e-3, 1e-4)  # shares of the area that lie above a height
+
+
+def main(path: Path) -> None:
+    """Reduce a finished store."""
+    plan, store = campaign.read_plan(PLAN), campaign.Store(path)
+    evaluate_case(plan.ensemble("band2-hardness0.01"), 2.5, 0)  # compiles, before times are taken
+    arrays = {}
+    for ensemble in plan.ensembles:
+        name = ensemble.name
+        data = store.dataset(name).isel(realisation=slice(ensemble.realisations))
+        data = data.sel(fractal_dimension=list(ensemble.fractal_dimensions))
+        done = int((data.case_status == DONE).sum())
+        if done < ensemble.cases:
+            sys.exit(f"{name}: {ensemble.cases - done} of {ensemble.cases} cases are not done")
+        for variable in (each for each in KEPT if each in data):
+            precision = data[variable].dtype if variable == "status" else np.float32
+            arrays[f"{name}/{variable}"] = data[variable].values.astype(precision)
+        arrays[f"{name}/rms_slope"] = data.rms_slope.values
+        arrays[f"{name}/core_seconds"] = np.array(seconds_of(ensemble))
+    arrays |= {f"heights/{name}": values for name, values in heights_of(plan.ensembles[0]).items()}
+    np.savez_compressed(DATA, **arrays)
+
+
+def seconds_of(ensemble: campaign.Ensemble) -> float:
+    """Return the time of all bodies of an ensemble on one core, from that of one. [s]"""
+    fft.set_threads(1)
+    start = time.thread_time()
+    evaluate_case(ensemble, ensemble.fractal_dimensions[0], 0)
+    return round((time.thread_time() - start) * ensemble.cases, 1)
+
+
+def heights_of(ensemble: campaign.Ensemble) -> dict[str, Real]:
+    """Return how Gaussian the heights of an ensemble are, over their rms.
+
+    Returns
+    -------
+    dict of ndarray, shape (dimensions, realisations) or (dimensions, realisations, shares)
+        Skewness, excess kurtosis, and the heights above which the shares `BEARING` lie.
+    """
+    shape = (len(ensemble.fractal_dimensions), ensemble.realisations)
+    found = {name: np.empty(shape) for name in ("skewness", "excess_kurtosis")}
+    found["bearing_height"] = np.empty((*shape, len(BEARING)))
+    for i, dimension in enumerate(ensemble.fractal_dimensions):
+        for j in range(ensemble.realisations):
+            surface = ensemble.spectrum(dimension).surface(ensemble.n, ensemble.seed_of(j))
+            heights = (surface.heights - surface.heights.mean()) / surface.rms_height
+            found["skewness"][i, j] = np.mean(heights**3)
+            found["excess_kurtosis"][i, j] = np.mean(heights**4) - 3
+            found["bearing_height"][i, j] = np.quantile(heights, 1 - np.array(BEARING))
+    return found
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(Path(sys.argv[1]))
