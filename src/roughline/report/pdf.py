@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
@@ -15,6 +16,8 @@ from roughline.report.values import value_and_interval
 
 _SIZE = 6.6  # of the text, so that a page holds it [points]
 _MARGIN = 36  # [points]
+_SCALES = (1.0, 0.9, 0.8, 0.75, 0.7, 0.65, 0.6, 0.55)  # of a sheet that has to hold more
+_PICTURE = 265  # height of a picture at most [points]
 _PADDING = 6  # left and right of a cell, as ReportLab has it [points]
 
 
@@ -27,7 +30,7 @@ def write_pdf(
     *,
     one_sheet: bool = True,
 ) -> None:
-    """Write a page as PDF on A4: on one sheet, made smaller if it is too long, or on several.
+    """Write a page as PDF on A4: on one sheet, made smaller while that can be read, or on several.
 
     Parameters
     ----------
@@ -36,7 +39,7 @@ def write_pdf(
     title, lead, sections, made
         As for :func:`roughline.report.page.render`.
     one_sheet : bool, optional
-        Whether all of it stands on one sheet.
+        Whether all of it stands on one sheet if it can be read there.
 
     Raises
     ------
@@ -46,7 +49,7 @@ def write_pdf(
     from reportlab.lib.pagesizes import A4
     from reportlab.pdfbase import pdfmetrics
     from reportlab.pdfbase.ttfonts import TTFont
-    from reportlab.platypus import KeepInFrame, SimpleDocTemplate
+    from reportlab.platypus import SimpleDocTemplate
 
     folder = Path(get_data_path()) / "fonts" / "ttf"
     for name, file in (("Sans", "DejaVuSans"), ("Sans-Bold", "DejaVuSans-Bold")):
@@ -62,23 +65,36 @@ def write_pdf(
         author="roughline",
         invariant=True,
     )
-    room = (A4[0] - 2 * _MARGIN, A4[1] - 2 * _MARGIN - 12)  # frames have a padding of 6
-    flow = _flow(title, lead, sections, made)
-    if one_sheet:
-        flow = [KeepInFrame(*room, flow, mode="shrink")]
+    room = (A4[0] - 2 * _MARGIN - 12, A4[1] - 2 * _MARGIN - 12)  # frames have a padding of 6
+    flow_of = partial(_flow, title, lead, sections, made)
+    flow = _on_one_sheet(flow_of, room) if one_sheet else []
+    flow = flow or flow_of(room[0])
     try:
         document.build(flow)
     except OSError as error:
         raise StoreError(f"cannot write {path} ({error}): choose another folder") from error
 
 
-def _flow(title: str, lead: str, sections: Sequence[Section], made: str) -> list[Any]:
-    """What stands on the sheet, from the title down."""
-    from reportlab.lib.pagesizes import A4
+def _on_one_sheet(flow_of: Callable[[float], list[Any]], room: tuple[float, float]) -> list[Any]:
+    """What fits on a sheet, as large as it does; nothing if it could not be read.
+
+    A smaller scale makes the sheet wider as well, so that fewer lines are broken.
+    """
+    from reportlab.platypus import KeepInFrame
+
+    for scale in _SCALES:
+        width = room[0] / scale
+        high = sum(each.wrap(width, room[1])[1] for each in flow_of(width))
+        if high * scale <= room[1]:
+            return [KeepInFrame(*room, flow_of(width), mode="shrink")]
+    return []
+
+
+def _flow(title: str, lead: str, sections: Sequence[Section], made: str, width: float) -> list[Any]:
+    """What stands on a sheet of some width, from the title down."""
     from reportlab.lib.utils import ImageReader
     from reportlab.platypus import Image, Paragraph, Spacer
 
-    width = A4[0] - 2 * _MARGIN
     text, heading = _style(_SIZE, bold=False), _style(1.25 * _SIZE, bold=True)
     item = text.clone("item", leftIndent=1.5 * _SIZE, bulletIndent=0.4 * _SIZE)
     top = _style(2 * _SIZE, bold=True)
@@ -94,7 +110,7 @@ def _flow(title: str, lead: str, sections: Sequence[Section], made: str) -> list
         flow += [_table(table, width, text) for table in section.tables]
         for picture in section.pictures:
             wide, high = ImageReader(str(picture.path)).getSize()
-            share = min(1.0, 265 * wide / (high * width))
+            share = min(1.0, _PICTURE * wide / (high * width))
             flow.append(Image(str(picture.path), width * share, width * share * high / wide))
             flow.append(Paragraph(escape(f"{picture.name}. {picture.caption}"), text))
     return flow
