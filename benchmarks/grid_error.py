@@ -1,7 +1,8 @@
 """Compare estimated grid errors with grids four times finer: ``make grid-error``.
 
 Files given as arguments are pressed as well: the whole map is the finer grid, and its means of
-four by four points are the grid whose error is estimated.
+four by four points are the grid whose error is estimated. With ``--hardness-bar BAR`` the bodies
+yield at BAR times the rms slope of the finer grid, and loads end at half the hardness.
 """
 
 import argparse
@@ -22,24 +23,37 @@ SPECTRA = {
 }
 BEARINGS = (0.1, 0.3, 0.6)  # share of the area of which the top is cut flat
 NOISE = (0.03, 0.3)  # rms of white noise of the finest points, over the rms height
+ELASTIC = {  # symbol: quantity, its error
+    "k": ("stiffness", "stiffness_error"),
+    "A": ("area_fraction_corrected", "area_fraction_error"),
+}
+YIELDING = {"k_u": ("unloading_stiffness", "unloading_stiffness_error")} | ELASTIC
 
 
-def factors(surface, finer):
-    """Logarithms of the true and the claimed factors, of stiffness and of area."""
-    scale = finer.rms_height * finer.length
+def factors(surface, finer, hardness_bar):
+    """Logarithms of the true and the claimed factors, by quantity."""
+    forces = LOADS * finer.rms_height * finer.length
+    hardness = None
+    if hardness_bar is not None:
+        hardness = hardness_bar * finer.rms_slope
+        forces = forces[forces < hardness * finer.area / 2]
     curve, truth = (
-        rl.press(each, E_star=1.0, forces=LOADS * scale, grid_error=each is surface)
+        rl.press(
+            each,
+            E_star=1.0,
+            forces=forces,
+            hardness=hardness,
+            grid_error=each is surface,
+            throw=False,
+        )
         for each in (surface, finer)
     )
-    found = []
-    for name, error in (
-        ("stiffness", curve.stiffness_error),
-        ("area_fraction_corrected", curve.area_fraction_error),
-    ):
+    found = {}
+    for symbol, (name, error) in (ELASTIC if hardness is None else YIELDING).items():
         value, true = getattr(curve, name), getattr(truth, name)
         missed = np.abs(np.log(true / value))
-        claimed = np.log1p(error / value)
-        found.append((missed[curve.resolved], claimed[curve.resolved]))
+        claimed = np.log1p(getattr(curve, error) / value)
+        found[symbol] = missed[curve.resolved], claimed[curve.resolved]
     return found
 
 
@@ -96,18 +110,21 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("files", nargs="*")
     parser.add_argument("--seeds", type=int, default=6)
+    parser.add_argument("--hardness-bar", type=float)
     arguments = parser.parse_args()
     found = {}
     for kind, surface, finer in cases(arguments.files, arguments.seeds):
-        found.setdefault(kind, []).append(factors(surface, finer))
+        found.setdefault(kind, []).append(factors(surface, finer, arguments.hardness_bar))
         print(".", end="", file=sys.stderr, flush=True)
+    shown = ELASTIC if arguments.hardness_bar is None else YIELDING
+    header = "".join(f" {symbol}: covered | off by | claimed |" for symbol in shown)
     print(f"\nroughline {rl.__version__}, loads F / (E* h L) = 0.003 to 1\n")
-    print("| surfaces | loads | k: covered | off by | claimed | A: covered | off by | claimed |")
-    print("|---|---|---|---|---|---|---|---|")
+    print(f"| surfaces | loads |{header}")
+    print("|---" * (2 + 3 * len(shown)) + "|")
     for kind, rows in found.items():
         cells = []
-        for quantity in (0, 1):
-            missed, claimed = (np.concatenate([row[quantity][i] for row in rows]) for i in (0, 1))
+        for symbol in shown:
+            missed, claimed = (np.concatenate([row[symbol][i] for row in rows]) for i in (0, 1))
             cells.append(f"{np.mean(missed <= claimed):.0%}")
             cells += [f"{np.exp(np.median(each)):.3f}" for each in (missed, claimed)]
         print(f"| {kind} | {missed.size} | {' | '.join(cells)} |")

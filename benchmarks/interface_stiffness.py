@@ -4,7 +4,8 @@
 are pressed into a free and into a periodic half-space under the mean pressures of the parent, and
 their stiffness per area is divided by its. Rows go to a file as they are made; what is there is not
 made again. Of instrument files given as arguments the whole map is the parent, and its quarters are
-the pieces.
+the pieces. With ``--hardness-bar BAR`` the bodies yield at BAR times the rms slope of the parent,
+and the stiffness is that of unloading.
 """
 
 import argparse
@@ -70,32 +71,37 @@ def map_and_quarters(file):
     return whole, [whole.cropped(x, y) for x in halves[0] for y in halves[1]]
 
 
-def rows(whole, pieces):
+def rows(whole, pieces, hardness_bar):
     """Ratios of pieces to their parent, at each load."""
-    # erf(sqrt(2) p / (E* slope)) of the surface is in contact, or about so (Persson 2001)
+    # erf(sqrt(2) p / (E* slope)) of an elastic surface is in contact, or about so (Persson 2001)
     pressure = whole.rms_slope * erfinv(WANTED) / math.sqrt(2)
-    truth = rl.press(whole, E_star=1.0, forces=pressure * whole.area, periodic=True, throw=False)
-    stiffness = truth.stiffness / whole.area
+    given, name = {"E_star": 1.0, "throw": False}, "stiffness"
+    if hardness_bar is not None:
+        given["hardness"], name = hardness_bar * whole.rms_slope, "unloading_stiffness"
+        pressure = 1 / (1 / pressure + 1 / (given["hardness"] * np.array(WANTED)))
+    truth = rl.press(whole, forces=pressure * whole.area, periodic=True, **given)
+    stiffness = getattr(truth, name) / whole.area
     for piece in (each.detrended() for each in pieces):
         free, periodic = (
-            rl.press(piece, E_star=1.0, forces=pressure * piece.area, periodic=each, throw=False)
+            rl.press(piece, forces=pressure * piece.area, periodic=each, **given)
             for each in (False, True)
         )
-        own = interface_stiffness(free.stiffness, saturated_stiffness(piece, 1.0))
+        own = interface_stiffness(getattr(free, name), saturated_stiffness(piece, 1.0))
+        ratio = getattr(periodic, name) / piece.area / stiffness
         roll_offs = roll_offs_along_a_side(piece)
         for i, wanted in enumerate(WANTED):
             yield (
                 wanted,
                 periodic.area_fraction_corrected[i],
-                float(periodic.resolved[i] and np.isfinite(periodic.stiffness[i] + stiffness[i])),
+                float(periodic.resolved[i] and np.isfinite(ratio[i])),
                 own[i] / piece.area / stiffness[i],
-                periodic.stiffness[i] / piece.area / stiffness[i],
+                ratio[i],
                 roll_offs or math.nan,
                 periodic.area_fraction_corrected[i] / truth.area_fraction_corrected[i],
             )
 
 
-def measured(file, files):
+def measured(file, files, hardness_bar):
     """Make the rows that the file lacks, and read all."""
     file.parent.mkdir(parents=True, exist_ok=True)
     if not file.exists():
@@ -107,7 +113,8 @@ def measured(file, files):
     for case, make in todo:
         if tuple(map(str, case)) in there:
             continue
-        made = rows(*(map_and_quarters(make) if isinstance(make, Path) else make(*case)))
+        found = map_and_quarters(make) if isinstance(make, Path) else make(*case)
+        made = rows(*found, hardness_bar)
         lines = [[*case, *(f"{number:.5g}" for number in row)] for row in made]
         with file.open("a", newline="") as stream:
             csv.writer(stream).writerows(lines)
@@ -170,9 +177,10 @@ def main():
     """Measure, and print both tables."""
     parser = argparse.ArgumentParser()
     parser.add_argument("files", nargs="*", type=Path)
+    parser.add_argument("--hardness-bar", type=float)
     parser.add_argument("--rows", type=Path, default=Path("out/interface_stiffness.csv"))
     arguments = parser.parse_args()
-    table = measured(arguments.rows, arguments.files)
+    table = measured(arguments.rows, arguments.files, arguments.hardness_bar)
     print(f"\nroughline {rl.__version__}\n")
     print_ratios(table[table["kind"] == "chosen on"])
     print_coverage(table)
