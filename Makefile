@@ -6,7 +6,7 @@ OUT ?= out/paper
 TEST_PROCESSES ?= 2
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak start-up lab-benchmark fuzz study correlations published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations published architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -63,6 +63,9 @@ robustness: $(VENV)/installed
 
 soak: $(VENV)/installed
 	$(BIN)/python benchmarks/soak.py 100 1
+
+yielding: $(VENV)/installed
+	$(BIN)/python benchmarks/yielding.py
 
 start-up: $(VENV)/installed
 	$(BIN)/python benchmarks/start_up.py

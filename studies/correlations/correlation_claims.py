@@ -119,7 +119,12 @@ def _of_ratios(statement: str, what: str, samples: Sequence[Sample], ratio: Rati
         ", ".join(ends),
         f"{_SAMPLED}; {_counted(samples)}",
         tuple(
-            _in_words([(one.fractal_dimension, judge(one, ratio, tolerance)) for one in samples])
+            _in_words(
+                [
+                    (dimension, _jointly([judge(one, ratio, tolerance) for one in of_it]))
+                    for dimension, of_it in by_dimension.items()
+                ]
+            )
             for tolerance in TOLERANCES
         ),
     )
@@ -151,9 +156,8 @@ def _of_bands(statement: str, hardness: float, wide: int) -> Claim:
     samples = [sample(BANDS[width], hardness, DIMENSIONS[0]) for width in (narrow, wide)]
     return Claim(
         statement,
-        f"the ratio to the correlation with q_high/q_roll = {wide} is by "
-        f"{', '.join(f'{change.value:+.0%}' for _, change in changes)} {_HURSTS} higher than "
-        f"with {narrow}",
+        f"from q_high/q_roll = {narrow} to {wide} the ratio to the correlation changes by "
+        f"{', '.join(f'{change.value:+.0%}' for _, change in changes)} {_HURSTS}",
         ", ".join(_signed(change) for _, change in changes),
         f"at a pressure of 0.01; {' and '.join(str(one.count) for one in samples)} surfaces",
         tuple(

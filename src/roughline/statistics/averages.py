@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
 from roughline.statistics import bootstrap
-from roughline.statistics.bootstrap import Resampled
 
 Averaging = Literal["arithmetic", "geometric"]
 
@@ -108,7 +107,7 @@ def relative_difference(
     Returns
     -------
     difference, low, high : ndarray, shape (loads,)
-        The difference and the ends of its interval. [1]
+        The difference and the ends of its interval; NaN where no pair is left. [1]
 
     Raises
     ------
@@ -125,8 +124,8 @@ def relative_difference(
     if (first <= 0).any() or (second <= 0).any():
         raise InputError("a relative difference needs positive values; some are zero or negative")
     if paired:
-        ratios = [_log_ratio_of_pairs(*pair, rng) for pair in zip(first.T, second.T, strict=True)]
-        ends = [(ratio.value, *ratio.interval(confidence)) for ratio in ratios]
+        pairs = zip(first.T, second.T, strict=True)
+        ends = [_log_ratio_of_pairs(*pair, confidence, rng) for pair in pairs]
         difference, low, high = np.expm1(np.reshape(ends, (-1, 3)).T)
     else:
         # two seeds, because the two ensembles are independent
@@ -136,11 +135,16 @@ def relative_difference(
     return difference, low, high
 
 
-def _log_ratio_of_pairs(values: Real, reference: Real, rng: int) -> Resampled:
-    """Logarithm of the ratio of two means over the realisations where both are finite."""
+def _log_ratio_of_pairs(
+    values: Real, reference: Real, confidence: float, rng: int
+) -> tuple[Real | float, ...]:
+    """Logarithm of the ratio of two means over the realisations where both are finite, and ends."""
     both = np.isfinite(values) & np.isfinite(reference)
+    if not both.any():
+        return np.nan, np.nan, np.nan
     pairs = np.column_stack([values[both], reference[both]])
-    return bootstrap.sum_of_log_means(pairs, np.array([1.0, -1.0]), rng=rng)
+    ratio = bootstrap.sum_of_log_means(pairs, np.array([1.0, -1.0]), rng=rng)
+    return ratio.value, *ratio.interval(confidence)
 
 
 def at_levels(
