@@ -9,6 +9,7 @@ from functools import partial
 from roughline.assessment.answers import surface_moments, with_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.grid import grid_error_is_estimated
+from roughline.assessment.kinds import is_map
 from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads, load_with_fields
@@ -25,7 +26,7 @@ from roughline.assessment.solution import (
 from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.uncertainty import Solution
 from roughline.assessment.variants import (
-    Again,
+    Variation,
     repeats,
     with_elastic_answers,
     with_scatter_of_hardness,
@@ -98,8 +99,8 @@ def assess_body(
     result = with_answers(result, larger, spectrum)
     if case.hardness is not None:
         solve = partial(_solved_body, replace(question, fields=False), parts=(), progress=progress)
-        again = Again(case, larger, spectrum, solve)
-        result = with_scatter_of_hardness(with_elastic_answers(result, again), again)
+        variation = Variation(case, larger, spectrum, solve)
+        result = with_scatter_of_hardness(with_elastic_answers(result, variation), variation)
     slip, interrupted = slip_at_largest_load(question, case, result.curve, result.area)
     result = replace(result, partial_slip=slip, interrupted=result.interrupted or interrupted)
     warnings = warnings_of(result, spectrum, case.grid_error)
@@ -108,9 +109,8 @@ def assess_body(
 
 def _needs_larger_surface(question: Question, body: Body) -> bool:
     """Whether answers are about the larger surface that a body was cut out of."""
-    if question.materials is None or not isinstance(body, Surface):
-        return False
-    return body.is_cut_out or question.joint is not None
+    is_of_a_larger_one = question.joint is not None or is_map(body)
+    return question.materials is not None and is_of_a_larger_one
 
 
 def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announce | None) -> None:

@@ -54,6 +54,23 @@ class PartAnswer:
         low, high = (np.minimum(end, most) for end in (found.low, found.high))
         return cls(of_maps, found.mean, found.scatter, low, high, found.count)
 
+    def ends_of_maps(self, load: int) -> tuple[Real, Real]:
+        """Both ends of each map's own interval at one load; its value where it has none.
+
+        Parameters
+        ----------
+        load : int
+            Number of the load, from 0.
+
+        Returns
+        -------
+        low, high : ndarray, shape (maps,)
+            [unit]
+        """
+        ends = [each.ends or (each.values, each.values) for each in self.of_maps]
+        low, high = (np.array([each[load] for each in side]) for side in zip(*ends, strict=True))
+        return low, high
+
     @property
     def key(self) -> str:
         """By which it is found, such as "contact_stiffness"."""

@@ -32,7 +32,7 @@ _OF_HARDNESS_ALONE = ("holm_resistance", "plastic_conductance")  # keys of answe
 
 
 @dataclass(frozen=True, eq=False)
-class Again:
+class Variation:
     """How the body of an assessment is pressed again, with another hardness.
 
     Attributes
@@ -85,11 +85,11 @@ def repeats(question: Question, body: Body) -> float:
     return 3.0 if _judged_on(body) is body else 1.75
 
 
-def with_elastic_answers(result: Assessment, again: Again) -> Assessment:
+def with_elastic_answers(result: Assessment, variation: Variation) -> Assessment:
     """Add the answers of elastic bodies, where some of the contact yields."""
     if result.interrupted or not result.answers or not _yields(result.curve):
         return result
-    elastic = again.assessed(result, None, result.body)
+    elastic = variation.assessed(result, None, result.body)
     if elastic.interrupted:
         return replace(result, interrupted=True)
     answers = dict(elastic.answers)
@@ -99,7 +99,7 @@ def with_elastic_answers(result: Assessment, again: Again) -> Assessment:
     return replace(result, elastic=answers)
 
 
-def with_scatter_of_hardness(result: Assessment, again: Again) -> Assessment:
+def with_scatter_of_hardness(result: Assessment, variation: Variation) -> Assessment:
     """Widen all intervals by what the scatter of the hardness moves.
 
     The body is pressed again as soft and as hard as it may be; a large one on half as many points
@@ -113,7 +113,7 @@ def with_scatter_of_hardness(result: Assessment, again: Again) -> Assessment:
     ----------
     result : Assessment
         With the answers for the hardness itself.
-    again : Again
+    variation : Variation
         How its body is pressed again.
     """
     hardness = hardness_of(result.question)
@@ -124,7 +124,7 @@ def with_scatter_of_hardness(result: Assessment, again: Again) -> Assessment:
     assessed: list[Assessment] = []
     for value in values:
         if not result.interrupted:
-            assessed.append(again.assessed(result, value, body))
+            assessed.append(variation.assessed(result, value, body))
             result = replace(result, interrupted=assessed[-1].interrupted)
     if result.interrupted:
         return _without_intervals(result)
