@@ -217,6 +217,16 @@ def test_unloading_takes_the_largest_load_off_in_steps(surface):
     assert result.curve.depth.tolist() == alone.depth.tolist()
 
 
+def test_theories_stand_beside_an_unloading(surface):
+    """At each load once, rising, so that the last is the largest; none where nothing touches."""
+    result = rl.assess(
+        rl.Question(surface, PAIR, loads=["8 N", "2 N"], unload=True, theories="persson")
+    )
+    (persson,) = result.theories
+    assert persson.pressure * result.area == pytest.approx([0.8, 2.0, 4.0, 6.0, 8.0])
+    assert (np.diff(persson.area_fraction) > 0).all()
+
+
 def test_depths_rise_and_fall_too(surface):
     depths = ["0.5 um", "1 um", "0.9 um", "0.1 um"]
     result = rl.assess(rl.Question(surface, PAIR, depths=depths, history=True))

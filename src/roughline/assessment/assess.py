@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from roughline.assessment.answers import surface_moments, with_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.grid import grid_error_is_estimated
@@ -169,10 +171,11 @@ def _solved_body(
 
 
 def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]:
-    """Theories at the mean pressures of the loads that were solved."""
-    if not question.theories or not isinstance(body, Surface) or not curve.converged.any():
+    """Theories at the mean pressures of the loads that were solved, rising, each once."""
+    solved = np.unique(curve.force[curve.converged & (curve.force > 0)])
+    if not question.theories or not isinstance(body, Surface) or not solved.size:
         return []
     from roughline.theories.theory import theory  # here because it loads slowly
 
-    pressures = curve.force[curve.converged] / body.area
+    pressures = solved / body.area
     return [theory(name, body, curve.E_star, pressures) for name in question.theories]
