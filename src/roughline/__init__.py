@@ -10,13 +10,13 @@ from roughline._version import __version__
 
 if TYPE_CHECKING:
     from roughline.assessment.assess import assess_body as assess_body
+    from roughline.assessment.assess_part import assess as assess
+    from roughline.assessment.assess_part import assess_part as assess_part
     from roughline.assessment.assessment import Assessment as Assessment
     from roughline.assessment.line_scan import press_scan as press_scan
     from roughline.assessment.part import PartAssessment as PartAssessment
     from roughline.assessment.question import Question as Question
     from roughline.assessment.reading import Reading as Reading
-    from roughline.assessment.several import assess as assess
-    from roughline.assessment.several import assess_part as assess_part
     from roughline.comparison.models import Comparison as Comparison
     from roughline.comparison.models import compare as compare
     from roughline.comparison.trust import trust_map as trust_map
@@ -60,9 +60,9 @@ if TYPE_CHECKING:
     from roughline.topography.two_bodies import facing as facing
 
 _HOMES = {
-    "assess": "assessment.several",
+    "assess": "assessment.assess_part",
     "assess_body": "assessment.assess",
-    "assess_part": "assessment.several",
+    "assess_part": "assessment.assess_part",
     "Assessment": "assessment.assessment",
     "PartAssessment": "assessment.part",
     "Question": "assessment.question",

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from roughline import campaign
 from roughline.computing.arrays import Mask, Real
-from roughline.contact.scaling import EXACT_PUNCH
+from roughline.contact.scaling import EXACT_PUNCH, PUNCH_GRID_ERROR
 from roughline.engineering.formulas import (
     holm_resistance,
     interface_stiffness,
@@ -44,7 +44,6 @@ PRESSURES = (1e-4, 1e-3, 1e-2, 1e-1)
 WINDOW = (1e-3, 1e-1)
 """Pressures at which the handbooks are judged."""
 
-_PUNCH_ERROR = 0.396  # of the flat punch's stiffness on n x n points, times n
 _UNIT_SLOPE = math.sqrt(math.pi)  # rms slope at which m = 1
 
 
@@ -135,10 +134,13 @@ class Sample:
         """The handbook's variable: p / H, or sqrt(2) p / (E* m) of elastic bodies."""
         return self.pressure * (math.sqrt(2) * _UNIT_SLOPE if self.elastic else 1.0)
 
+    def places(self, *pressures: float) -> list[int]:
+        """Return which of the pressures are the nearest to these, by their numbers."""
+        return [int(np.abs(self.pressure / each - 1).argmin()) for each in pressures]
+
     def mean_at(self, values: Real, *pressures: float) -> Average:
         """Average values at some of the pressures over the realisations."""
-        places = [int(np.abs(self.pressure / each - 1).argmin()) for each in pressures]
-        return average(values[:, places])
+        return average(values[:, self.places(*pressures)])
 
     def fit(self) -> PowerLaw:
         """Fit c x^a to the mean conductance in the window, x the handbook's variable."""
@@ -206,7 +208,7 @@ def sample(prefix: str, hardness_bar: float, fractal_dimension: float, *, every:
 
     stiffness = of("stiffness" if elastic else "unloading_stiffness")
     if ensemble.boundary == "free":
-        punch = EXACT_PUNCH - _PUNCH_ERROR / ensemble.n
+        punch = EXACT_PUNCH - PUNCH_GRID_ERROR / ensemble.n
         stiffness = interface_stiffness(stiffness, punch)
     area = np.exp(read(np.log(of("area_fraction"))))
     return Sample(

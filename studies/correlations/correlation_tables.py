@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
 from conductance import (
     BANDS,
     BOXES,
@@ -133,8 +132,8 @@ def grid_table() -> Table:
     for hardness, name in ((ELASTIC, "elastic"), (0.1, "H/(E*∇h) = 0.1"), (FULL, "fully plastic")):
         for one in _main(hardness):
             shifts = grid_shift(one, _ratio)
-            places = [int(np.abs(one.pressure / each - 1).argmin()) for each in PRESSURES]
-            rows.append([name, _hurst(one), *(_percents(shifts[place]) for place in places)])
+            shown = (_percents(shifts[place]) for place in one.places(*PRESSURES))
+            rows.append([name, _hurst(one), *shown])
     return _numeric(header, rows)
 
 

@@ -117,21 +117,15 @@ def change_with_boundary(
     """Return the relative change of the ratio from the periodic to the free half-space."""
     free = sample("free", hardness_bar, dimension)
     periodic = sample("main", hardness_bar, dimension)
-    places = [_place(one, pressure) for one in (free, periodic)]
-    ends = relative_difference(
-        free.ratio[:, places[0]], periodic.ratio[: free.count, places[1]], paired=True
-    )
+    first, second = (one.ratio[: free.count, one.places(pressure)] for one in (free, periodic))
+    ends = relative_difference(first, second, paired=True)
     return IntervalEstimate(*(float(end[0]) for end in ends))
 
 
 def _change(second: Sample, first: Sample, pressure: float) -> IntervalEstimate:
-    values = [one.ratio[:, _place(one, pressure)] for one in (second, first)]
+    values = [one.ratio[:, one.places(pressure)] for one in (second, first)]
     ends = relative_difference(*values, paired=False)
     return IntervalEstimate(*(float(end[0]) for end in ends))
-
-
-def _place(one: Sample, pressure: float) -> list[int]:
-    return [int(np.abs(one.pressure / pressure - 1).argmin())]
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,16 @@ _HALVES = 2.0  # an error that halves with the spacing is twice the difference o
 
 
 @dataclass(frozen=True)
-class Ends:
-    """An interval, `low` to `high`; within it, what the grid leaves open of the mean."""
+class RatioInterval:
+    """Interval of the mean of a ratio at one pressure.
+
+    Attributes
+    ----------
+    low, high : float
+        Its ends.
+    least, most : float
+        What the grid alone leaves open of the mean, within them.
+    """
 
     low: float
     least: float
@@ -93,16 +101,16 @@ def judge(one: Sample, ratio: Ratio, tolerance: float) -> Judgement:
     if whole is not Verdict.UNDECIDED:
         return Judgement(whole, math.nan)
     open_ones = [
-        _factor(*(each.low, each.least, each.most, each.high), tolerance)
+        _growth_to_decide(each, tolerance)
         for each, found in zip(simultaneous, verdicts, strict=True)
         if found is Verdict.UNDECIDED
     ]
-    refuting = [factor for factor, refutes in open_ones if refutes]
-    factor = min(refuting) if refuting else max(factor for factor, _ in open_ones)
-    return Judgement(whole, one.count * factor)
+    refuting = [growth for growth, refutes in open_ones if refutes]
+    growth = min(refuting) if refuting else max(growth for growth, _ in open_ones)
+    return Judgement(whole, one.count * growth)
 
 
-def simultaneous_intervals(one: Sample, ratio: Ratio) -> list[Ends]:
+def simultaneous_intervals(one: Sample, ratio: Ratio) -> list[RatioInterval]:
     """Return the intervals of a ratio that hold at all pressures of the window together.
 
     They have Bonferroni's level, and are widened on one side by the error of the grid.
@@ -113,17 +121,15 @@ def simultaneous_intervals(one: Sample, ratio: Ratio) -> list[Ends]:
     grid = _HALVES * np.array([shift.value for shift in grid_shift(one, ratio)])[inside]
     down, up = 1 + np.minimum(grid, 0), 1 + np.maximum(grid, 0)
     ends = (mean.low * down, mean.mean * down, mean.mean * up, mean.high * up)
-    return [Ends(*map(float, each)) for each in zip(*ends, strict=True)]
+    return [RatioInterval(*map(float, each)) for each in zip(*ends, strict=True)]
 
 
-def _factor(
-    low: float, least: float, most: float, high: float, tolerance: float
-) -> tuple[float, bool]:
-    """By how much an ensemble has to grow to decide one load, and whether it would then refute.
+def _growth_to_decide(interval: RatioInterval, tolerance: float) -> tuple[float, bool]:
+    """By what factor an ensemble has to grow to decide at one pressure, and whether to refute.
 
-    `least` to `most` is what the grid leaves open of the mean; intervals shrink as the square root
-    of the realisations.
+    Intervals shrink as the square root of the realisations; what the grid leaves open stays.
     """
+    low, least, most, high = interval.low, interval.least, interval.most, interval.high
     bottom, top = 1 - tolerance, 1 + tolerance
     if most < bottom:
         return ((high - most) / (bottom - most)) ** 2, True

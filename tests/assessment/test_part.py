@@ -68,7 +68,7 @@ def test_resistance_and_conductance_say_the_same(maps):
 
 
 def test_the_interval_of_a_part_holds_what_its_maps_miss_alike(maps):
-    """With the grid's error known, which is one for all; the other end of none is nearer."""
+    """Here the error of the grid; the part's ends are no nearer than the nearest of any map's."""
     without, known = (pressed(maps, grid_error=each).answers for each in (False, True))
     for key in ("contact_stiffness", "constriction_resistance"):
         assert known[key].low < without[key].low < without[key].mean

@@ -41,7 +41,7 @@ def test_solved_loads_are_kept(throw):
 
 
 def test_an_interruption_inside_a_load_loses_that_load_alone(monkeypatch):
-    from roughline.contact import solution
+    from roughline.contact import load_result
 
     calls = []
 
@@ -51,8 +51,8 @@ def test_an_interruption_inside_a_load_loses_that_load_alone(monkeypatch):
             raise KeyboardInterrupt
         return original(*arguments)
 
-    original = solution.border_share
-    monkeypatch.setattr(solution, "border_share", stopping)
+    original = load_result.border_share
+    monkeypatch.setattr(load_result, "border_share", stopping)
     with pytest.raises(rl.Interrupted) as caught:
         pressed()
     assert caught.value.curve.converged.tolist() == [True, True, False, False]

@@ -60,7 +60,7 @@ def test_a_curve_has_what_is_declared_and_no_more(curve):
     derived = {"force_bar", "stiffness_bar"}
     assert arrays == {each.name for each in OVER_THE_LOADS} - derived
     assert {each.name for each in dataclasses.fields(rl.Fields)} == {
-        each.of_field for each in ON_THE_GRID
+        each.attribute for each in ON_THE_GRID
     }
 
 

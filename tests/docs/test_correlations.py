@@ -34,13 +34,14 @@ from findings import (
     over_holm,
     over_root_sum,
 )
-from judgement import Judgement, _factor, judge
+from judgement import Judgement, RatioInterval, _growth_to_decide, judge
 
 from roughline.engineering import formulas
 from roughline.statistics.averages import average
 from roughline.statistics.verdict import Verdict
 
 AGAIN = "the page is not that of the data any more: run studies/correlations/publish.py"
+NEEDED = ("rms_slope", "area_fraction", "stiffness", "unloading_stiffness")
 
 
 @pytest.fixture(scope="module")
@@ -117,9 +118,6 @@ def test_laws_of_the_model_hold_in_the_data(main_samples):
     assert (np.diff(plastic, axis=1) >= 0).all()
 
 
-NEEDED = ("rms_slope", "area_fraction", "stiffness", "unloading_stiffness")
-
-
 def test_sentences_without_numbers_are_true_too(main_samples):
     elastic_band = change_with_band(ELASTIC, MIDDLE, min(BANDS), max(ELASTIC_BANDS))
     plastic_band = change_with_band(FULL, MIDDLE, min(BANDS), max(BANDS))
@@ -157,10 +155,14 @@ def test_judgements_have_three_values():
 
 def test_four_times_the_surfaces_halve_an_interval():
     """Seen from the mean: an interval that is twice too wide needs four times the surfaces."""
-    assert _factor(0.75, 0.85, 0.85, 0.95, 0.1) == (pytest.approx(4.0), True)
-    assert _factor(1.0, 1.15, 1.15, 1.3, 0.1) == (pytest.approx(9.0), True)
-    assert _factor(0.8, 1.0, 1.0, 1.2, 0.1) == (pytest.approx(4.0), False)
-    assert _factor(0.7, 0.85, 0.92, 1.0, 0.1) == (math.inf, False)
+    for ends, growth, refutes in (
+        ((0.75, 0.85, 0.85, 0.95), 4.0, True),
+        ((1.0, 1.15, 1.15, 1.3), 9.0, True),
+        ((0.8, 1.0, 1.0, 1.2), 4.0, False),
+        ((0.7, 0.85, 0.92, 1.0), math.inf, False),
+    ):
+        found = _growth_to_decide(RatioInterval(*ends), 0.1)
+        assert found == (pytest.approx(growth), refutes)
     assert Judgement(Verdict.UNDECIDED, 1234.0).what_would_decide == (
         "some 1,200 surfaces would decide"
     )

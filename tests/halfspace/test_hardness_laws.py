@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import random_surfaces
@@ -254,10 +254,11 @@ def test_both_stiffnesses_are_slopes(problem):
     for toward, k in ((1e-4, at.stiffness[0]), (-1e-4, at.unloading_stiffness[0])):
         near = problem.pressed(None, depths=[depth, depth * (1 + toward)], rtol=1e-9)
         first, then = near.fields
-        kept = (first.plastic == then.plastic).all() if toward > 0 else True
-        if kept and (first.contact == then.contact).all():
-            slope = np.diff(near.force)[0] / np.diff(near.depth)[0]
-            assert k == pytest.approx(slope, rel=1e-3, abs=1e-6 * at.unloading_stiffness[0])
+        # of sets that change on the way the slope is another; too many of these fail the test
+        assume((first.contact == then.contact).all())
+        assume(toward < 0 or (first.plastic == then.plastic).all())
+        slope = np.diff(near.force)[0] / np.diff(near.depth)[0]
+        assert k == pytest.approx(slope, rel=1e-3, abs=1e-6 * at.unloading_stiffness[0])
 
 
 @laws

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.kinds import has_spectrum
 from roughline.assessment.larger_surface import LargerSurface, stiffness_of_the_piece
-from roughline.assessment.nominal import has_spectrum
 from roughline.engineering.answer import Answer
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
@@ -24,7 +24,7 @@ _STEEP = 0.5  # rms slope from which on it is warned that half-spaces suppose sm
 
 def surface_moments(body: Body) -> Moments | None:
     """Moments of a surface's spectrum; None for a line, and where there is no spectrum."""
-    return moments(body) if isinstance(body, Surface) and has_spectrum(body) else None
+    return moments(body) if has_spectrum(body) else None
 
 
 def with_answers(

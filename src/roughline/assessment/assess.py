@@ -6,9 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from roughline.assessment.answers import surface_moments, with_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.grid import grid_error_is_estimated
+from roughline.assessment.kinds import is_map
 from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads, load_with_fields
@@ -25,7 +28,7 @@ from roughline.assessment.solution import (
 from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.uncertainty import Solution
 from roughline.assessment.variants import (
-    Again,
+    Variation,
     repeats,
     with_elastic_answers,
     with_scatter_of_hardness,
@@ -98,8 +101,8 @@ def assess_body(
     result = with_answers(result, larger, spectrum)
     if case.hardness is not None:
         solve = partial(_solved_body, replace(question, fields=False), parts=(), progress=progress)
-        again = Again(case, larger, spectrum, solve)
-        result = with_scatter_of_hardness(with_elastic_answers(result, again), again)
+        variation = Variation(case, larger, spectrum, solve)
+        result = with_scatter_of_hardness(with_elastic_answers(result, variation), variation)
     slip, interrupted = slip_at_largest_load(question, case, result.curve, result.area)
     result = replace(result, partial_slip=slip, interrupted=result.interrupted or interrupted)
     warnings = warnings_of(result, spectrum, case.grid_error)
@@ -108,9 +111,8 @@ def assess_body(
 
 def _needs_larger_surface(question: Question, body: Body) -> bool:
     """Whether answers are about the larger surface that a body was cut out of."""
-    if question.materials is None or not isinstance(body, Surface):
-        return False
-    return body.is_cut_out or question.joint is not None
+    is_of_a_larger_one = question.joint is not None or is_map(body)
+    return question.materials is not None and is_of_a_larger_one
 
 
 def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announce | None) -> None:
@@ -169,10 +171,11 @@ def _solved_body(
 
 
 def _theories(question: Question, body: Body, curve: Curve) -> list[TheoryCurve]:
-    """Theories at the mean pressures of the loads that were solved."""
-    if not question.theories or not isinstance(body, Surface) or not curve.converged.any():
+    """Theories at the mean pressures of the loads that were solved, rising, each once."""
+    solved = np.unique(curve.force[curve.converged & (curve.force > 0)])
+    if not question.theories or not isinstance(body, Surface) or not solved.size:
         return []
     from roughline.theories.theory import theory  # here because it loads slowly
 
-    pressures = curve.force[curve.converged] / body.area
+    pressures = solved / body.area
     return [theory(name, body, curve.E_star, pressures) for name in question.theories]

@@ -56,7 +56,7 @@ class Assessment:
         By the keys of the answers, the least and the largest ratio of each to its value while the
         hardness is varied; that is in the intervals. Empty where the hardness is taken as exact.
     theories : sequence of TheoryCurve
-        At the mean pressures of the loads that were solved.
+        At the mean pressures of the loads that were solved, rising, each once.
     partial_slip : PartialSlip or None
         At the largest load, if a coefficient of friction was given and that load was solved.
     warnings : sequence of str

@@ -25,9 +25,12 @@ def as_si(given: float | str, unit: str, name: str) -> float:
     return in_si(given, unit, name) if isinstance(given, str) else float(given)
 
 
-def is_force(load: float | str) -> bool:
+def has_forces(loads: Any) -> bool:
     """Whether a load is a force, which acts on the body as a whole, and no mean pressure."""
-    return not isinstance(load, str) or load_in_newtons(load, 1.0) == load_in_newtons(load, 2.0)
+    return any(
+        not isinstance(load, str) or load_in_newtons(load, 1.0) == load_in_newtons(load, 2.0)
+        for load in several(loads)
+    )
 
 
 def body_or_path(given: Any, name: str) -> Body | Path:

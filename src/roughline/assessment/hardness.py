@@ -1,4 +1,4 @@
-"""The hardness that a question is answered with, and how far its scatter moves the answers."""
+"""The hardness that a question is answered with, and which loads it bears."""
 
 from __future__ import annotations
 
@@ -6,11 +6,18 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from roughline.assessment.given import as_si
+from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.errors import InputError
 from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.question import Question
+
+WITHOUT_YIELD = (
+    f"has no yield: it may serve while mean contact pressures stay below some {ELASTIC_UP_TO:g} of "
+    "the hardness"
+)
+"""Said of the reduced model."""
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.assessment.hardness import hardness_of, refuse_beyond_hardness
+from roughline.assessment.kinds import is_map
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
 from roughline.computing.arrays import Indices, Mask
@@ -69,7 +70,7 @@ class LoadCase:
         elif body.kind == "profile" and not forces:
             forces = _forces_of_a_scan(body, question.modulus, n_loads or DEFAULT_LOADS)
             n_loads = None
-        levelled = question.joint is not None and isinstance(body, Surface) and body.is_cut_out
+        levelled = question.joint is not None and is_map(body)
         return cls(
             question.modulus,
             forces,

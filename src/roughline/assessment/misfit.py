@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from roughline.assessment.nominal import has_spectrum
+from roughline.assessment.hardness import WITHOUT_YIELD
+from roughline.assessment.kinds import has_spectrum
 from roughline.errors import InputError
 from roughline.topography.body import Body, Line
 from roughline.units import engineering
@@ -32,8 +33,8 @@ def refuse_misfit(question: Question, body: Body) -> None:
         question.hardness is not None or question.history or question.unload
     ):
         raise InputError(
-            "hardness, history and unload belong to a surface; the reduced model of a line has no "
-            "yield: it may serve while mean contact pressures stay below some 0.4 of the hardness"
+            "hardness, history and unload belong to a surface; the reduced model of a line "
+            f"{WITHOUT_YIELD}"
         )
     if question.joint is not None:
         _refuse_as_piece_of_a_joint(body, question.joint)

@@ -26,8 +26,3 @@ def area_of_joint(given: float | str) -> float:
     if not 0 < area < math.inf:
         raise InputError(f'joint area is "{given}"; give a positive one (joint_area=)')
     return area
-
-
-def has_spectrum(body: Body) -> bool:
-    """Whether it is a surface with enough points and some roughness."""
-    return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0

@@ -7,8 +7,9 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.given import is_force, several
+from roughline.assessment.given import has_forces, several
 from roughline.assessment.hardness import hardness_of
+from roughline.assessment.kinds import is_map
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.engineering.answer import Answer
@@ -82,8 +83,7 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
                 f"load {text}: {on_joint} on the joint of {joint}, {pressure} everywhere; "
                 f"{engineering(force, 'N')} of it on the map, {sides}"
             )
-    forced = any(map(is_force, several(question.loads)))
-    if forced and question.joint is None and _is_map(body):
+    if has_forces(question.loads) and question.joint is None and is_map(body):
         notes.append(
             "forces act on the map alone, not on the part that it was cut out of; with the area of "
             "the joint (joint_area=) they act on that, and the answers are the joint's"
@@ -133,7 +133,7 @@ def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
     The second result says whether that outweighs all other steps. Nothing is said of a surface
     that is no map: it may be meant to be repeated.
     """
-    if not question.is_repeated or not isinstance(body, Surface) or not body.is_cut_out:
+    if not question.is_repeated or not is_map(body):
         return "", False
     found = border_jump(body if question.joint is None else body.detrended())
     text = (
@@ -165,11 +165,6 @@ def cropping_and_resampling(body: Body) -> list[str]:
         pixel = " x ".join(engineering(size, "m") for size in body.spacing)
         notes.append(f"second body: resampled by cubic splines to pixels of {pixel}, the first's")
     return notes
-
-
-def _is_map(body: Body) -> bool:
-    """Whether it is a surface that a larger one goes on around."""
-    return isinstance(body, Surface) and body.is_cut_out
 
 
 def of_yield(result: Assessment) -> list[str]:

@@ -6,6 +6,8 @@ from roughline.assessment import notes as say
 from roughline.assessment.answers import broken_assumptions
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.grid import why_without_grid_error
+from roughline.assessment.hardness import WITHOUT_YIELD
+from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
@@ -36,8 +38,8 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
     if pair is not None:
         if isinstance(body, Line) and pair.hardness is not None:
             notes.append(
-                "the reduced model has no yield: it may serve while mean contact pressures stay "
-                "below some 0.4 of the hardness, which rms slopes over 0.8 H / E* exceed"
+                f"the reduced model {WITHOUT_YIELD}, which rms slopes over "
+                f"{2 * ELASTIC_UP_TO:g} H / E* exceed"
             )
         notes += left_out(pair, question.frequency_in_hertz)
         if result.curve.area_fraction is None:

@@ -32,7 +32,7 @@ _OF_HARDNESS_ALONE = ("holm_resistance", "plastic_conductance")  # keys of answe
 
 
 @dataclass(frozen=True, eq=False)
-class Again:
+class Variation:
     """How the body of an assessment is pressed again, with another hardness.
 
     Attributes
@@ -85,11 +85,11 @@ def repeats(question: Question, body: Body) -> float:
     return 3.0 if _judged_on(body) is body else 1.75
 
 
-def with_elastic_answers(result: Assessment, again: Again) -> Assessment:
+def with_elastic_answers(result: Assessment, variation: Variation) -> Assessment:
     """Add the answers of elastic bodies, where some of the contact yields."""
     if result.interrupted or not result.answers or not _yields(result.curve):
         return result
-    elastic = again.assessed(result, None, result.body)
+    elastic = variation.assessed(result, None, result.body)
     if elastic.interrupted:
         return replace(result, interrupted=True)
     answers = dict(elastic.answers)
@@ -99,7 +99,7 @@ def with_elastic_answers(result: Assessment, again: Again) -> Assessment:
     return replace(result, elastic=answers)
 
 
-def with_scatter_of_hardness(result: Assessment, again: Again) -> Assessment:
+def with_scatter_of_hardness(result: Assessment, variation: Variation) -> Assessment:
     """Widen all intervals by what the scatter of the hardness moves.
 
     The body is pressed again as soft and as hard as it may be; a large one on half as many points
@@ -113,7 +113,7 @@ def with_scatter_of_hardness(result: Assessment, again: Again) -> Assessment:
     ----------
     result : Assessment
         With the answers for the hardness itself.
-    again : Again
+    variation : Variation
         How its body is pressed again.
     """
     hardness = hardness_of(result.question)
@@ -124,7 +124,7 @@ def with_scatter_of_hardness(result: Assessment, again: Again) -> Assessment:
     assessed: list[Assessment] = []
     for value in values:
         if not result.interrupted:
-            assessed.append(again.assessed(result, value, body))
+            assessed.append(variation.assessed(result, value, body))
             result = replace(result, interrupted=assessed[-1].interrupted)
     if result.interrupted:
         return _without_intervals(result)
@@ -166,13 +166,7 @@ def _without_intervals(result: Assessment) -> Assessment:
 
 def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment]) -> Assessment:
     """Widen the intervals of an assessment by the ratios of others to a nominal one."""
-    whole = result.area * result.scale
-    limits: dict[str, tuple[Real | float, float]] = {
-        "contact_area": (0.0, whole),
-        "contact_area_fraction": (0.0, 1.0),
-        "contact_pressure": (result.curve_as_asked.force / result.area, np.inf),
-        "contact_pressure_over_hardness": (0.0, 1.0),
-    }
+    mean_pressure = result.curve_as_asked.force / result.area
     answers, scatter = {}, {}
     for key, each in result.answers.items():
         ratios = _ratios(
@@ -182,7 +176,7 @@ def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment
         ends = each.ends
         if key in _OF_HARDNESS_ALONE and result.intervals is not None:
             ends = each.values, each.values  # nothing else leaves them open
-        within = limits.get(key, (0.0, np.inf))
+        within = mean_pressure if key == "contact_pressure" else 0.0, each.most
         low, high = (None, None) if ends is None else _times(ends, ratios, *within)
         shared = None if each.shared is None else _times(each.shared, ratios, *within)
         answers[key] = replace(each, low=low, high=high, shared=shared)

@@ -22,7 +22,7 @@ def press_part(
     question: Question, report: Path | None, out: Path | None, json: bool, command: str
 ) -> None:
     """Press the maps of a question, show what they say together, and end with the exit code."""
-    from roughline.assessment.several import assess_part
+    from roughline.assessment.assess_part import assess_part
     from roughline.report.part_output import of_part, print_part
     from roughline.report.progress import part_progress
     from roughline.report.terminal import announce

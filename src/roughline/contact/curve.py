@@ -253,7 +253,7 @@ class Curve:
         if not kept:
             return None
         missing = np.full(kept[0].gap.shape, np.nan)
-        name = quantity.of_field
+        name = quantity.attribute
         stack = [getattr(fields, name) if fields else missing for fields in self.fields]
         return np.array(stack, float)
 

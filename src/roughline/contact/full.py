@@ -11,9 +11,9 @@ from threadpoolctl import threadpool_limits
 from roughline._version import __version__
 from roughline.contact.border import border_warnings
 from roughline.contact.curve import Curve, Status
+from roughline.contact.load_result import LoadResult, columns
 from roughline.contact.loads import Loads
 from roughline.contact.scaled_surface import ScaledSurface
-from roughline.contact.solution import Solution, columns
 from roughline.errors import Interrupted
 from roughline.halfspace.conditions import ContactConditions, UnilateralContact, YieldingContact
 from roughline.halfspace.half_space import HalfSpace
@@ -60,32 +60,30 @@ def press_surface(
     values, places = loads.values, np.arange(loads.values.size)
     if hardness is None:
         values, places = np.unique(loads.values, return_inverse=True)
-    solutions: list[Solution] = []
+    results: list[LoadResult] = []
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
         with threadpool_limits(limits=1, user_api="blas"):
             path, kept_there = replace(loads, values=values), {int(places[i]) for i in kept}
-            for solution in _solutions(
-                surface, E_star, path, method, hardness, periodic, kept_there
-            ):
-                solutions.append(solution)
+            for result in _results(surface, E_star, path, method, hardness, periodic, kept_there):
+                results.append(result)
                 if progress is not None:
-                    progress(len(solutions), values.size)
+                    progress(len(results), values.size)
     except KeyboardInterrupt:
         interrupted = True
-    solutions += [Solution()] * (values.size - len(solutions))
-    solutions = [solutions[i] for i in places]
-    curve = _curve(surface, E_star, loads, method, solutions, hardness, periodic)
+    results += [LoadResult()] * (values.size - len(results))
+    results = [results[i] for i in places]
+    curve = _curve(surface, E_star, loads, method, results, hardness, periodic)
     if kept:
-        fields = [each.fields if i in kept else None for i, each in enumerate(solutions)]
+        fields = [each.fields if i in kept else None for i, each in enumerate(results)]
         curve = replace(curve, fields=tuple(fields))
     if interrupted:
         raise Interrupted(curve)
     return curve
 
 
-def _solutions(
+def _results(
     surface: Surface,
     E_star: float,
     loads: Loads,
@@ -93,7 +91,7 @@ def _solutions(
     hardness: float | None,
     periodic: bool,
     with_fields: Set[int],
-) -> Iterator[Solution]:
+) -> Iterator[LoadResult]:
     """Solve the contact under each load in turn."""
     scaled = ScaledSurface.of(surface, E_star, loads)
     half_space = HalfSpace(E_star, periodic).scaled(scaled.E_star, scaled.length)
@@ -101,7 +99,7 @@ def _solutions(
     unit = scaled.force if loads.control == "forces" else scaled.height
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
     for i, (contact, response) in enumerate(solve_path(problem, path, method)):
-        yield Solution.of(
+        yield LoadResult.of(
             contact, response, scaled, hardness, periodic=periodic, with_fields=i in with_fields
         )
         del contact, response  # so that the next load finds their memory free
@@ -125,16 +123,16 @@ def _curve(
     E_star: float,
     loads: Loads,
     method: Method,
-    solutions: Sequence[Solution],
+    results: Sequence[LoadResult],
     hardness: float | None,
     periodic: bool,
 ) -> Curve:
-    """Put the solutions of all loads together, without fields."""
-    values = columns(solutions)
+    """Put the results of all loads together, without fields."""
+    values = columns(results)
     # what was prescribed is given back as it came; the residual holds what the pressures miss of it
     prescribed = values[loads.control.removesuffix("s")]
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
-    shares = np.array([solution.border_share for solution in solutions])
+    shares = np.array([result.border_share for result in results])
     at_the_border = () if periodic else border_warnings(surface, values["force"], shares)
     return Curve(
         **values,
@@ -155,5 +153,5 @@ def _curve(
         },
         warnings=(*tilt_warnings(surface), *at_the_border),
         surface=surface,
-        dents=() if hardness is None else tuple(solution.dents for solution in solutions),
+        dents=() if hardness is None else tuple(result.dents for result in results),
     )

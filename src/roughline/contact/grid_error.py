@@ -103,10 +103,13 @@ def _unloading(curve: Curve) -> Real:
 def _error(values: Sequence[Real], safety: float) -> Real:
     """Return the error of the last of three grids, each twice as fine as the one before."""
     quarter, half, full = values
+    nothing = np.array([quarter, half, full]) == 0  # bodies apart, or all of the contact yields
     with np.errstate(invalid="ignore", divide="ignore"):  # stiffness is infinite in full contact
         first, second = np.abs(np.log(half / quarter)), np.abs(np.log(full / half))
-        # over all loads, for at a single load the ratio is small or large by chance
-        growth = np.sqrt(np.nansum(second**2) / np.nansum(first**2))
-    change = np.maximum(second, _FASTEST_DECAY * first)
-    error = full * np.expm1(safety * change * np.clip(np.nan_to_num(growth), 1.0, _FASTEST_GROWTH))
-    return np.where((quarter == 0) & (half == 0) & (full == 0), 0.0, error)  # bodies apart
+        # over all loads, for at a single load the ratio is small or large by chance, and none
+        # where a grid has nothing
+        squares = np.where(nothing.any(axis=0), np.nan, [first**2, second**2])
+        growth = np.sqrt(np.nansum(squares[1]) / np.nansum(squares[0]))
+        growth = np.clip(np.nan_to_num(growth), 1.0, _FASTEST_GROWTH)
+        error = full * np.expm1(safety * np.maximum(second, _FASTEST_DECAY * first) * growth)
+    return np.where(nothing.all(axis=0), 0.0, error)

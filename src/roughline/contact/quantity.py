@@ -17,7 +17,7 @@ class Quantity:
     Attributes
     ----------
     name : str
-        Name of the attribute of a curve, and of the variable in files.
+        Name of the variable in files, and of the attribute unless that is given.
     symbol : str
         What formulas call it, in LaTeX; empty where they do not name it.
     dimension : str or None
@@ -39,7 +39,7 @@ class Quantity:
     of_yielding : bool
         Whether files hold it only where a hardness was given.
     attribute : str
-        Name of the attribute where it is not that in files.
+        Name of the attribute of a curve or of its fields, where it is not that in files.
 
     Raises
     ------
@@ -61,11 +61,7 @@ class Quantity:
 
     def __post_init__(self) -> None:
         self.unit_in("m")
-
-    @property
-    def of_field(self) -> str:
-        """Name of the attribute of a curve or of its fields."""
-        return self.attribute or self.name
+        object.__setattr__(self, "attribute", self.attribute or self.name)
 
     def unit_in(self, length_unit: str | None) -> str | None:
         """Return the unit where lengths have this one; None for a flag.

@@ -15,6 +15,9 @@ PAPER_PUNCH = 1.1419
 EXACT_PUNCH = 1.15230
 """k_s / (E* L) of the rigid square punch: pi times the capacity of the unit square, 0.366788."""
 
+PUNCH_GRID_ERROR = 0.396
+"""By how much k_s / (E* L) of the square punch is too small on n x n cells, times n."""
+
 
 def force_bar(force: Value, E_star: float, rms_height: float, length: float) -> Value:
     """Dimensionless force F / (E* h L), the paper's eq. 2.

@@ -10,6 +10,8 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve, Status
 
+_UNSOLVED = {"status": int(Status.INTERRUPTED)}  # of quantities that cannot be NaN; others are 0
+
 
 def at_loads(curve: Curve, loads: Indices) -> Curve:
     """Return a curve at some of its loads, by their numbers; without its fields."""
@@ -42,9 +44,6 @@ def among(values: Real, solved: Mask) -> Real:
     spread = np.full(solved.size, np.nan)
     spread[solved] = values
     return spread
-
-
-_UNSOLVED = {"status": int(Status.INTERRUPTED)}
 
 
 def _over_loads(curve: Curve) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -37,6 +38,8 @@ class Answer:
         Where it is from.
     growth : float
         With what power of the nominal area it grows at the same mean pressure.
+    most : float
+        The most that it can be; infinite where nothing bounds it. [unit]
     """
 
     key: str
@@ -50,6 +53,7 @@ class Answer:
     validity: str = ""
     source: str = ""
     growth: float = 0.0
+    most: float = math.inf
     shared: Ends | None = None
 
     @property
@@ -70,7 +74,7 @@ class Answer:
         return replace(self, values=values, low=low, high=high, shared=shared)
 
 
-def answer(key: str, rows: Real, **differing: str) -> Answer:
+def answer(key: str, rows: Real, **differing: Any) -> Answer:
     """Make an answer of those that are declared.
 
     Parameters
@@ -79,8 +83,8 @@ def answer(key: str, rows: Real, **differing: str) -> Answer:
         Of the declaration.
     rows : ndarray, shape (loads,), (1, loads) or (3, loads)
         Values, or values and both ends of their interval in either order. [unit]
-    **differing : str
-        What is said otherwise than in the declaration: name, formula or validity.
+    **differing : str or float
+        What is said otherwise than in the declaration: name, formula, validity or most.
     """
     values, *ends = np.atleast_2d(rows)
     low, high = (np.minimum(*ends), np.maximum(*ends)) if ends else (None, None)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from datetime import date
 from functools import partial
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from roughline._version import __version__
 from roughline.assessment.assessment import Assessment
 from roughline.report.contact_figures import (
     draw_area,
@@ -30,8 +28,8 @@ from roughline.report.contact_tables import (
     quantity,
     star_is_shown,
 )
-from roughline.report.page import Picture, Section, Table, render
-from roughline.report.pdf import write_pdf
+from roughline.report.document import write_document
+from roughline.report.page import Picture, Section, Table
 from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
@@ -83,12 +81,8 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
     with styled():
         overview = save(_overview(assessment), folder, "overview")
     title, lead = f"Contact of {assessment.question.name}", _lead(assessment)
-    made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
     sections = _sections(assessment, overview[0], how_to_repeat)
-    page = folder / "report.html"
-    page.write_text(render(title, lead, sections, made), encoding="utf-8")
-    write_pdf(folder / "report.pdf", title, lead, sections, made)
-    return [page, folder / "report.pdf", *files, *overview]
+    return [*write_document(folder, title, lead, sections), *files, *overview]
 
 
 def _lead(assessment: Assessment) -> str:

@@ -162,8 +162,7 @@ def star_is_shown(assessment: Assessment) -> bool:
 
 def quantity(answer: Answer, i: int) -> str:
     """Write one value of an answer, with its interval where that is known."""
-    ends = None if answer.low is None or answer.high is None else (answer.low, answer.high)
-    return with_interval(float(answer.values[i]), _at(ends, i), unit_shown(answer))
+    return with_interval(float(answer.values[i]), _at(answer.ends, i), unit_shown(answer))
 
 
 def unit_shown(answer: Answer) -> str:

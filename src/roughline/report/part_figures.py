@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from roughline.assessment.part import PartAnswer, PartAssessment
-from roughline.engineering.answer import Answer
 from roughline.report.contact_tables import unit_shown
 from roughline.report.part_tables import leading_keys_of
 from roughline.report.pixels import thinned
@@ -86,15 +85,15 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     values = np.array([each.values[load] for each in answer.of_maps])
     factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer.of_maps[0]))
     places = np.arange(1, values.size + 1)
-    ends = np.array([_ends(each, load) for each in answer.of_maps]) * factor
-    axes.vlines(places, ends[:, 0], ends[:, 1], color="0.35", linewidth=1.0)
+    low, high = (end * factor for end in answer.ends_of_maps(load))
+    axes.vlines(places, low, high, color="0.35", linewidth=1.0)
     axes.plot(places, values * factor, "o", color="k")
     if np.isfinite(answer.mean[load]):
         axes.axhline(answer.mean[load] * factor, color="tab:red", linewidth=1.0)
     interval = np.array([answer.low[load], answer.high[load]]) * factor
     if np.isfinite(interval).all():
         axes.axhspan(*interval, color="tab:red", alpha=0.12, linewidth=0)
-    known = np.concatenate([ends.ravel(), interval])
+    known = np.concatenate([low, high, interval])
     known = known[np.isfinite(known) & (known > 0)]
     if known.size and known.max() > _LOG_FROM * known.min():
         axes.set_yscale("log")
@@ -105,12 +104,6 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     axes.set_xticks(places, list(map(_short, part.names)), rotation=30, ha="right", fontsize=6)
     axes.set_xlim(0.5, values.size + 0.5)
     axes.set_ylabel(answer.name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=7)
-
-
-def _ends(answer: Answer, load: int) -> tuple[float, float]:
-    """Both ends of the interval of one map; the value where there is none."""
-    low, high = answer.ends or (answer.values, answer.values)
-    return float(low[load]), float(high[load])
 
 
 def _short(name: str) -> str:

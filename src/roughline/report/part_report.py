@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import date
 from pathlib import Path
 
-from roughline._version import __version__
 from roughline.assessment.part import PartAssessment
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import assumptions_of, sentence, write_contact_report
@@ -15,7 +13,8 @@ from roughline.report.contact_tables import (
     formula_table,
     material_in_words,
 )
-from roughline.report.page import Picture, Section, Table, render
+from roughline.report.document import write_document
+from roughline.report.page import Picture, Section, Table
 from roughline.report.part_figures import answers_figure, heights_figure
 from roughline.report.part_tables import (
     each_map_table,
@@ -27,7 +26,6 @@ from roughline.report.part_tables import (
     scatter_in_words,
     star_is_shown_of,
 )
-from roughline.report.pdf import write_pdf
 from roughline.report.style import save, styled
 from roughline.units import engineering
 
@@ -61,12 +59,9 @@ def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) ->
         written.append(write_contact_report(each, of_map, how_to_repeat)[0])
     figures = _figures(part, folder)
     title, lead = f"Contact of a part, {_count(part)}", _lead(part)
-    made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
     sections = _sections(part, figures[0], figures[2], how_to_repeat)
-    page = folder / "report.html"
-    page.write_text(render(title, lead, sections, made), encoding="utf-8")
-    write_pdf(folder / "report.pdf", title, lead, sections, made, one_sheet=False)
-    return [page, folder / "report.pdf", *figures, *written]
+    document = write_document(folder, title, lead, sections, one_sheet=False)
+    return [*document, *figures, *written]
 
 
 def write_part(part: PartAssessment, folder: Path) -> list[Path]:

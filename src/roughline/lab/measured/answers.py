@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.assessment.assess import assess_body
+from roughline.assessment.assess_part import assess_part
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.question import Question
-from roughline.assessment.several import assess_part
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.part import part_in_words
@@ -98,10 +98,8 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
     with at("answers"):
         if len(sources) == 1:
             return solve(questions[0])
-        nameless = replace(questions[0].reading, name=None)
-        replace(
-            questions[0], body=list(keys), reading=nameless
-        )  # refuses what no part can be asked
+        # what cannot be asked of a part is refused here
+        replace(questions[0], body=list(keys), reading=replace(questions[0].reading, name=None))
         names = [each.name for each in sources]
         return assess_part(questions, names=names, map_progress=steps.of_map, answer=solve)
 

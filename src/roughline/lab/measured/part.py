@@ -9,7 +9,6 @@ import numpy as np
 import roughline as rl
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.source import Topography
-from roughline.engineering.answer import Answer
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import (
     Arguments,
@@ -78,7 +77,7 @@ def _drawing(answer: PartAnswer, load: int) -> dict[str, Any]:
     """One answer of each map at a load with its interval, the mean, and the part's interval."""
     values = np.array([each.values[load] for each in answer.of_maps])
     factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer.of_maps[0]))
-    low, high = factor * np.array([_ends(each, load) for each in answer.of_maps]).T
+    low, high = (end * factor for end in answer.ends_of_maps(load))
     return {
         "name": f"{answer.name} {answer.symbol}",
         "unit": unit.strip(),
@@ -88,9 +87,3 @@ def _drawing(answer: PartAnswer, load: int) -> dict[str, Any]:
         "mean": answer.mean[load] * factor,
         "interval": [answer.low[load] * factor, answer.high[load] * factor],
     }
-
-
-def _ends(answer: Answer, load: int) -> tuple[float, float]:
-    """Both ends of the interval of one map; its value where there is none."""
-    low, high = answer.ends or (answer.values, answer.values)
-    return float(low[load]), float(high[load])

@@ -27,7 +27,8 @@ VERSION = "1"
 """Of the address; one of another version is refused."""
 
 _OF_THE_PAGE = ("view", "theme")
-_NEEDING = ("joint_area", "hardness", "friction", "frequency")  # more than is always there
+# controls that need others to be set; a question that does not fit together is refused at them
+_NEEDING = ("joint_area", "hardness", "friction", "frequency")
 _KNOWN = ("v", "file", "example", *c.KEYS)
 
 Arguments = Mapping[str, Any]

@@ -23,8 +23,8 @@ from roughline.halfspace.tangent import Response
 
 
 @dataclass(frozen=True, eq=False)
-class Solution:
-    """Quantities of the curve by their names, and more.
+class LoadResult:
+    """Quantities of the curve under one load by their names, and more.
 
     The defaults are those of a load that was not solved.
 
@@ -67,7 +67,7 @@ class Solution:
         *,
         periodic: bool,
         with_fields: bool,
-    ) -> Solution:
+    ) -> LoadResult:
         """Return what one load gives.
 
         Parameters
@@ -120,13 +120,13 @@ class Solution:
         )
 
 
-def columns(solutions: Sequence[Solution]) -> dict[str, Any]:
-    """Return each quantity of the solutions as an array over the loads, by its name."""
+def columns(results: Sequence[LoadResult]) -> dict[str, Any]:
+    """Return each quantity of the results as an array over the loads, by its name."""
     return {
         each.name: np.array(
-            [getattr(solution, each.name) for solution in solutions], QUANTITIES[each.name].dtype
+            [getattr(result, each.name) for result in results], QUANTITIES[each.name].dtype
         )
-        for each in dataclasses.fields(Solution)
+        for each in dataclasses.fields(LoadResult)
         if each.name in QUANTITIES and QUANTITIES[each.name].dims == OVER_LOADS
     }
 

@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from roughline.assessment.alike import (
+from roughline.assessment.assess import Announce, assess_body
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.given import has_forces
+from roughline.assessment.loads import LoadProgress
+from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.assessment.part_remarks import (
     differ_in_size,
     differences_in_kind,
     what_is_averaged,
     what_the_maps_say,
 )
-from roughline.assessment.assess import Announce, assess_body
-from roughline.assessment.assessment import Assessment
-from roughline.assessment.given import is_force, several
-from roughline.assessment.loads import LoadProgress
-from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.question import Question
 from roughline.errors import InputError
 
@@ -125,7 +125,7 @@ def assess_part(
             raise KeyboardInterrupt
         reasons = "; ".join(_reason(name, why) for name, why in done.refused.items())
         raise InputError(f"none of the {len(todo)} maps can be pressed: {reasons}")
-    return _together(done)
+    return _part_of(done)
 
 
 def names_of(questions: Sequence[Question]) -> list[str]:
@@ -165,7 +165,7 @@ def _press(
     return True
 
 
-def _together(done: _Pressed) -> PartAssessment:
+def _part_of(done: _Pressed) -> PartAssessment:
     """What the maps that were pressed say together."""
     results = list(done.assessments.values())
     first = results[0].question
@@ -190,7 +190,7 @@ def _answers(results: Sequence[Assessment]) -> Mapping[str, PartAnswer]:
     question = results[0].question
     keys = [key for key in results[0].answers if all(key in each.answers for each in results)]
     if question.joint is None and differ_in_size(results):
-        forced = any(map(is_force, several(question.loads)))
+        forced = has_forces(question.loads)
         keys = [key for key in keys if not forced and not results[0].answers[key].growth]
     return {key: PartAnswer.of([each.answers[key] for each in results]) for key in keys}
 

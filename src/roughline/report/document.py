@@ -1,0 +1,42 @@
+"""A report as two files: the page as HTML, and the same as PDF."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import date
+from pathlib import Path
+
+from roughline._version import __version__
+from roughline.report.page import Section, render
+from roughline.report.pdf import write_pdf
+
+
+def write_document(
+    folder: Path, title: str, lead: str, sections: Sequence[Section], *, one_sheet: bool = True
+) -> list[Path]:
+    """Write ``report.html`` and ``report.pdf``, which say when and with what they were made.
+
+    Parameters
+    ----------
+    folder : Path
+        It is there already.
+    title, lead, sections
+        As for :func:`roughline.report.page.render`.
+    one_sheet : bool, optional
+        As for :func:`roughline.report.pdf.write_pdf`.
+
+    Returns
+    -------
+    list of Path
+        Both files.
+
+    Raises
+    ------
+    StoreError
+        If the PDF cannot be written.
+    """
+    made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
+    page, sheets = folder / "report.html", folder / "report.pdf"
+    page.write_text(render(title, lead, sections, made), encoding="utf-8")
+    write_pdf(sheets, title, lead, sections, made, one_sheet=one_sheet)
+    return [page, sheets]
