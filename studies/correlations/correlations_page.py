@@ -183,8 +183,8 @@ def _scatter_section() -> Section:
 
 def _methods_section() -> Section:
     found, (failed, loads) = heights(), failed_loads()
-    bearing = ", ".join(f"{height:.2f} ({gaussian:.2f})" for _, height, gaussian in found.bearing)
-    shares = ", ".join(f"{share:g}" for share, _, _ in found.bearing)
+    bearing = ", ".join(f"{share:.4g} ± {error:.1g}" for _, share, error in found.bearing)
+    gaussian = ", ".join(f"{share:g}" for share, _, _ in found.bearing)
     seed = plan().ensembles[0].seed
     unsolved = "All loads were solved" if not failed else f"{failed} loads were not solved"
     return Section(
@@ -201,9 +201,9 @@ def _methods_section() -> Section:
             "Moduli of the waves are fixed and their phases random; the many waves make the "
             f"heights Gaussian: skewness {found.skewness[0]:+.3f} (standard deviation "
             f"{found.skewness[1]:.3f}), excess kurtosis {found.excess_kurtosis[0]:+.3f} "
-            f'({found.excess_kurtosis[1]:.3f}) in the ensembles "main". Heights above which '
-            f"shares of {shares} of the area lie, over σ: {bearing}, with those of Gaussian "
-            "heights in brackets.",
+            f'({found.excess_kurtosis[1]:.3f}) in the ensembles "main". Of their area {bearing} '
+            f"(standard errors) lies above the heights above which {gaussian} of a Gaussian "
+            "surface lies.",
             f"{unsolved} of {loads}, each certified below 1e-6; means leave out the others.",
         ],
         tables=[ensembles_table()],

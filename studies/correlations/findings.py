@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from statistics import NormalDist
 
 import numpy as np
 from conductance import (
@@ -137,7 +136,7 @@ class Heights:
     skewness, excess_kurtosis : tuple of float
         Mean, and standard deviation of single surfaces.
     bearing : tuple of tuple of float
-        A share of the area, the mean height above which it lies, and that of Gaussian heights.
+        Share of Gaussian surfaces above a height, that of these, and its standard error.
     """
 
     skewness: tuple[float, float]
@@ -152,12 +151,12 @@ def heights() -> Heights:
         values = data()[f"heights/{name}"]
         return float(values.mean()), float(values.std(ddof=1))
 
-    found = data()["heights/bearing_height"].mean(axis=(0, 1))
-    gaussian = [NormalDist().inv_cdf(1 - share) for share in BEARING]
+    shares = data()["heights/bearing"].reshape(-1, len(BEARING))
+    errors = shares.std(axis=0, ddof=1) / math.sqrt(len(shares))
     return Heights(
         moments("skewness"),
         moments("excess_kurtosis"),
-        tuple(zip(BEARING, found.tolist(), gaussian, strict=True)),
+        tuple(zip(BEARING, shares.mean(axis=0).tolist(), errors.tolist(), strict=True)),
     )
 
 

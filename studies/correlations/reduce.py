@@ -9,6 +9,7 @@ Gaussian the heights are. What the ensembles are stands in ``plan.toml``.
 import sys
 import time
 from pathlib import Path
+from statistics import NormalDist
 
 import numpy as np
 
@@ -22,7 +23,7 @@ HERE = Path(__file__).parent
 DATA = HERE / "data.npz"
 PLAN = HERE / "plan.toml"
 KEPT = ("stiffness", "unloading_stiffness", "area_fraction", "plastic_fraction", "status")
-BEARING = (1e-1, 1e-2, 1e-3, 1e-4)  # shares of the area that lie above a height
+BEARING = (1e-1, 1e-2, 1e-3, 1e-4)  # shares of Gaussian surfaces that lie above a height
 
 
 def main(path: Path) -> None:
@@ -60,18 +61,20 @@ def heights_of(ensemble: campaign.Ensemble) -> dict[str, Real]:
     Returns
     -------
     dict of ndarray, shape (dimensions, realisations) or (dimensions, realisations, shares)
-        Skewness, excess kurtosis, and the heights above which the shares `BEARING` lie.
+        Skewness, excess kurtosis, and the shares of the area that lie above the heights above which
+        the shares `BEARING` of Gaussian surfaces lie.
     """
     shape = (len(ensemble.fractal_dimensions), ensemble.realisations)
     found = {name: np.empty(shape) for name in ("skewness", "excess_kurtosis")}
-    found["bearing_height"] = np.empty((*shape, len(BEARING)))
+    found["bearing"] = np.empty((*shape, len(BEARING)))
+    levels = [-NormalDist().inv_cdf(share) for share in BEARING]
     for i, dimension in enumerate(ensemble.fractal_dimensions):
         for j in range(ensemble.realisations):
             surface = ensemble.spectrum(dimension).surface(ensemble.n, ensemble.seed_of(j))
             heights = (surface.heights - surface.heights.mean()) / surface.rms_height
             found["skewness"][i, j] = np.mean(heights**3)
             found["excess_kurtosis"][i, j] = np.mean(heights**4) - 3
-            found["bearing_height"][i, j] = np.quantile(heights, 1 - np.array(BEARING))
+            found["bearing"][i, j] = [np.mean(heights > level) for level in levels]
     return found
 
 

@@ -1,14 +1,9 @@
 """The page on the handbooks' correlations: it is that of the data, and the data are the plan's."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-if not (Path(__file__).parents[2] / "docs" / "correlations.md").exists():
-    pytest.skip("the study has not been run to its end yet", allow_module_level=True)
-
 from conductance import (
     DIMENSIONS,
     ELASTIC,
@@ -170,12 +165,12 @@ def test_four_times_the_surfaces_halve_an_interval():
 
 
 def test_heights_are_gaussian():
-    """Within what a hundred surfaces show: moments to 0.02, heights of rare summits to 2 %."""
+    """Moments to 0.02 and 0.04, and the shares above heights to three standard errors."""
     found = heights()
     assert abs(found.skewness[0]) < 0.02
     assert abs(found.excess_kurtosis[0]) < 0.04
-    for _, height, gaussian in found.bearing:
-        assert height == pytest.approx(gaussian, rel=0.02)
+    for gaussian, share, error in found.bearing:
+        assert share == pytest.approx(gaussian, abs=3 * error)
 
 
 def test_common_laws_and_root_sums_are_as_near_as_the_page_says():

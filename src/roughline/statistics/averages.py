@@ -137,14 +137,15 @@ def relative_difference(
 
 def _log_ratio_of_pairs(
     values: Real, reference: Real, confidence: float, rng: int
-) -> tuple[Real | float, ...]:
+) -> tuple[float, float, float]:
     """Logarithm of the ratio of two means over the realisations where both are finite, and ends."""
     both = np.isfinite(values) & np.isfinite(reference)
     if not both.any():
         return np.nan, np.nan, np.nan
     pairs = np.column_stack([values[both], reference[both]])
     ratio = bootstrap.sum_of_log_means(pairs, np.array([1.0, -1.0]), rng=rng)
-    return ratio.value, *ratio.interval(confidence)
+    low, high = ratio.interval(confidence)
+    return float(ratio.value), float(low), float(high)
 
 
 def at_levels(
