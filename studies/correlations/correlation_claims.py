@@ -13,7 +13,7 @@ from judgement import TOLERANCES, Judgement, Ratio, judge, simultaneous_interval
 from roughline.report.page import Table
 from roughline.statistics.averages import average
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Verdict, verdict
+from roughline.statistics.verdict import Verdict, joint_verdict, verdict
 
 EXPONENT_TOLERANCE = 0.01
 """How near exponents must come: the two handbooks' differ by so much."""
@@ -166,6 +166,13 @@ def _of_bands(statement: str, hardness: float, wide: int) -> Claim:
             for share in TOLERANCES
         ),
     )
+
+
+def _jointly(judged: Sequence[Judgement]) -> Judgement:
+    """Judge several samples together; what decides them all decides."""
+    whole = joint_verdict(each.verdict for each in judged)
+    enough = [each.enough for each in judged if each.verdict is Verdict.UNDECIDED]
+    return Judgement(whole, max(enough) if whole is Verdict.UNDECIDED else math.nan)
 
 
 def _in_words(judged: Sequence[tuple[float, Judgement]]) -> str:
