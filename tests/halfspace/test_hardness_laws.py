@@ -44,7 +44,7 @@ class Yielding:
 
 @st.composite
 def yielding(draw):
-    """Draw bodies from hard ones, of which single nodes yield, to some that all but flow."""
+    """Draw bodies from hard ones, of which few nodes or none yield, to some that all but flow."""
     surface = draw(surfaces())
     # pressures of elastic contact are about half of E* times the rms slope
     hardness = surface.rms_slope * 10 ** draw(st.floats(-2.5, 0.3))

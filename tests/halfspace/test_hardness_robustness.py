@@ -16,14 +16,16 @@ ROUNDING = {"mixed": 1e-14, "float64": 1e-14, "float32": 1e-6}
 
 
 def test_random_histories_are_certified_or_refused():
-    refusals = [refusal(np.random.default_rng([5, i])) for i in range(PROBLEMS)]
-    said = [each for each in refusals if each]
+    tried = [pressed(np.random.default_rng([5, i])) for i in range(PROBLEMS)]
+    said = [each for each in tried if isinstance(each, str)]
     assert not [each for each in said if "\n" in each]
     assert len(said) < 0.1 * PROBLEMS
+    yielded = [each for each in tried if each is True]
+    assert len(yielded) > 0.3 * PROBLEMS  # the others are harder than their steepest pressures
 
 
-def refusal(rng):
-    """Press a random problem and check all of it; return how it is refused, or nothing."""
+def pressed(rng):
+    """Press a random problem and check all of it; say whether it yields, or how it is refused."""
     problem = random_history(rng)
     precision = str(rng.choice(list(RTOL)))
     settings = {"precision": precision, "rtol": RTOL[precision], "fields": True}
@@ -45,7 +47,7 @@ def refusal(rng):
     assert (curve.stiffness <= curve.unloading_stiffness * (1 + 1e-6)).all()
     assert (np.diff(curve.dissipated_work) >= 0).all()
     assert_conditions(problem, curve, precision)
-    return ""
+    return bool(curve.plastic_fraction.any())
 
 
 def assert_conditions(problem, curve, precision):

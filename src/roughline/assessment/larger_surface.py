@@ -16,6 +16,7 @@ from roughline.assessment.pieces import (
     Share,
     share_of_the_whole,
 )
+from roughline.assessment.uncertainty import least_area
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.scaling import PUNCH_GRID_ERROR
@@ -143,7 +144,7 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     low = np.where(close, np.fmin(low, k * (1 - error)), low)
     high = np.where(close, np.inf, high)
     known = interval is not None or bool(close.any())
-    return _interface_stiffness(
+    return _declared(
         interface_stiffness(k, saturated),
         (interface_stiffness(low, saturated), interface_stiffness(high, saturated))
         if known
@@ -185,7 +186,7 @@ def larger_surface(
         )
     else:
         held = f"it holds {roll_offs:.2g} roll-off wavelengths along a side"
-    answer = _interface_stiffness(
+    answer = _declared(
         k,
         widened(k, stiffness, STIFFNESS_OF_ONE),
         f"of the larger surface that the map was cut out of; {held}",
@@ -194,10 +195,11 @@ def larger_surface(
     answer = replace(answer, shared=widened(k, stiffness, STIFFNESS_OF_MANY))
     if area is None:
         return LargerSurface(answer)
-    one, many = (widened(touching, area, each) for each in (AREA_OF_ONE, AREA_OF_MANY))
-    return LargerSurface(
-        answer, (one[0], np.minimum(one[1], 1.0)), (many[0], np.minimum(many[1], 1.0))
+    one, many = (
+        (np.maximum(low, least_area(curve)), np.minimum(high, 1.0))
+        for low, high in (widened(touching, area, each) for each in (AREA_OF_ONE, AREA_OF_MANY))
     )
+    return LargerSurface(answer, one, many)
 
 
 def _widened(values: Real, ends: Ends | None, shares: Ends) -> Ends:
@@ -213,9 +215,9 @@ def _widened(values: Real, ends: Ends | None, shares: Ends) -> Ends:
     return low, high
 
 
-def _interface_stiffness(
+def _declared(
     values: Real, ends: tuple[Real | None, Real | None], validity: str, **formula: str
 ) -> Answer:
-    """The answer, with ends in their own order."""
+    """The declared answer; one end may be known where the other is not."""
     declared = vars(DECLARED["interface_stiffness"]) | {"validity": validity} | formula
     return Answer("interface_stiffness", values=values, low=ends[0], high=ends[1], **declared)

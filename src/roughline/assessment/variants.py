@@ -158,6 +158,7 @@ def _borne(result: Assessment, case: LoadCase, hardness: float | None) -> Mask:
 
 
 def _without_intervals(result: Assessment) -> Assessment:
+    """Return the assessment as if the error of its grid were not known."""
     answers = {
         key: replace(each, low=None, high=None, shared=None) for key, each in result.answers.items()
     }

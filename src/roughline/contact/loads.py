@@ -21,7 +21,7 @@ _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fra
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
 _SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
-_HARDEST = 0.5  # of the force under which all of the area yields
+_LARGEST_YIELDING = 0.5  # of the force under which all of the area yields
 _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few points touch early
 
 
@@ -105,7 +105,7 @@ def surface_loads(
     else:
         highest = _SATURATED_FORCE_BAR * E_star * surface.rms_height * surface.length
     if hardness is not None:
-        highest = min(highest, _HARDEST * hardness * surface.area)
+        highest = min(highest, _LARGEST_YIELDING * hardness * surface.area)
     separation = np.sort(surface.heights.max() - surface.heights, axis=None)
     few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
     lowest = highest
