@@ -94,6 +94,35 @@ def test_it_covers_nearly_all_of_many_rough_surfaces():
     assert np.median(claimed) < 0.15
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("hardness_bar", [0.3, 0.05])
+def test_it_covers_rough_surfaces_that_yield(hardness_bar):
+    """Other seeds than those on which the factors were chosen."""
+    names = {
+        "stiffness": "stiffness_error",
+        "unloading_stiffness": "unloading_stiffness_error",
+        "area_fraction_corrected": "area_fraction_error",
+    }
+    covered = {name: [] for name in names}
+    for seed in range(2000, 2004):
+        for hurst in (0.2, 0.8):
+            for q_high in (None, 2 * np.pi * 16):
+                spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_high=q_high)
+                coarse, fine = spectrum.surface(64, seed), spectrum.surface(256, seed)
+                hardness = hardness_bar * fine.rms_slope
+                loads = {"E_star": 1.0, "hardness": hardness}
+                loads["forces"] = hardness * np.array([0.01, 0.05, 0.2, 0.4])
+                curve = rl.press(coarse, grid_error=True, **loads)
+                finer = rl.press(fine, **loads)
+                for name, error in names.items():
+                    factor = 1 + getattr(curve, error) / getattr(curve, name)
+                    true = getattr(finer, name) / getattr(curve, name)
+                    covered[name] += ((1 / factor <= true) & (true <= factor)).tolist()
+    for name, inside in covered.items():
+        assert len(inside) == 64
+        assert np.mean(inside) >= 0.95, name
+
+
 def test_grids_that_cannot_be_halved_twice_are_refused():
     surface = rl.Surface(np.random.default_rng(0).normal(size=(15, 32)), (1.0, 1.0))
     with pytest.raises(rl.InputError, match="15 x 32: give at least 16 a side"):

@@ -16,7 +16,12 @@ from roughline.topography.preparation import resampled
 # Factors on the difference between the last two grids, chosen so that the errors cover grids four
 # times finer (benchmarks/grid_error.py). Areas at the scale of the cells differ less than they err.
 _SAFETY_STIFFNESS = 2.0
+_SAFETY_OF_YIELD = (
+    2.5  # more where all of the contact yields: finer waves go on cutting up its spots
+)
 _SAFETY_AREA = 3.0
+_SHARE_OF_AREA = 0.15  # of the area's error is in the stiffness where something yields, at least
+_SHARE_OF_YIELD = 0.3  # of what yield takes from the stiffness on loading is uncertain, at least
 _FASTEST_DECAY = 0.5  # at contact edges the order is one: differences halve at best grid by grid
 _FASTEST_GROWTH = 2.0  # and double at worst, where noise of the pixels prevails
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
@@ -32,8 +37,16 @@ def with_grid_error(
     the last difference and half of the one before, times a safety factor, and times the growth of
     the differences where they grow over all loads: a grid convergence index [1]_ for quantities
     that vary as powers of the spacing. An area is at least as uncertain as its perimeter
-    correction, also on plateaus, where none is made. The errors cover grids four times finer of a
-    surface that goes on as rough as it is; they do not foresee noise that begins at the spacing.
+    correction, also on plateaus, where none is made.
+
+    Yield adds to this. Safety factors of stiffnesses grow with the share of the contact that
+    yields. Where something yields, the logarithm of a stiffness is at least as uncertain as a part
+    of that of the area: waves that only a finer grid has let more of the body yield, and what they
+    change can cancel on the coarser grids. That of the stiffness on loading, which single cells
+    decide, is at least as uncertain as a part of its difference from that on unloading.
+
+    The errors cover grids four times finer of a surface that goes on as rough as it is; they do not
+    foresee noise that begins at the spacing.
 
     Parameters
     ----------
@@ -58,14 +71,27 @@ def with_grid_error(
     half = _halved(surface)
     curves = [press_coarse(grid) for grid in (_halved(half), half)] + [curve]
     areas = [_area(each) for each in curves]
-    most = curve.area_fraction_most
+    most, plastic = curve.area_fraction_most, curve.plastic_fraction
     assert most is not None
-    return replace(
-        curve,
-        stiffness_error=_error([each.stiffness for each in curves], _SAFETY_STIFFNESS),
-        unloading_stiffness_error=_error([_unloading(each) for each in curves], _SAFETY_STIFFNESS),
-        area_fraction_error=np.maximum(_error(areas, _SAFETY_AREA), most - areas[-1]),
-    )
+    assert plastic is not None
+    area_error = np.maximum(_error(areas, _SAFETY_AREA), most - areas[-1])
+    safety = _SAFETY_STIFFNESS + _SAFETY_OF_YIELD * plastic
+    stiffness = [each.stiffness for each in curves]
+    unloading = [_unloading(each) for each in curves]
+    with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
+        least = np.where(plastic > 0, _SHARE_OF_AREA * np.log1p(area_error / areas[-1]), 0.0)
+        taken = np.where(plastic > 0, _SHARE_OF_YIELD * np.log(unloading[-1] / stiffness[-1]), 0.0)
+        taken[stiffness[-1] == 0] = 0.0  # all of the contact yields
+        return replace(
+            curve,
+            stiffness_error=np.maximum(
+                _error(stiffness, safety), stiffness[-1] * np.expm1(np.maximum(least, taken))
+            ),
+            unloading_stiffness_error=np.maximum(
+                _error(unloading, safety), unloading[-1] * np.expm1(least)
+            ),
+            area_fraction_error=area_error,
+        )
 
 
 def refuse_few_points(surface: Surface) -> None:
@@ -100,7 +126,7 @@ def _unloading(curve: Curve) -> Real:
     return curve.unloading_stiffness
 
 
-def _error(values: Sequence[Real], safety: float) -> Real:
+def _error(values: Sequence[Real], safety: float | Real) -> Real:
     """Return the error of the last of three grids, each twice as fine as the one before."""
     quarter, half, full = values
     nothing = np.array([quarter, half, full]) == 0  # bodies apart, or all of the contact yields
