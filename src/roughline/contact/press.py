@@ -67,8 +67,8 @@ def press(
         Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
     rtol : float, optional
         Bound on every residual of what is returned: gap on contact and overlap off it over the
-        rms height (or over the depth, where that is smaller), tension over the mean contact
-        pressure, as a pressure above the hardness is, error of the force over the force.
+        rms height, or over what the load moves where that is less; tension over the mean contact
+        pressure, as a pressure above the hardness is; error of the force over the force.
     max_iterations : int, optional
         Bound on the convolutions of one load.
     precision : {"mixed", "float64", "float32"}, optional

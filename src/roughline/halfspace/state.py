@@ -39,8 +39,8 @@ class Problem:
         Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
         until that is indented. [length]
     rms_height : float
-        Gaps are compared with this, or with the depth where that is smaller; zero for a flat
-        punch, where it is the depth. [length]
+        Gaps are compared with this, or with what the load moves where that is less; zero for a
+        flat punch. [length]
     conditions : ContactConditions
         What pressures and gaps obey.
     """
