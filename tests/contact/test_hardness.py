@@ -143,3 +143,16 @@ def test_files_hold_what_yields(surface, tmp_path):
     assert data.attrs["hardness"] == 0.1
     curve.write(tmp_path / "curve.nc")
     curve.write(tmp_path / "curve.csv")
+
+
+@pytest.mark.parametrize("most", [1, 2, 5, 12, 20, 40])
+def test_the_bound_on_convolutions_is_that_of_a_load(surface, most):
+    """The first load is elastic until it proves to yield, and is solved again then."""
+    hardness = 0.3 * surface.rms_slope
+    forces = [0.3 * hardness * surface.area]
+    settings = {"E_star": 1.0, "hardness": hardness, "forces": forces, "throw": False}
+    bounded = rl.press(surface, max_iterations=most, **settings)
+    assert bounded.converged[0] or bounded.status[0] == rl.Status.MAX_ITERATIONS
+    if not bounded.converged[0]:  # else its stiffness is counted as well
+        assert bounded.convolutions[0] <= most + 4
+    assert not rl.press(surface, max_iterations=1, **settings).converged[0]

@@ -121,22 +121,24 @@ class _Path:
             start = ContactSet(contact.nodes, self._yielding.projected(contact.pressure))
             spent = contact.convolutions
             del contact
-            contact = self._solve(problem, load, start)
+            contact = self._solve(problem, load, start, spent)
             contact = replace(contact, convolutions=contact.convolutions + spent)
         self._yields |= problem.conditions is self._yielding
         return contact
 
-    def _solve(self, problem: Problem, load: Load, start: ContactSet) -> Contact:
+    def _solve(self, problem: Problem, load: Load, start: ContactSet, spent: int = 0) -> Contact:
         """Solve a contact, under a hair less force where nodes at the hardness alone would bear it.
 
-        With no elastic node among them the depth would be open.
+        With no elastic node among them the depth would be open. The load has spent some of its
+        convolutions before.
         """
         if problem.conditions is self._yielding and load.force is not None:
             nodes = load.force / (self._yielding.largest_pressure * problem.operator.cell_area)
             whole = round(nodes)
             if whole and abs(nodes - whole) <= _HAIR * whole:
                 load = Load(force=load.force * (1 - 2 * _HAIR))
-        return solve(problem, load, start, self._method)
+        left = max(1, self._method.max_iterations - spent)
+        return solve(problem, load, start, replace(self._method, max_iterations=left))
 
     def _elastic_or_yielding(self, load: Load) -> Problem:
         """Return the bodies as the last load left them, elastic if they may be under this one.

@@ -87,7 +87,7 @@ class Method:
     rtol : float
         Bound on every residual.
     max_iterations : int
-        Bound on the convolutions of one load.
+        Bound on the convolutions that find the contact of one load.
     precision : {"mixed", "float64", "float32"}
         Precision of the convolutions. Mixed: steps in single precision, residuals in double.
     """
