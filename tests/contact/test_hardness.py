@@ -156,3 +156,13 @@ def test_the_bound_on_convolutions_is_that_of_a_load(surface, most):
     if not bounded.converged[0]:  # else its stiffness is counted as well
         assert bounded.convolutions[0] <= most + 4
     assert not rl.press(surface, max_iterations=1, **settings).converged[0]
+
+
+@pytest.mark.parametrize("softness", [None, 0.3])
+def test_a_load_that_was_solved_before_takes_no_convolutions(surface, softness):
+    hardness = softness and softness * surface.rms_slope
+    forces = np.array([0.2, 1.0, 0.4, 1.0, 1.0, 1.2]) * 0.1 * surface.rms_slope * surface.area
+    curve = rl.press(surface, E_star=1.0, hardness=hardness, forces=forces)
+    assert (curve.convolutions == 0).tolist() == [False, False, False, True, True, False]
+    assert (curve.stiffness[3:5] == curve.stiffness[1]).all()
+    assert (curve.residual[3:5] == curve.residual[1]).all()

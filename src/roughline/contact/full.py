@@ -75,7 +75,7 @@ def press_surface(
     except KeyboardInterrupt:
         interrupted = True
     solutions += [Solution()] * (values.size - len(solutions))
-    solutions = [solutions[i] for i in places]
+    solutions = _in_order(solutions, places.tolist())
     curve = _curve(surface, E_star, loads, method, solutions, hardness, periodic)
     if kept:
         fields = [each.fields if i in kept else None for i, each in enumerate(solutions)]
@@ -83,6 +83,16 @@ def press_surface(
     if interrupted:
         raise Interrupted(curve)
     return curve
+
+
+def _in_order(solutions: Sequence[Solution], places: Sequence[int]) -> list[Solution]:
+    """Return the solution for each load; an equal load later on takes no convolutions."""
+    ordered, met = [], set()
+    for place in places:
+        solution = solutions[place]
+        ordered.append(replace(solution, convolutions=0) if place in met else solution)
+        met.add(place)
+    return ordered
 
 
 def _solutions(

@@ -86,7 +86,7 @@ class _Path:
         furthest = self._furthest
         if furthest is not None and load == furthest.load:
             self._prepare(next_load, furthest)
-            return furthest.contact, furthest.response
+            return furthest.again
         if load.value == 0 or (load.depth is not None and load.depth <= self._problem.touch):
             self._prepare(next_load, None)
             return apart(self._problem, load, Outcome.CONVERGED), _NONE
@@ -189,6 +189,13 @@ class _Solved:
     load: Load
     contact: Contact
     response: Response
+
+    @property
+    def again(self) -> tuple[Contact, Response]:
+        """The same under the same load once more, which takes no convolutions."""
+        tangents = self.response.loading, self.response.unloading
+        loading, unloading = (replace(each, convolutions=0) for each in tangents)
+        return replace(self.contact, convolutions=0), Response(loading, unloading)
 
 
 @dataclass(frozen=True, eq=False)
