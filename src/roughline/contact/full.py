@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 from roughline._version import __version__
 from roughline.contact.border import border_warnings
 from roughline.contact.curve import Curve, Status
+from roughline.contact.fields import Indentation
 from roughline.contact.loads import Loads
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.solution import Solution, columns
@@ -107,26 +108,33 @@ def _solutions(
     """Solve the contact under each load in turn."""
     scaled = ScaledSurface.of(surface, E_star, loads)
     half_space = HalfSpace(E_star, periodic).scaled(scaled.E_star, scaled.length)
-    problem = _problem(half_space, scaled, surface.rms_height, hardness)
     unit = scaled.force if loads.control == "forces" else scaled.height
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
-    for i, (contact, response) in enumerate(solve_path(problem, path, method)):
-        yield Solution.of(
+    solved = solve_path(_problem(half_space, scaled, hardness), path, method)
+    dents: Indentation | None = None
+    for i, (contact, response) in enumerate(solved):
+        solution = Solution.of(
             contact, response, scaled, hardness, periodic=periodic, with_fields=i in with_fields
         )
+        if dents is not None and solution.dents is not None and solution.dents.equals(dents):
+            solution = replace(solution, dents=dents)  # one memory for all loads that add none
+        dents = solution.dents
         del contact, response  # so that the next load finds their memory free
+        yield solution
 
 
-def _problem(
-    half_space: HalfSpace, scaled: ScaledSurface, rms_height: float, hardness: float | None
-) -> Problem:
+def _problem(half_space: HalfSpace, scaled: ScaledSurface, hardness: float | None) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
-    operator = half_space.operator(scaled.separation.shape, scaled.spacing)
+    operator = half_space.operator(scaled.surface.shape, scaled.spacing)
     conditions: ContactConditions = UnilateralContact()
     if hardness is not None:
         conditions = YieldingContact(hardness / scaled.pressure)
     return Problem.of(
-        half_space, operator, scaled.separation, rms_height / scaled.height, conditions
+        half_space,
+        operator,
+        scaled.separation(),
+        scaled.surface.rms_height / scaled.height,
+        conditions,
     )
 
 
