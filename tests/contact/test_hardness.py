@@ -159,3 +159,28 @@ def test_files_hold_what_yields(surface, tmp_path):
     assert data.attrs["hardness"] == 0.1
     curve.write(tmp_path / "curve.nc")
     curve.write(tmp_path / "curve.csv")
+
+
+@pytest.mark.parametrize("most", [1, 2, 5, 12, 20, 40])
+def test_the_bound_on_convolutions_is_that_of_a_load(surface, most):
+    """The first load is elastic until it proves to yield, and is solved again then."""
+    hardness = 0.3 * surface.rms_slope
+    forces = [0.3 * hardness * surface.area]
+    settings = {"E_star": 1.0, "hardness": hardness, "forces": forces, "throw": False}
+    bounded = rl.press(surface, max_iterations=most, **settings)
+    assert bounded.converged[0] or bounded.status[0] == rl.Status.MAX_ITERATIONS
+    if not bounded.converged[0]:  # else its stiffness is counted as well
+        assert bounded.convolutions[0] <= most + 4
+    assert not rl.press(surface, max_iterations=1, **settings).converged[0]
+
+
+@pytest.mark.parametrize("softness", [None, 0.3])
+def test_a_load_that_was_solved_before_takes_no_convolutions(surface, softness):
+    hardness = softness and softness * surface.rms_slope
+    forces = np.array([0.2, 1.0, 0.4, 1.0, 1.0, 1.2]) * 0.1 * surface.rms_slope * surface.area
+    curve = rl.press(surface, E_star=1.0, hardness=hardness, forces=forces)
+    assert (curve.convolutions == 0).tolist() == [False, False, False, True, True, False]
+    assert (curve.stiffness[3:5] == curve.stiffness[1]).all()
+    assert (curve.residual[3:5] == curve.residual[1]).all()
+    if softness:
+        assert all(each is curve.dents[1] for each in curve.dents[2:5])  # kept once

@@ -24,6 +24,7 @@ def test_an_estimate_grows_with_points_loads_and_fields():
     assert large.memory == 16 * small.memory
     assert large.seconds > 8 * small.seconds
     assert rl.estimate((512, 512), 20, fields=True).memory > 3 * small.memory
+    assert rl.estimate((512, 512), 20, yielding=True).memory > 1.3 * small.memory
     assert str(large).startswith("about 0.4 GB and ")
 
 

@@ -122,6 +122,10 @@ def test_constant_heights_are_a_punch_and_have_no_roughness():
     assert rl.press(punch, E_star=1.0, forces=curve.force).depth[0] == pytest.approx(1e-3)
     with pytest.raises(rl.InputError, match="all heights are 3: a flat punch has no range"):
         rl.press(punch, E_star=1.0, n_loads=5)
+    with pytest.raises(
+        rl.InputError, match=r"forces\[0\] is 1e-150 of the largest load, too small"
+    ):
+        rl.press(punch, E_star=1.0, forces=[1e-150, 1.0])
     with pytest.raises(rl.InputError, match="heights are constant, so their rms h is 0"):
         _ = curve.force_bar
     with pytest.raises(rl.InputError, match="all heights are 0"):

@@ -40,3 +40,23 @@ def test_near_full_contact_and_beyond(periodic):
     assert curve.converged.all()
     assert curve.area_fraction[-1] == 1.0
     assert ((curve.area_fraction > 0.9) & (curve.area_fraction < 1)).any()
+
+
+@pytest.mark.parametrize("hardness", [None, 0.1])
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize(("precision", "rtol"), [("mixed", 1e-6), ("float32", 1e-4)])
+@pytest.mark.parametrize("control", ["forces", "depths"])
+def test_the_smallest_loads_that_are_not_refused(control, precision, rtol, periodic, hardness):
+    """Squares of their pressures still are numbers in double precision, if not in single."""
+    rough = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(24, 3)
+    punch = rl.Surface(np.zeros((24, 24)), (1.0, 1.0))
+    settings = {"precision": precision, "rtol": rtol, "periodic": periodic, "hardness": hardness}
+    for surface in (rough,) if periodic and control == "depths" else (rough, punch):
+        loads = 0.03 * np.array([1e-98, 1e-60, 1e-44, 1e-30, 1e-15])
+        loads = np.append(loads, 0.03) if surface is punch else loads
+        curve = rl.press(surface, E_star=1.0, **{control: loads}, **settings)
+        small = slice(0, 5)
+        assert curve.stiffness[small] == pytest.approx(np.full(5, curve.stiffness[0]), rel=rtol)
+        if np.isfinite(curve.stiffness[0]):
+            force = curve.stiffness[small] * curve.depth[small]
+            assert curve.force[small] == pytest.approx(force, rel=rtol)

@@ -119,18 +119,20 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
     """Refuse what does not fit into memory, and tell what a large run will cost."""
     if not isinstance(body, Surface):
         return
+    yielding = case.hardness is not None
     twice = _needs_larger_surface(question, body) and not case.periodic
     if twice:
         refuse_beyond_memory(
-            memory_for(body.shape, True, 0),
+            memory_for(body.shape, True, 0, yielding=yielding),
             f"pressing {body.shape[0]} x {body.shape[1]} points periodically, for the "
             "interface alone,",
             "take a smaller piece or every other point, or E_star= instead of materials",
         )
     if announce is not None and (body.heights.size >= _LARGE or case.count >= _MANY):
-        cost = str(estimate(body.shape, case.count, periodic=case.periodic))
+        cost = str(estimate(body.shape, case.count, periodic=case.periodic, yielding=yielding))
         if twice:
-            cost += f", then {estimate(body.shape, case.count, periodic=True)} for the interface"
+            interface = estimate(body.shape, case.count, periodic=True, yielding=yielding)
+            cost += f", then {interface} for the interface"
         if more := repeats(question, body):
             cost += (
                 f"; where points yield, up to {more:g} times as long once more, for elastic bodies "

@@ -90,7 +90,8 @@ class Curve:
     settings : mapping
         How it was computed: version, tolerance, boundary, and the settings of the body.
     convolutions : ndarray of int, shape (loads,), or None
-        Convolutions that each load took, its stiffness included; None for a line.
+        Convolutions that each load took, its stiffness included and first guesses apart; zero
+        where an equal load before it had been solved. None for a line.
     area_fraction_most : ndarray, shape (loads,), or None
         Upper bound of the area fraction on finer grids: `area_fraction_corrected` and the whole
         correction, as it would be if all of the outline lay under summits.

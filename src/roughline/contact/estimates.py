@@ -15,7 +15,9 @@ import numpy as np
 _BYTES = 96
 _BYTES_PERIODIC = 170
 _BYTES_OF_FIELDS = 34
-_BYTES_OF_YIELD = 24  # more where a surface is indented
+# More where half of a surface is indented, as by the last of spaced loads; a free surface that is
+# all but flattened takes 75 more than that.
+_BYTES_OF_YIELD = 80
 # A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
 # path. It does some 35, most of them in single precision and on a part of the rows.
 _CONVOLUTIONS = 20
@@ -43,7 +45,12 @@ class Estimate:
 
 
 def estimate(
-    shape: tuple[int, int], n_loads: int, *, periodic: bool = False, fields: bool = False
+    shape: tuple[int, int],
+    n_loads: int,
+    *,
+    periodic: bool = False,
+    fields: bool = False,
+    yielding: bool = False,
 ) -> Estimate:
     """Estimate what pressing a surface with the full model will cost.
 
@@ -59,6 +66,8 @@ def estimate(
         Whether the surface is repeated.
     fields : bool, optional
         Whether the fields of every load are kept.
+    yielding : bool, optional
+        Whether the surface is pressed with a hardness, which takes more memory.
 
     Returns
     -------
@@ -80,7 +89,7 @@ def estimate(
     points = shape[0] * shape[1]
     growth = points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
     return Estimate(
-        memory_for(shape, periodic, n_loads if fields else 0),
+        memory_for(shape, periodic, n_loads if fields else 0, yielding=yielding),
         n_loads * (_SECONDS_AT_LEAST + _CONVOLUTIONS * growth * min(probes)),
     )
 

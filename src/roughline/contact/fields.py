@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from roughline.computing.arrays import Indices, Mask, Real
 
 
@@ -49,3 +51,7 @@ class Indentation:
 
     nodes: Indices
     depth: Real
+
+    def equals(self, other: Indentation) -> bool:
+        """Return whether both are the same to the last bit."""
+        return np.array_equal(self.nodes, other.nodes) and np.array_equal(self.depth, other.depth)

@@ -11,6 +11,7 @@ from threadpoolctl import threadpool_limits
 from roughline._version import __version__
 from roughline.contact.border import border_warnings
 from roughline.contact.curve import Curve, Status
+from roughline.contact.fields import Indentation
 from roughline.contact.load_result import LoadResult, columns
 from roughline.contact.loads import Loads
 from roughline.contact.scaled_surface import ScaledSurface
@@ -73,7 +74,7 @@ def press_surface(
     except KeyboardInterrupt:
         interrupted = True
     results += [LoadResult()] * (values.size - len(results))
-    results = [results[i] for i in places]
+    results = _in_order(results, places.tolist())
     curve = _curve(surface, E_star, loads, method, results, hardness, periodic)
     if kept:
         fields = [each.fields if i in kept else None for i, each in enumerate(results)]
@@ -81,6 +82,16 @@ def press_surface(
     if interrupted:
         raise Interrupted(curve)
     return curve
+
+
+def _in_order(results: Sequence[LoadResult], places: Sequence[int]) -> list[LoadResult]:
+    """Return the result under each load; an equal load later on takes no convolutions."""
+    ordered, met = [], set()
+    for place in places:
+        result = results[place]
+        ordered.append(replace(result, convolutions=0) if place in met else result)
+        met.add(place)
+    return ordered
 
 
 def _results(
@@ -95,26 +106,33 @@ def _results(
     """Solve the contact under each load in turn."""
     scaled = ScaledSurface.of(surface, E_star, loads)
     half_space = HalfSpace(E_star, periodic).scaled(scaled.E_star, scaled.length)
-    problem = _problem(half_space, scaled, surface.rms_height, hardness)
     unit = scaled.force if loads.control == "forces" else scaled.height
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
-    for i, (contact, response) in enumerate(solve_path(problem, path, method)):
-        yield LoadResult.of(
+    solved = solve_path(_problem(half_space, scaled, hardness), path, method)
+    dents: Indentation | None = None
+    for i, (contact, response) in enumerate(solved):
+        result = LoadResult.of(
             contact, response, scaled, hardness, periodic=periodic, with_fields=i in with_fields
         )
+        if dents is not None and result.dents is not None and result.dents.equals(dents):
+            result = replace(result, dents=dents)  # one memory for all loads that add none
+        dents = result.dents
         del contact, response  # so that the next load finds their memory free
+        yield result
 
 
-def _problem(
-    half_space: HalfSpace, scaled: ScaledSurface, rms_height: float, hardness: float | None
-) -> Problem:
+def _problem(half_space: HalfSpace, scaled: ScaledSurface, hardness: float | None) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
-    operator = half_space.operator(scaled.separation.shape, scaled.spacing)
+    operator = half_space.operator(scaled.surface.shape, scaled.spacing)
     conditions: ContactConditions = UnilateralContact()
     if hardness is not None:
         conditions = YieldingContact(hardness / scaled.pressure)
     return Problem.of(
-        half_space, operator, scaled.separation, rms_height / scaled.height, conditions
+        half_space,
+        operator,
+        scaled.separation(),
+        scaled.surface.rms_height / scaled.height,
+        conditions,
     )
 
 

@@ -94,7 +94,7 @@ class LoadResult:
         if hardness is not None:  # an area below F / H would bear more than the hardness
             borne = contact.force * scaled.force / (hardness * scaled.cell_area)
             overstated = min(overstated, max(cells - borne, 0.0))
-        dents = _dents(contact, scaled)
+        dents = None if hardness is None else _dents(contact, scaled)
         indented = dents.depth if dents is not None else np.zeros(1)
         dissipated = (hardness or 0.0) * scaled.cell_area * float(indented.sum())
         k = scaled.force / scaled.height
@@ -142,11 +142,10 @@ def _elastic_energy(contact: Contact) -> float:
 
 def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:
     """Return where the surface is lower than it was untouched."""
-    if contact.separation is scaled.separation:
-        return None
-    depth = (contact.separation - scaled.separation).ravel()
-    nodes = np.flatnonzero(depth)
-    return Indentation(nodes, depth[nodes] * scaled.height)
+    lower = scaled.separation()
+    np.subtract(contact.separation, lower, out=lower)
+    nodes = np.flatnonzero(lower)
+    return Indentation(nodes, lower.flat[nodes] * scaled.height) if nodes.size else None
 
 
 def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) -> Fields:

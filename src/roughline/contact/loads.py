@@ -184,14 +184,16 @@ def _refuse_beyond_hardness(surface: Surface, loads: Loads, hardness: float) -> 
 def _refuse_beyond_precision(
     surface: Surface, E_star: float, loads: Loads, rtol: float, single: bool
 ) -> None:
-    """Refuse loads so large or small that gaps cannot be told to the tolerance."""
+    """Refuse loads so large or small that gaps cannot be told to the tolerance.
+
+    A flat body has no heights with which loads could be compared, but other loads.
+    """
     if surface.rms_height == 0:
-        return
-    unit = surface.rms_height
-    name = "rms heights"
-    if loads.control == "forces":
-        unit *= E_star * surface.length
-        name = "E* h L"
+        unit, name = float(loads.values.max()), "of the largest load"
+    elif loads.control == "forces":
+        unit, name = surface.rms_height * E_star * surface.length, "E* h L"
+    else:
+        unit, name = surface.rms_height, "rms heights"
     reach = loads.values / unit
     most, least = int(reach.argmax()), int(np.where(reach > 0, reach, np.inf).argmin())
     rounding = _GAP_ROUNDING_SINGLE if single else _GAP_ROUNDING

@@ -67,10 +67,11 @@ def press(
         Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
     rtol : float, optional
         Bound on every residual of what is returned: gap on contact and overlap off it over the
-        rms height (or over the depth, where that is smaller), tension over the mean contact
-        pressure, as a pressure above the hardness is, error of the force over the force.
+        rms height, or over what the load moves where that is less; tension over the mean contact
+        pressure, as a pressure above the hardness is; error of the force over the force.
     max_iterations : int, optional
-        Bound on the convolutions of one load.
+        Bound on the convolutions that find the contact of one load. A few more certify it, and
+        its stiffness takes some of its own.
     precision : {"mixed", "float64", "float32"}, optional
         Precision of the convolutions. "mixed" takes its steps in single precision, computes the
         residuals in double, and returns what "float64" returns, to the tolerance. "float32" saves

@@ -19,20 +19,20 @@ class ScaledSurface:
 
     Attributes
     ----------
+    surface : Surface
+        The untouched surface.
     height, length : float
         Units of lengths across and along the surface. [length]
     E_star : float
         Unit of pressures where both lengths are equal. [pressure]
-    separation : ndarray, shape (nx, ny)
-        Distance of the bodies at first touch over `height`. [1]
     spacing : tuple of float
         Sides of a cell over `length`. [1]
     """
 
+    surface: Surface
     height: float
     length: float
     E_star: float
-    separation: Real
     spacing: tuple[float, float]
 
     @classmethod
@@ -45,9 +45,17 @@ class ScaledSurface:
                 height /= E_star * surface.length
         dx, dy = surface.spacing
         length = float(np.sqrt(dx) * np.sqrt(dy))
-        separation = np.subtract(surface.heights.max(), surface.heights, order="C")
-        separation /= height
-        return cls(height, length, E_star, separation, (dx / length, dy / length))
+        return cls(surface, height, length, E_star, (dx / length, dy / length))
+
+    def separation(self) -> Real:
+        """Return the distance of the bodies at first touch over `height`. [1]
+
+        It is computed each time, so that the memory of a path does not hold it.
+        """
+        heights = self.surface.heights
+        separation = np.subtract(heights.max(), heights, order="C")
+        separation /= self.height
+        return separation
 
     @property
     def force(self) -> float:

@@ -13,7 +13,7 @@ from roughline.computing import fft
 from roughline.computing.arrays import Real, Single
 from roughline.halfspace import loops
 from roughline.halfspace.kernel import love
-from roughline.halfspace.operator import GridNodes, Precision
+from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
@@ -92,6 +92,10 @@ class Convolution:
         Parameters and result are those of
         :meth:`roughline.halfspace.operator.Operator.displacement`.
         """
+        if precision == "float32" and (unit := unit_in_single(pressure)) != 1:
+            result = self.displacement(pressure / unit, sources, targets, precision, out)
+            result *= unit
+            return result
         (nx, ny), (mx, my) = self.shape, self.periods
         spectrum = self._spectrum_float32 if precision == "float32" else self.spectrum
         modes, real_modes = self._buffer(precision)

@@ -51,6 +51,25 @@ def gather_rows(pairs: Floats, first: int, last: int, field: Floats) -> None:
 
 
 @compiled
+def leave_gaps(field: Floats, separation: Floats, touch: float, approach: float) -> None:
+    """Turn displacements into the gaps that are left of a separation.
+
+    Parameters
+    ----------
+    field : ndarray, shape (nx, ny)
+        Displacements, overwritten with gaps. [length]
+    separation : ndarray, shape (nx, ny)
+        Distance of the bodies before. [length]
+    touch, approach : float
+        Least separation, and approach beyond it. [length]
+    """
+    for row in range(field.shape[0]):
+        for column in range(field.shape[1]):
+            above = separation[row, column] - touch
+            field[row, column] = field[row, column] + above - approach
+
+
+@compiled
 def load_columns(pairs: Floats, rows: Integers, first: int, columns: Floats) -> None:
     """Separate two real rows from each complex one, for a block of modes, and pad with zeros.
 

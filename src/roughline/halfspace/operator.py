@@ -12,6 +12,8 @@ from roughline.computing.arrays import Indices, Real
 
 Precision = Literal["float32", "float64"]
 
+_SMALL_IN_SINGLE = 1e-20  # single precision ends at 1e-38, and transforms divide by their size
+
 
 @dataclass(frozen=True, eq=False)
 class GridNodes:
@@ -104,6 +106,12 @@ class Operator(Protocol):
         ndarray, shape of targets or (nx, ny)
             Displacement. [length]
         """
+
+
+def unit_in_single(values: Real) -> float:
+    """Return in which unit values have room in single precision; 1 unless all are very small."""
+    largest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
+    return largest if 0 < largest < _SMALL_IN_SINGLE else 1.0
 
 
 def displacement_field(operator: Operator, pressure: Real) -> Real:

@@ -55,6 +55,7 @@ def solve_path(
         For each load; without a response where the contact was not certified.
     """
     path = _Path(problem, method)
+    del problem  # once surfaces are indented, the untouched ones need no memory
     for load, next_load in zip_longest(loads, loads[1:]):
         yield path.under(load, next_load)
 
@@ -86,7 +87,7 @@ class _Path:
         furthest = self._furthest
         if furthest is not None and load == furthest.load:
             self._prepare(next_load, furthest)
-            return furthest.contact, furthest.response
+            return furthest.again
         if load.value == 0 or (load.depth is not None and load.depth <= self._problem.touch):
             self._prepare(next_load, None)
             return apart(self._problem, load, Outcome.CONVERGED), _NONE
@@ -121,22 +122,24 @@ class _Path:
             start = ContactSet(contact.nodes, self._yielding.projected(contact.pressure))
             spent = contact.convolutions
             del contact
-            contact = self._solve(problem, load, start)
+            contact = self._solve(problem, load, start, spent)
             contact = replace(contact, convolutions=contact.convolutions + spent)
         self._yields |= problem.conditions is self._yielding
         return contact
 
-    def _solve(self, problem: Problem, load: Load, start: ContactSet) -> Contact:
+    def _solve(self, problem: Problem, load: Load, start: ContactSet, spent: int = 0) -> Contact:
         """Solve a contact, under a hair less force where nodes at the hardness alone would bear it.
 
-        With no elastic node among them the depth would be open.
+        With no elastic node among them the depth would be open. The load has spent some of its
+        convolutions before.
         """
         if problem.conditions is self._yielding and load.force is not None:
             nodes = load.force / (self._yielding.largest_pressure * problem.operator.cell_area)
             whole = round(nodes)
             if whole and abs(nodes - whole) <= _HAIR * whole:
                 load = Load(force=load.force * (1 - 2 * _HAIR))
-        return solve(problem, load, start, self._method)
+        left = max(1, self._method.max_iterations - spent)
+        return solve(problem, load, start, replace(self._method, max_iterations=left))
 
     def _elastic_or_yielding(self, load: Load) -> Problem:
         """Return the bodies as the last load left them, elastic if they may be under this one.
@@ -187,6 +190,13 @@ class _Solved:
     load: Load
     contact: Contact
     response: Response
+
+    @property
+    def again(self) -> tuple[Contact, Response]:
+        """The same under the same load once more, which takes no convolutions."""
+        tangents = self.response.loading, self.response.unloading
+        loading, unloading = (replace(each, convolutions=0) for each in tangents)
+        return replace(self.contact, convolutions=0), Response(loading, unloading)
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,7 +25,7 @@ from scipy.linalg import cho_factor, cho_solve
 from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
 from roughline.halfspace import loops
 from roughline.halfspace.lattices import GROUP, Lattices, set_diagonal
-from roughline.halfspace.operator import GridNodes, Operator
+from roughline.halfspace.operator import GridNodes, Operator, unit_in_single
 
 _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
@@ -212,6 +212,8 @@ class _Multilevel:
 
     def __call__(self, residual: Real) -> Real:
         """Return the change of pressure that causes the displacement `residual`, about."""
+        if (unit := unit_in_single(residual)) != 1:
+            return unit * self(residual / unit)
         result = np.empty_like(residual)
         sums, sums_of_result = np.empty((2, self._per_node.size))
         places, block, grid = self._places, self._block, self._grid

@@ -34,7 +34,7 @@ class Relaxation:
     violations : Violations
         Nodes of the set that pull, yield or lift, and watched nodes that overlap.
     level : float
-        Depth that goes with the pressures. [length]
+        Approach since touch that goes with the pressures. [length]
     largest_error : float
         Largest displacement that is missing on the elastic nodes; a pressure out of its bounds
         counts as the displacement that it causes at its own node. [length]
@@ -90,11 +90,11 @@ def relaxed(
     if not elastic.any():  # under a given depth, all may be at the hardness
         off, held = trial.gap.flat[watched], trial.gap.flat[trial.contact_set.nodes] - trial.overlap
         wrong = violations(conditions, elastic, pressure[:0], off, held, 0.0, tolerance)
-        return Relaxation(wrong, trial.depth, 0.0, 0)
+        return Relaxation(wrong, trial.approach, 0.0, 0)
     equations = _Equations.of(problem, load, trial, watched, elastic, precision)
     gradients = equations.gradients
     while True:
-        level = trial.depth if load.force is None else gradients.level
+        level = trial.approach if load.force is None else gradients.level
         error = float(np.abs(gradients.error).max(initial=0.0))
         wrong = equations.violations(conditions, level, tolerance)
         if error <= tolerance or gradients.steps >= most_steps:
@@ -147,8 +147,8 @@ class _Equations:
         gradients = ConjugateGradients(
             Patch(problem.operator, problem.inverse, nodes[elastic], followed),
             pressure[elastic],
-            -trial.gap.flat[nodes[elastic]] - (trial.depth if fixed_total else 0.0),
-            gaps[order] + trial.depth,
+            -trial.gap.flat[nodes[elastic]] - (trial.approach if fixed_total else 0.0),
+            gaps[order] + trial.approach,
             fixed_total=fixed_total,
             precision=precision,
         )

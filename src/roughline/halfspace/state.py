@@ -39,8 +39,8 @@ class Problem:
         Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
         until that is indented. [length]
     rms_height : float
-        Gaps are compared with this, or with the depth where that is smaller; zero for a flat
-        punch, where it is the depth. [length]
+        Gaps are compared with this, or with what the load moves where that is less; zero for a
+        flat punch. [length]
     conditions : ContactConditions
         What pressures and gaps obey.
     """
@@ -87,7 +87,7 @@ class Method:
     rtol : float
         Bound on every residual.
     max_iterations : int
-        Bound on the convolutions of one load.
+        Bound on the convolutions that find the contact of one load.
     precision : {"mixed", "float64", "float32"}
         Precision of the convolutions. Mixed: steps in single precision, residuals in double.
     """

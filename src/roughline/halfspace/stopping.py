@@ -10,7 +10,7 @@ from roughline.halfspace.relaxation import Relaxation
 from roughline.halfspace.state import Method, Outcome
 from roughline.halfspace.trial import Trial
 
-# Single precision serves while errors are above this part of the depth; its own are 1e-7 of it.
+# Single precision serves while errors are above this part of the approach; its own are 1e-7 of it.
 _SINGLE_ABOVE = 1e-4
 
 
@@ -57,6 +57,8 @@ class StoppingRule:
             return None
         worst = trial.residuals.worst
         certified = worst <= self._method.rtol
+        if certified and np.spacing(abs(trial.approach)) > self._method.rtol * trial.length_scale:
+            return Outcome.STALLED  # rounding hides such gaps
         # the stiffness hangs on single nodes: go on for those that overlap more than others err
         if certified and (trial.residuals.penetration == 0 or exchange.to_tolerance):
             return Outcome.CONVERGED

@@ -7,14 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
+from roughline.halfspace import loops
 from roughline.halfspace.conditions import Residuals, residuals
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.operator import GridNodes, Precision
 from roughline.halfspace.state import Contact, Load, Outcome, Problem
-
-# Dents put first touch deep. The gaps of an approach beyond it are compared with this part of the
-# depth at least, since rounding hides smaller ones.
-_LEAST_APPROACH = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,8 +22,8 @@ class Trial:
     ----------
     contact_set : ContactSet
         The nodes, and the pressures on them.
-    depth, force : float
-        Approach since first touch [length] and total force [force].
+    approach, force : float
+        Approach since the surfaces, as they are now, touch [length] and total force [force].
     gap : ndarray, shape (nx, ny)
         Gap on the whole grid, on the surface as the load indents it. [length]
     overlap : ndarray, shape (nodes at the hardness,)
@@ -38,7 +35,7 @@ class Trial:
     """
 
     contact_set: ContactSet
-    depth: float
+    approach: float
     force: float
     gap: Real
     overlap: Real
@@ -82,29 +79,29 @@ class Trial:
         elastic = conditions.elastic(pressure)
         sources = GridNodes.of(nodes, operator.shape)
         gap = operator.displacement(pressure, sources, None, precision, out=out)
-        if load.depth is not None and rescale and elastic.all():
-            factor = _best_factor(
-                load.depth - problem.separation.flat[nodes], pressure, gap.flat[nodes]
-            )
+        # dents put touch deep: from there on, differences of lengths lose least to rounding
+        above = problem.separation.flat[nodes] - problem.touch
+        approach = None if load.depth is None else load.depth - problem.touch
+        if approach is not None and rescale and elastic.all():
+            factor = _best_factor(approach - above, pressure, gap.flat[nodes])
             below = np.nextafter(most, 0.0)
             if factor * float(pressure.max()) > below:  # so that none reaches the hardness
                 factor = below / float(pressure.max())
             pressure = np.minimum(factor * pressure, below)  # the product may be rounded up
             gap *= factor
-        # soft bodies spring by little of their roughness: small gaps are much of their force
-        sprung = np.inf if elastic.all() else float(np.abs(gap.flat[nodes]).max())
-        gap += problem.separation
-        depth = load.depth
-        if depth is None:
-            depth = _level(gap.flat[nodes], pressure, elastic)
-        gap -= depth
+        displacement = gap.flat[nodes]
+        if approach is None:
+            approach = _level(displacement + above, pressure, elastic)
+        loops.leave_gaps(gap, problem.separation, problem.touch, approach)
         held = nodes[~elastic]
         overlap = np.maximum(-gap.flat[held], 0.0)
         gap.flat[held] += overlap
         force = cell_area * float(pressure.sum())
-        length_scale = _length_scale(problem, depth, sprung)
+        length_scale = _length_scale(problem, approach, displacement, pressure, elastic)
         violated = residuals(conditions, gap, nodes, pressure, length_scale, load.error(force))
-        return cls(ContactSet(nodes, pressure), depth, force, gap, overlap, length_scale, violated)
+        return cls(
+            ContactSet(nodes, pressure), approach, force, gap, overlap, length_scale, violated
+        )
 
     def contact(self, problem: Problem, outcome: Outcome, convolutions: int) -> Contact:
         """Return the trial as the contact with which a search ended."""
@@ -114,7 +111,7 @@ class Trial:
             separation = separation.copy()
             separation.flat[nodes[plastic]] += self.overlap
         return Contact(
-            depth=self.depth,
+            depth=problem.touch + self.approach,
             force=self.force,
             nodes=nodes,
             pressure=pressure,
@@ -127,22 +124,17 @@ class Trial:
         )
 
 
-def _length_scale(problem: Problem, depth: float, sprung: float) -> float:
-    """Return the length with which gaps are compared.
-
-    Parameters
-    ----------
-    problem : Problem
-        The bodies.
-    depth : float
-        Approach since first touch. [length]
-    sprung : float
-        Largest elastic displacement of the contact, where some of it yields. [length]
-    """
-    if problem.operator.zero_mean and not problem.rms_height:
-        return 1.0  # even pressure on a flat surface moves nothing
-    approach = max(min(abs(depth - problem.touch), sprung), _LEAST_APPROACH * abs(depth))
-    return min(problem.rms_height, approach) if problem.rms_height else approach
+def _length_scale(
+    problem: Problem, approach: float, displacement: Real, pressure: Real, elastic: Mask
+) -> float:
+    """Return the length with which gaps are compared: the least of those that the load moves."""
+    moved = abs(approach)
+    if not elastic.all():  # soft bodies spring by little of their approach
+        moved = min(moved, float(np.abs(displacement).max()))
+    # where a flat body bears evenly hardly anything moves: there a gap is compared with what the
+    # pressure of a node moves alone
+    moved = max(moved, problem.inverse.diagonal * float(pressure.mean()))
+    return min(problem.rms_height, moved) if problem.rms_height else moved
 
 
 def _level(displaced: Real, pressure: Real, elastic: Mask) -> float:
