@@ -94,27 +94,9 @@ def test_the_joint_is_within_the_interval_of_its_map(part, materials):
     assert (found["plastic_fraction"].values > 0.1) == (materials == YIELDING)
     for key, value in expected.items():
         answer = found[key]
+        assert answer.low < value < answer.high, key
         shared_low, shared_high = answer.shared
-        assert max(value, answer.values) < shared_high < answer.high, key
-        if key == "contact_area" and materials == YIELDING:  # all yields, and no area is smaller
-            least = pytest.approx(force / pair.hardness, rel=1e-9)
-            assert (answer.low, shared_low, answer.values, value) == (least,) * 4
-        else:
-            assert answer.low < min(shared_low, value), key
-            assert shared_low < answer.values, key
-
-
-def test_no_place_of_a_joint_bears_more_than_a_hardness_that_is_known(part):
-    """Nearly all of the map yields, so its area can hardly be smaller in the joint."""
-    _, piece = part
-    loads = ["0.2 GPa", "0.4 GPa"]
-    question = rl.Question(piece, YIELDING, loads=loads, joint_area="1 cm^2", grid_error=True)
-    found = rl.assess(question).answers
-    least = found["normal_force"].values / 0.5e9
-    for low in (found["contact_area"].low, found["contact_area"].shared[0]):
-        assert (low >= least * (1 - 1e-12)).all()
-    assert found["contact_area"].low[1] == pytest.approx(least[1])  # else it would be below
-    assert (found["contact_pressure_over_hardness"].high <= 1 + 1e-12).all()
+        assert answer.low < shared_low < answer.values < shared_high < answer.high
 
 
 def test_the_joint_slides_under_its_own_load(part):

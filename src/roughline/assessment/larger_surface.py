@@ -16,7 +16,6 @@ from roughline.assessment.pieces import (
     Share,
     share_of_the_whole,
 )
-from roughline.assessment.uncertainty import least_area
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.scaling import PUNCH_GRID_ERROR
@@ -195,11 +194,10 @@ def larger_surface(
     answer = replace(answer, shared=widened(k, stiffness, STIFFNESS_OF_MANY))
     if area is None:
         return LargerSurface(answer)
-    one, many = (
-        (np.maximum(low, least_area(curve)), np.minimum(high, 1.0))
-        for low, high in (widened(touching, area, each) for each in (AREA_OF_ONE, AREA_OF_MANY))
+    one, many = (widened(touching, area, each) for each in (AREA_OF_ONE, AREA_OF_MANY))
+    return LargerSurface(
+        answer, (one[0], np.minimum(one[1], 1.0)), (many[0], np.minimum(many[1], 1.0))
     )
-    return LargerSurface(answer, one, many)
 
 
 def _widened(values: Real, ends: Ends | None, shares: Ends) -> Ends:

@@ -66,7 +66,8 @@ class Solution:
         assert unloading is not None
         assert unloading_error is not None
         low, high = interval(value, np.hypot(error, changes.area))
-        low = np.maximum(low, least_area(curve))
+        if curve.hardness is not None:  # no area bears more than the hardness
+            low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
         intervals = Intervals(
             interval(curve.stiffness, np.hypot(curve.stiffness_error, changes.stiffness)),
             interval(unloading, np.hypot(unloading_error, changes.unloading)),
@@ -74,13 +75,6 @@ class Solution:
             (low, np.minimum(high, most + changes.area)),
         )
         return cls(curve, interrupted, intervals, note)
-
-
-def least_area(curve: Curve) -> Real:
-    """Area fraction below which points would bear more than the hardness; 0 without one. [1]"""
-    if curve.hardness is None:
-        return np.zeros_like(curve.force)
-    return curve.force / (curve.hardness * curve.length**2)
 
 
 def interval(value: Real, error: Real) -> Ends:
