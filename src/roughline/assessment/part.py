@@ -13,6 +13,8 @@ from roughline.computing.arrays import Indices, Real
 from roughline.engineering.answer import Answer
 from roughline.statistics.places import average_of_places
 
+_AT_MOST_ONE = ("contact_area_fraction", "reflection")  # keys of what cannot be more than all
+
 
 @dataclass(frozen=True, eq=False)
 class PartAnswer:
@@ -50,8 +52,8 @@ class PartAnswer:
         found = average_of_places(values, low, high)
         if len(of_maps) == 1:  # what one map leaves open of itself is no interval of the part
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
-        most = max(each.most for each in of_maps)
-        low, high = (np.minimum(end, most) for end in (found.low, found.high))
+        at_most = 1.0 if of_maps[0].key in _AT_MOST_ONE else np.inf
+        low, high = (np.minimum(end, at_most) for end in (found.low, found.high))
         return cls(of_maps, found.mean, found.scatter, low, high, found.count)
 
     def ends_of_maps(self, load: int) -> tuple[Real, Real]:

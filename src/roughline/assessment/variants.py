@@ -167,7 +167,13 @@ def _without_intervals(result: Assessment) -> Assessment:
 
 def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment]) -> Assessment:
     """Widen the intervals of an assessment by the ratios of others to a nominal one."""
-    mean_pressure = result.curve_as_asked.force / result.area
+    whole = result.area * result.scale
+    limits: dict[str, tuple[Real | float, float]] = {
+        "contact_area": (0.0, whole),
+        "contact_area_fraction": (0.0, 1.0),
+        "contact_pressure": (result.curve_as_asked.force / result.area, np.inf),
+        "contact_pressure_over_hardness": (0.0, 1.0),
+    }
     answers, scatter = {}, {}
     for key, each in result.answers.items():
         ratios = _ratios(
@@ -177,7 +183,7 @@ def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment
         ends = each.ends
         if key in _OF_HARDNESS_ALONE and result.intervals is not None:
             ends = each.values, each.values  # nothing else leaves them open
-        within = mean_pressure if key == "contact_pressure" else 0.0, each.most
+        within = limits.get(key, (0.0, np.inf))
         low, high = (None, None) if ends is None else _times(ends, ratios, *within)
         shared = None if each.shared is None else _times(each.shared, ratios, *within)
         answers[key] = replace(each, low=low, high=high, shared=shared)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -38,8 +37,6 @@ class Answer:
         Where it is from.
     growth : float
         With what power of the nominal area it grows at the same mean pressure.
-    most : float
-        The most that it can be; infinite where nothing bounds it. [unit]
     """
 
     key: str
@@ -53,7 +50,6 @@ class Answer:
     validity: str = ""
     source: str = ""
     growth: float = 0.0
-    most: float = math.inf
     shared: Ends | None = None
 
     @property
@@ -74,7 +70,7 @@ class Answer:
         return replace(self, values=values, low=low, high=high, shared=shared)
 
 
-def answer(key: str, rows: Real, **differing: Any) -> Answer:
+def answer(key: str, rows: Real, **differing: str) -> Answer:
     """Make an answer of those that are declared.
 
     Parameters
@@ -83,8 +79,8 @@ def answer(key: str, rows: Real, **differing: Any) -> Answer:
         Of the declaration.
     rows : ndarray, shape (loads,), (1, loads) or (3, loads)
         Values, or values and both ends of their interval in either order. [unit]
-    **differing : str or float
-        What is said otherwise than in the declaration: name, formula, validity or most.
+    **differing : str
+        What is said otherwise than in the declaration: name, formula or validity.
     """
     values, *ends = np.atleast_2d(rows)
     low, high = (np.minimum(*ends), np.maximum(*ends)) if ends else (None, None)

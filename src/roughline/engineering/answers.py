@@ -98,14 +98,13 @@ def _areas(curve: Curve, share: Real, area: float, pair: MaterialPair) -> list[A
     with np.errstate(divide="ignore", invalid="ignore"):
         pressure = np.where(curve.force == 0, 0.0, curve.force / (share * area))
     given = [
-        answer("contact_area", share * area, most=area),
+        answer("contact_area", share * area),
         answer("contact_area_fraction", share),
         answer("contact_pressure", pressure),
     ]
     hardness = curve.hardness or pair.hardness
     if hardness is not None:
-        most = math.inf if curve.hardness is None else 1.0  # elastic bodies bear more
-        given.append(answer("contact_pressure_over_hardness", pressure / hardness, most=most))
+        given.append(answer("contact_pressure_over_hardness", pressure / hardness))
     if curve.plastic_fraction is not None and curve.hardness is not None:
         assert curve.indentation is not None
         given += [

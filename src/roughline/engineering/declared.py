@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from roughline.engineering.formulas import ELASTIC_UP_TO
@@ -25,8 +24,6 @@ class Declaration:
     growth : float
         With what power of the nominal area it grows where every place carries the same mean
         pressure; 0 for what does not.
-    most : float
-        The most that it can be; infinite where that is not known before. [unit]
     """
 
     name: str
@@ -36,7 +33,6 @@ class Declaration:
     validity: str = ""
     source: str = ""
     growth: float = 0.0
-    most: float = math.inf
 
 
 DECLARED = {
@@ -77,7 +73,7 @@ DECLARED = {
         "Yastrebov, Anciaux and Molinari 2017",
         growth=1,
     ),
-    "contact_area_fraction": Declaration("contact area fraction", "A/A_0", "1", "A / A_0", most=1),
+    "contact_area_fraction": Declaration("contact area fraction", "A/A_0", "1", "A / A_0"),
     "contact_pressure": Declaration(
         "mean contact pressure",
         "p_c",
@@ -92,7 +88,6 @@ DECLARED = {
         "cells at the hardness over cells in contact",
         "elastic, perfectly plastic: no hardening, no pile-up",
         "Almqvist et al. 2007",
-        most=1,
     ),
     "indentation": Declaration(
         "largest permanent indentation",
@@ -188,7 +183,6 @@ DECLARED = {
         "longitudinal plane waves much longer than the distances of contact spots; their "
         "amplitude is small, so all of the contact springs back: k_u",
         "Tattersall 1973",
-        most=1,
     ),
 }
 """By key."""

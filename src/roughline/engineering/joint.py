@@ -86,7 +86,6 @@ def _grown(each: Answer, ratio: float) -> Answer:
         )
     low, high = _times(each.ends, factor) or (None, None)
     shared = _times(each.shared, factor)
-    differing["most"] = each.most * factor
     return replace(
         each, values=each.values * factor, low=low, high=high, shared=shared, **differing
     )
