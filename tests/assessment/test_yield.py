@@ -64,7 +64,10 @@ def test_intervals_hold_the_answers_of_the_softest_and_the_hardest_body(surface,
             beyond = 1 + 1e-12  # where all yields, an end is F / H, rounded
             assert ((found.low <= moved * beyond) & (moved <= found.high * beyond)).all(), key
             ratio = moved / found.values
-            most = 1.0 if key == "contact_area_fraction" else np.inf
+            most = {
+                "contact_area_fraction": 1.0,
+                "contact_stiffness": pressed.answers["unloading_stiffness"].high,
+            }.get(key, np.inf)
             assert (found.low <= without.low * ratio * beyond).all(), key
             assert (found.high * beyond >= np.minimum(without.high * ratio, most)).all(), key
             low, high = pressed.hardness_scatter[key]
@@ -374,12 +377,21 @@ def test_a_line_scan_has_no_yield_and_says_how_far_it_serves(surface):
     scan = rl.Line(surface.heights[0], 1e-3, "m", kind="profile")
     result = rl.assess(rl.Question(scan, PAIR, loads="1 N"))
     assert result.curve.hardness is None
-    assert any(
-        "the reduced model has no yield: it may serve while" in each for each in result.notes
-    )
+    most = 0.8 * H / result.curve.E_star
+    (said,) = (each for each in result.warnings if "the reduced model has no yield" in each)
+    assert f"rms slopes over 0.8 H / E* = {most:.2g} exceed" in said
+    assert f"that of the scan is {scan.rms_slope:.2g}, so these elastic answers do not hold" in said
+    smooth = replace(scan, heights=scan.heights * 0.5 * most / scan.rms_slope)
+    result = rl.assess(rl.Question(smooth, PAIR, loads="1 N"))
+    (said,) = (each for each in result.notes if "the reduced model has no yield" in each)
+    assert said.endswith(f"that of the scan is {0.5 * most:.2g}")
     for asked in ({"hardness": "1 GPa"}, {"history": True}, {"unload": True}):
-        with pytest.raises(rl.InputError, match="belong to a surface; the reduced model"):
+        with pytest.raises(
+            rl.InputError, match="belong to a surface; the reduced model"
+        ) as refusal:
             rl.Question(scan, PAIR, loads="1 N", **asked)
+        (name,) = asked
+        assert f"leave {name}=" in str(refusal.value)
 
 
 @pytest.mark.parametrize(

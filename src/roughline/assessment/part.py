@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.limits import Limits, within
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Real
 from roughline.engineering.answer import Answer
 from roughline.statistics.places import average_of_places
-
-_AT_MOST_ONE = ("contact_area_fraction", "reflection")  # keys of what cannot be more than all
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +42,8 @@ class PartAnswer:
     count: Indices
 
     @classmethod
-    def of(cls, of_maps: Sequence[Answer]) -> PartAnswer:
-        """Average the answers of one or more maps."""
+    def of(cls, of_maps: Sequence[Answer], limits: Sequence[Limits] = ()) -> PartAnswer:
+        """Average the answers of one or more maps, within what each of them can be."""
         values = np.stack([each.values for each in of_maps])
         unknown = np.full(values.shape[1], np.nan)
         shared = [each.shared or each.ends or (unknown, unknown) for each in of_maps]
@@ -52,9 +51,16 @@ class PartAnswer:
         found = average_of_places(values, low, high)
         if len(of_maps) == 1:  # what one map leaves open of itself is no interval of the part
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
-        at_most = 1.0 if of_maps[0].key in _AT_MOST_ONE else np.inf
-        low, high = (np.minimum(end, at_most) for end in (found.low, found.high))
+        low, high = found.low, found.high
+        if limits:
+            least, most = zip(*limits, strict=True)
+            low, high = within((low, high), (np.min(least, axis=0), np.max(most, axis=0)))
         return cls(of_maps, found.mean, found.scatter, low, high, found.count)
+
+    def at_most(self, most: Real) -> PartAnswer:
+        """The same, with no upper end over one."""
+        high = np.where(np.isnan(self.high), np.nan, np.fmin(self.high, most))
+        return replace(self, high=high)
 
     @property
     def key(self) -> str:

@@ -19,6 +19,7 @@ from roughline.assessment.alike import (
 from roughline.assessment.assess import Announce, assess_body
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.given import is_force, several
+from roughline.assessment.limits import limits_of_answers
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.question import Question
@@ -192,7 +193,29 @@ def _answers(results: Sequence[Assessment]) -> Mapping[str, PartAnswer]:
     if question.joint is None and differ_in_size(results):
         forced = any(map(is_force, several(question.loads)))
         keys = [key for key in keys if not forced and not results[0].answers[key].growth]
-    return {key: PartAnswer.of([each.answers[key] for each in results]) for key in keys}
+    limits = [limits_of_answers(each) for each in results]
+    answers = {
+        key: PartAnswer.of(
+            [each.answers[key] for each in results], [each[key] for each in limits if key in each]
+        )
+        for key in keys
+    }
+    return answers | _under_unloading(answers, question.joint is not None)
+
+
+def _under_unloading(answers: Mapping[str, PartAnswer], is_joint: bool) -> dict[str, PartAnswer]:
+    """Stiffness on loading with no upper end over that on unloading, which it is a part of."""
+    bound = answers.get("interface_stiffness" if is_joint else "unloading_stiffness")
+    loading = answers.get("contact_stiffness")
+    if bound is None or loading is None:
+        return {}
+    found = {"contact_stiffness": loading.at_most(bound.high)}
+    per_area = answers["stiffness_per_area"]
+    if not is_joint:  # of a joint it is that of the interface
+        with np.errstate(invalid="ignore"):  # bodies apart
+            most = bound.high * per_area.mean / loading.mean
+        found["stiffness_per_area"] = per_area.at_most(most)
+    return found
 
 
 def _refuse_unlike(questions: Sequence[Question]) -> None:
