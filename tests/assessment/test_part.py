@@ -194,6 +194,7 @@ def test_progress_is_told_map_by_map(maps):
         ({"reading": rl.Reading(name="x")}, "the name in reading= is that of one file"),
         ({"body": ["a.x3p", "b.x3p", "./a.x3p"]}, "a.x3p is given twice"),
         ({"body": ["a.x3p", 3]}, "body is a int; give a Surface"),
+        ({"against": "c.x3p"}, "the one second topography (against=)"),
     ],
 )
 def test_questions_of_several_maps_that_cannot_be(asked, message):

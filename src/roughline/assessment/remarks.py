@@ -9,7 +9,7 @@ from roughline.assessment.grid import why_without_grid_error
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
-from roughline.topography.body import Line, Surface
+from roughline.topography.body import Surface
 
 
 def warnings_of(
@@ -20,6 +20,7 @@ def warnings_of(
     warnings = [
         *say.of_each(bodies, suspicions),
         *broken_assumptions(result, spectrum),
+        *say.how_far_a_line_serves(result, grave=True),
         *curve.warnings,
     ]
     warnings += say.of_joint_and_borders(result, grave=True)
@@ -34,11 +35,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
     bodies = [each.body for each in result.topographies]
     notes = say.of_yield(result)
     if pair is not None:
-        if isinstance(body, Line) and pair.hardness is not None:
-            notes.append(
-                "the reduced model has no yield: it may serve while mean contact pressures stay "
-                "below some 0.4 of the hardness, which rms slopes over 0.8 H / E* exceed"
-            )
+        notes += say.how_far_a_line_serves(result, grave=False)
         notes += left_out(pair, question.frequency_in_hertz)
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")
