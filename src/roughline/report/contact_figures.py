@@ -110,9 +110,9 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     if curve.hardness is not None and curve.unloading_stiffness is not None:
         rising = _rising(curve)
         unloading = curve.unloading_stiffness[rising] * stiffness
-        axes.loglog(
-            curve.force[rising] * force, unloading, "--.", color="tab:red", label="unloading $k_u$"
-        )
+        symbol = "k_u" if assessment.question.joint is None else "k_i"
+        label = f"unloading ${symbol}$"
+        axes.loglog(curve.force[rising] * force, unloading, "--.", color="tab:red", label=label)
         _draw_interval(axes, curve, assessment.unloading_interval, (force, stiffness), "tab:red")
         axes.legend()
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
@@ -124,7 +124,7 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
                 label=theory.name,
             )
             axes.legend()
-    symbol = "k" if assessment.question.joint is None else "k_i"
+    symbol = "k_i" if assessment.question.joint and curve.hardness is None else "k"
     axes.set(xlabel=_force_label(assessment, force_unit), ylabel=f"stiffness ${symbol}$ [{unit}]")
 
 
