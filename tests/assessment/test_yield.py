@@ -11,6 +11,7 @@ import roughline as rl
 from roughline.assessment import loads as load_cases
 from roughline.assessment import variants
 from roughline.engineering.formulas import electrical_resistance, partial_slip
+from roughline.report.part_tables import elastic_of_part_in_words, part_table
 
 PAIR = "steel,copper"
 H = rl.material("copper").hardness
@@ -333,6 +334,28 @@ def test_a_part_of_several_maps_is_unloaded(surface):
     scatter = [each.hardness_scatter["unloading_stiffness"] for each in part.assessments]
     assert k.low[0] < k.mean[0] * max(low[0] for low, _ in scatter)
     assert k.high[0] > k.mean[0] * min(high[0] for _, high in scatter)
+
+
+def test_the_mean_of_elastic_bodies_stands_beside_that_of_a_part(surface):
+    """Of all maps; one in which nothing yields gives its own."""
+    smooth = replace(surface, heights=surface.heights / 1000)
+    asked = {"loads": ["0.5 N"], "grid_error": False, "fields": False}
+    part = rl.assess(rl.Question([surface, smooth], "alumina hardness=0.1 GPa, glass", **asked))
+    assert [bool(each.elastic) for each in part.assessments] == [True, False]
+    yields, stays = part.assessments
+    for key in ("contact_stiffness", "unloading_stiffness", "contact_area_fraction"):
+        expected = np.sqrt(yields.elastic[key].values * stays.answers[key].values)
+        assert part.elastic[key].mean == pytest.approx(expected), key
+    alike = [replace(surface, heights=surface.heights * (1 + 0.001 * i)) for i in range(3)]
+    part = rl.assess(rl.Question(alike, "alumina hardness=0.1 GPa, glass", **asked))
+    said = elastic_of_part_in_words(part)
+    assert said.startswith("if nothing yielded: ")
+    assert "contact area fraction" in said
+    rows = [row[0] for row in part_table(part, [0], with_elastic=True)[1]]
+    assert rows[rows.index("contact area fraction A/A_0") + 1] == "if nothing yielded"
+    alone = rl.assess(rl.Question([smooth], "alumina,glass", **asked))
+    assert alone.elastic == {}
+    assert elastic_of_part_in_words(alone) == ""
 
 
 def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -102,6 +102,8 @@ class PartAssessment:
     answers : mapping of str to PartAnswer
         By their keys, over the loads that were asked for. Maps of different size, without a joint,
         have no common answers that depend on it.
+    elastic : mapping of str to PartAnswer
+        The same without yield; empty where nothing yields in any map.
     warnings, notes : sequence of str
         What is to be said of all maps, and of single ones, with their names.
     """
@@ -112,6 +114,7 @@ class PartAssessment:
     refused: Mapping[str, str]
     left: Sequence[str]
     answers: Mapping[str, PartAnswer]
+    elastic: Mapping[str, PartAnswer] = field(default_factory=dict)
     warnings: Sequence[str] = ()
     notes: Sequence[str] = ()
 

@@ -181,6 +181,7 @@ def _together(done: _Pressed) -> PartAssessment:
         refused=done.refused,
         left=done.left,
         answers=answers,
+        elastic=_elastic(results, answers),
         warnings=[*refused, *left, *differences_in_kind(done.assessments), *warnings],
         notes=[*what_is_averaged(results), *notes],
     )
@@ -201,6 +202,17 @@ def _answers(results: Sequence[Assessment]) -> Mapping[str, PartAnswer]:
         for key in keys
     }
     return answers | _under_unloading(answers, question.joint is not None)
+
+
+def _elastic(
+    results: Sequence[Assessment], answers: Mapping[str, PartAnswer]
+) -> Mapping[str, PartAnswer]:
+    """Averages of what elastic bodies would give; a map in which nothing yields gives its own."""
+    if not any(each.elastic for each in results):
+        return {}
+    of_maps = [each.elastic or each.answers for each in results]
+    keys = [key for key in answers if any(key in each.elastic for each in results)]
+    return {key: PartAnswer.of([each[key] for each in of_maps]) for key in keys}
 
 
 def _under_unloading(answers: Mapping[str, PartAnswer], is_joint: bool) -> dict[str, PartAnswer]:
