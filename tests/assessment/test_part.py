@@ -178,6 +178,13 @@ def test_remarks_stand_once_with_the_maps_that_they_are_of(maps):
     assert tilt.startswith("of map 4: ")
 
 
+def test_every_load_is_told_once(maps):
+    """Though what is said of them differs in its numbers alone."""
+    part = pressed(maps[:2], loads=["5 MPa", "2 MPa"])
+    told = [note for note in part.notes if "over the nominal area" in note]
+    assert [note[:11] for note in told] == ["load 5 MPa:", "load 2 MPa:"]
+
+
 def test_progress_is_told_map_by_map(maps):
     told = []
     question = rl.Question(maps[:2], loads="5 MPa", **ASKED)
