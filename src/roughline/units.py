@@ -42,6 +42,7 @@ _SIGNS = {"ohm": "Ω", "ohm m²": "Ω m²"}
 _EXACT = 15  # decimal digits that double precision always keeps
 
 _EXAMPLES = {
+    "hardness": "2 GPa",
     "Pa": "110 GPa",
     "m": "0.5 mm",
     "m^2": "2 cm^2",
@@ -78,7 +79,7 @@ def in_si(text: str, unit: str, name: str) -> float:
     UnitError
         If there is no unit, or one of another dimension, or a decimal comma.
     """
-    example = _EXAMPLES[unit]
+    example = _EXAMPLES.get(name, _EXAMPLES[unit])
     refuse_decimal_comma(text, name)
     parts = _NUMBER_AND_UNIT.fullmatch(text)
     if parts and not parts["unit"]:
@@ -96,8 +97,9 @@ def in_si(text: str, unit: str, name: str) -> float:
         value = _registry().Quantity(float(parts["number"]), units).to(unit).magnitude
         return float(f"{value:.{_EXACT}g}")  # 0.3 mN are 0.0003 N, without the prefix's rounding
     except Exception as error:  # of a senseless unit the parser raises errors of any type
+        vickers = "; 1 HV is 10.6 MPa on the projected indent" if "HV" in text else ""
         raise UnitError(
-            f'{name} is "{text}", which is no quantity in {unit}; such as "{example}" is'
+            f'{name} is "{text}", which is no quantity in {unit}; such as "{example}" is{vickers}'
         ) from error
 
 

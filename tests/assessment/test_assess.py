@@ -18,7 +18,7 @@ def test_messages_are_of_the_loads_that_are_shown(rough):
         for whole in (False, True)
     )
     warnings = [
-        [note for note in pressed.warnings if "of the softer body's hardness" in note]
+        [note for note in pressed.warnings if "times the softer body's hardness" in note]
         for pressed in (alone, whole)
     ]
     assert warnings[0] == warnings[1] != []

@@ -178,6 +178,13 @@ def test_remarks_stand_once_with_the_maps_that_they_are_of(maps):
     assert tilt.startswith("of map 4: ")
 
 
+def test_every_load_is_told_once(maps):
+    """Though what is said of them differs in its numbers alone."""
+    part = pressed(maps[:2], loads=["5 MPa", "2 MPa"])
+    told = [note for note in part.notes if "over the nominal area" in note]
+    assert [note[:11] for note in told] == ["load 5 MPa:", "load 2 MPa:"]
+
+
 def test_progress_is_told_map_by_map(maps):
     told = []
     question = rl.Question(maps[:2], loads="5 MPa", **ASKED)
@@ -194,6 +201,7 @@ def test_progress_is_told_map_by_map(maps):
         ({"reading": rl.Reading(name="x")}, "the name in reading= is that of one file"),
         ({"body": ["a.x3p", "b.x3p", "./a.x3p"]}, "a.x3p is given twice"),
         ({"body": ["a.x3p", 3]}, "body is a int; give a Surface"),
+        ({"against": "c.x3p"}, "the one second topography (against=)"),
     ],
 )
 def test_questions_of_several_maps_that_cannot_be(asked, message):

@@ -11,6 +11,7 @@ import roughline as rl
 from roughline.assessment import loads as load_cases
 from roughline.assessment import variants
 from roughline.engineering.formulas import electrical_resistance, partial_slip
+from roughline.report.part_tables import elastic_of_part_in_words, part_table
 
 PAIR = "steel,copper"
 H = rl.material("copper").hardness
@@ -64,7 +65,10 @@ def test_intervals_hold_the_answers_of_the_softest_and_the_hardest_body(surface,
             beyond = 1 + 1e-12  # where all yields, an end is F / H, rounded
             assert ((found.low <= moved * beyond) & (moved <= found.high * beyond)).all(), key
             ratio = moved / found.values
-            most = 1.0 if key == "contact_area_fraction" else np.inf
+            most = {
+                "contact_area_fraction": 1.0,
+                "contact_stiffness": pressed.answers["unloading_stiffness"].high,
+            }.get(key, np.inf)
             assert (found.low <= without.low * ratio * beyond).all(), key
             assert (found.high * beyond >= np.minimum(without.high * ratio, most)).all(), key
             low, high = pressed.hardness_scatter[key]
@@ -342,6 +346,28 @@ def test_a_part_of_several_maps_is_unloaded(surface):
     assert k.high[0] > k.mean[0] * min(high[0] for _, high in scatter)
 
 
+def test_the_mean_of_elastic_bodies_stands_beside_that_of_a_part(surface):
+    """Of all maps; one in which nothing yields gives its own."""
+    smooth = replace(surface, heights=surface.heights / 1000)
+    asked = {"loads": ["0.5 N"], "grid_error": False, "fields": False}
+    part = rl.assess(rl.Question([surface, smooth], "alumina hardness=0.1 GPa, glass", **asked))
+    assert [bool(each.elastic) for each in part.assessments] == [True, False]
+    yields, stays = part.assessments
+    for key in ("contact_stiffness", "unloading_stiffness", "contact_area_fraction"):
+        expected = np.sqrt(yields.elastic[key].values * stays.answers[key].values)
+        assert part.elastic[key].mean == pytest.approx(expected), key
+    alike = [replace(surface, heights=surface.heights * (1 + 0.001 * i)) for i in range(3)]
+    part = rl.assess(rl.Question(alike, "alumina hardness=0.1 GPa, glass", **asked))
+    said = elastic_of_part_in_words(part)
+    assert said.startswith("if nothing yielded: ")
+    assert "contact area fraction" in said
+    rows = [row[0] for row in part_table(part, [0], with_elastic=True)[1]]
+    assert rows[rows.index("contact area fraction A/A_0") + 1] == "if nothing yielded"
+    alone = rl.assess(rl.Question([smooth], "alumina,glass", **asked))
+    assert alone.elastic == {}
+    assert elastic_of_part_in_words(alone) == ""
+
+
 def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch):
     """Ratios of other hardnesses to the table's agree within a few per cent of those of all."""
     rough = rl.SelfAffine(
@@ -384,12 +410,21 @@ def test_a_line_scan_has_no_yield_and_says_how_far_it_serves(surface):
     scan = rl.Line(surface.heights[0], 1e-3, "m", kind="profile")
     result = rl.assess(rl.Question(scan, PAIR, loads="1 N"))
     assert result.curve.hardness is None
-    assert any(
-        "the reduced model has no yield: it may serve while" in each for each in result.notes
-    )
+    most = 0.8 * H / result.curve.E_star
+    (said,) = (each for each in result.warnings if "the reduced model has no yield" in each)
+    assert f"rms slopes over 0.8 H / E* = {most:.2g} exceed" in said
+    assert f"that of the scan is {scan.rms_slope:.2g}, so these elastic answers do not hold" in said
+    smooth = replace(scan, heights=scan.heights * 0.5 * most / scan.rms_slope)
+    result = rl.assess(rl.Question(smooth, PAIR, loads="1 N"))
+    (said,) = (each for each in result.notes if "the reduced model has no yield" in each)
+    assert said.endswith(f"that of the scan is {0.5 * most:.2g}")
     for asked in ({"hardness": "1 GPa"}, {"history": True}, {"unload": True}):
-        with pytest.raises(rl.InputError, match="belong to a surface; the reduced model"):
+        with pytest.raises(
+            rl.InputError, match="belong to a surface; the reduced model"
+        ) as refusal:
             rl.Question(scan, PAIR, loads="1 N", **asked)
+        (name,) = asked
+        assert f"leave {name}=" in str(refusal.value)
 
 
 @pytest.mark.parametrize(

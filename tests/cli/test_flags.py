@@ -15,6 +15,7 @@ from roughline.cli.flags import in_flags
         ("grid_error=True does it", "--grid-error does it"),
         ("a unit = um is not an argument", "a unit = um is not an argument"),
         ("my_unit=3", "my_unit=3"),
+        ('give it with the material, as "hardness=..."',) * 2,
     ],
 )
 def test_arguments_become_flags(message, told):

@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -139,17 +140,37 @@ def test_points_at_the_hardness_are_marked(unloaded):
     assert (shown == 1).any()
 
 
-def test_both_branches_are_drawn_without_the_load_that_is_none(unloaded):
+def test_both_branches_are_drawn(unloaded):
+    """Force over depth on linear scales, where the dent that is left shows as well."""
     left, right = curve_figure(unloaded).axes
-    for axes in (left, right):
+    for axes, scale, falling in ((left, "linear", 5), (right, "log", 4)):
+        assert (axes.get_xscale(), axes.get_yscale()) == (scale, scale)
         marks = [line for line in axes.lines if line.get_marker() == "o"]
         drawn = {line.get_color(): 0 for line in marks}
         for line in marks:
             drawn[line.get_color()] += line.get_xdata().size
-        assert drawn["tab:blue"] == 4  # of five steps the last has no place in a logarithm
+        # of five steps the last has no place in a logarithm
+        assert drawn["tab:blue"] == falling
         assert drawn["k"] == unloaded.curve.force.size - 5
-    (legend,) = (text.get_text() for text in right.get_legend().get_texts())
-    assert legend == "unloading $k_u$"
+    for axes, told in ((left, "after a larger load"), (right, "unloading $k_u$")):
+        (legend,) = (text.get_text() for text in axes.get_legend().get_texts())
+        assert legend == told
+
+
+def test_without_falling_loads_the_scales_are_logarithmic(unloaded):
+    alone = rl.assess(replace(unloaded.question, unload=False))
+    left, _ = curve_figure(alone).axes
+    assert (left.get_xscale(), left.get_legend()) == ("log", None)
+
+
+def test_an_unloading_is_answered_at_the_loads_that_were_typed(rough, invoke):
+    code, out, errors = invoke("press", rough, *PAIR, "--load", "10 N", "--unload")
+    assert code == 0, errors
+    answered, falling = out.index("constriction resistance R"), out.index("unloaded to 75%")
+    assert falling < answered
+    assert "answers under the falling loads are for --json and --report" in out
+    assert "if nothing yielded: " in out
+    assert "(at the largest load)" in out
 
 
 def test_tables_of_an_unloading_have_a_value_in_every_cell(unloaded):
@@ -172,7 +193,8 @@ def test_tables_of_an_unloading_have_a_value_in_every_cell(unloaded):
         (("--hardness", "-2 GPa"), 'hardness is "-2 GPa"; a positive pressure'),
         (("--hardness", "nan GPa"), 'hardness is "nan GPa"; a positive pressure'),
         (("--hardness", "5 N"), 'hardness is "5 N", which is no quantity in Pa'),
-        (("--hardness", "2"), "without a unit"),
+        (("--hardness", "2"), 'without a unit; give one, such as "2 GPa"'),
+        (("--hardness", "200 HV"), "1 HV is 10.6 MPa on the projected indent"),
         (("--hardness", "2 GPa", "--elastic"), "--hardness and --elastic contradict each other"),
         (("--load", "380 MPa"), "bears less than 370 N on the map (H A_0): give smaller loads"),
         (
@@ -199,7 +221,8 @@ def test_a_line_scan_has_no_hardness(tmp_path, invoke):
     scan = ("press", tmp_path / "scan.npy", "--unit", "m", "--size", "1 mm", *PAIR)
     code, out, errors = invoke(*scan, "--load", "1 N", "--hardness", "1 GPa")
     assert (code, out) == (2, "")
-    assert "belong to a surface; the reduced model of a line has no yield: it may serve" in errors
+    assert "belong to a surface; the reduced model of a line has no yield: leave --hard" in errors
+    assert "a line may serve while mean contact pressures stay below some 0.4 of the" in errors
     assert len(errors.splitlines()) == 1
     code, out, errors = invoke(*scan, "--load", "1 N")
     assert code == 0, errors

@@ -32,7 +32,8 @@ def test_the_theme_is_changed_and_kept(pages):
     page = pages.open(SMALL)
     settled(page, points=64)
     paper = """() => [getComputedStyle(document.querySelector(".panel")).backgroundColor,
-        Bokeh.documents[0].roots()[0].background_fill_color]"""
+        Bokeh.documents[0].roots()[0].background_fill_color,
+        Bokeh.documents[0].get_model_by_name("contact colours").palette.join()]"""
     light = page.evaluate(paper)
     page.click("#theme")
     dark = page.evaluate(paper)

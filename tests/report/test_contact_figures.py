@@ -17,7 +17,7 @@ def test_one_area_is_told_everywhere(rough):
     draw_contact(axes, pressed.body, pressed)
     area = pressed.answers["contact_area_fraction"]
     told = quantity(area, 1).split("%")[0]
-    assert axes.get_title() == f"corrected area {told}% at 10 N"
+    assert axes.get_title() == f"corrected area {told}% at 10 N\nred: at the hardness"
     assert area.values[1] == pressed.curve_as_asked.area_fraction_corrected[1]
 
 

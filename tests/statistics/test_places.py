@@ -66,3 +66,13 @@ def test_places_without_a_value_are_left_out_and_infinite_ones_have_no_mean():
     found = average_of_places(alike, unknown(alike), unknown(alike))
     assert found.mean.tolist() == [0.0, np.inf]
     assert np.isnan(found.low).all()
+
+
+def test_an_interval_may_be_open_at_one_end_alone():
+    """As that of a share which is all there is in each place; else values that agree have none."""
+    values = np.ones((3, 2))
+    low = np.stack([np.full(3, 0.8), np.ones(3)], axis=1)
+    found = average_of_places(values, low, np.ones((3, 2)))
+    assert found.low[0] == pytest.approx(0.8)
+    assert found.high[0] == 1
+    assert np.isnan([found.low[1], found.high[1]]).all()

@@ -13,6 +13,7 @@ import numpy as np
 from roughline.assessment.assess import Announce, assess_body
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.given import has_forces
+from roughline.assessment.limits import limits_of_answers
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.part_remarks import (
@@ -180,6 +181,7 @@ def _part_of(done: _Pressed) -> PartAssessment:
         refused=done.refused,
         left=done.left,
         answers=answers,
+        elastic=_elastic(results, answers),
         warnings=[*refused, *left, *differences_in_kind(done.assessments), *warnings],
         notes=[*what_is_averaged(results), *notes],
     )
@@ -192,7 +194,40 @@ def _answers(results: Sequence[Assessment]) -> Mapping[str, PartAnswer]:
     if question.joint is None and differ_in_size(results):
         forced = has_forces(question.loads)
         keys = [key for key in keys if not forced and not results[0].answers[key].growth]
-    return {key: PartAnswer.of([each.answers[key] for each in results]) for key in keys}
+    limits = [limits_of_answers(each) for each in results]
+    answers = {
+        key: PartAnswer.of(
+            [each.answers[key] for each in results], [each[key] for each in limits if key in each]
+        )
+        for key in keys
+    }
+    return answers | _under_unloading(answers, question.joint is not None)
+
+
+def _elastic(
+    results: Sequence[Assessment], answers: Mapping[str, PartAnswer]
+) -> Mapping[str, PartAnswer]:
+    """Averages of what elastic bodies would give; a map in which nothing yields gives its own."""
+    if not any(each.elastic for each in results):
+        return {}
+    of_maps = [each.elastic or each.answers for each in results]
+    keys = [key for key in answers if any(key in each.elastic for each in results)]
+    return {key: PartAnswer.of([each[key] for each in of_maps]) for key in keys}
+
+
+def _under_unloading(answers: Mapping[str, PartAnswer], is_joint: bool) -> dict[str, PartAnswer]:
+    """Stiffness on loading with no upper end over that on unloading, which it is a part of."""
+    bound = answers.get("interface_stiffness" if is_joint else "unloading_stiffness")
+    loading = answers.get("contact_stiffness")
+    if bound is None or loading is None:
+        return {}
+    found = {"contact_stiffness": loading.at_most(bound.high)}
+    per_area = answers["stiffness_per_area"]
+    if not is_joint:  # of a joint it is that of the interface
+        with np.errstate(invalid="ignore"):  # bodies apart
+            most = bound.high * per_area.mean / loading.mean
+        found["stiffness_per_area"] = per_area.at_most(most)
+    return found
 
 
 def _refuse_unlike(questions: Sequence[Question]) -> None:

@@ -63,7 +63,8 @@ def refuse_inconsistent_maps(question: Question) -> None:
     Raises
     ------
     InputError
-        If there are no materials or no loads, or the maps share one name.
+        If there are no materials or no loads, the maps share one name, or there is a second
+        topography.
     """
     if not question.is_of_several:
         return
@@ -73,5 +74,11 @@ def refuse_inconsistent_maps(question: Question) -> None:
         )
     if not question.loads and not question.depths:
         raise InputError("several maps are pressed under the same loads: give them (loads=)")
+    if question.against is not None:
+        raise InputError(
+            "several maps are pressed into a smooth body: the one second topography (against=) "
+            "would be in all of them, and the scatter of its places in none; press each map "
+            "against it alone, or leave against= out"
+        )
     if question.reading.name is not None:
         raise InputError("the name in reading= is that of one file, and there are several")

@@ -16,6 +16,7 @@ from roughline.assessment.pieces import (
     Share,
     share_of_the_whole,
 )
+from roughline.assessment.uncertainty import interval, loading_under_unloading
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.scaling import PUNCH_GRID_ERROR
@@ -70,7 +71,8 @@ class LargerSurface:
     def intervals(self, curve: Curve, *, shared: bool = False) -> Intervals:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
 
-        The stiffness on loading keeps its share of that on unloading.
+        The stiffness on loading keeps its share of that on unloading. Where points yield, what its
+        grid leaves open of it is combined with that, as independent.
 
         Parameters
         ----------
@@ -85,7 +87,19 @@ class LargerSurface:
         with np.errstate(invalid="ignore"):  # bodies apart, and no upper end near full contact
             share = curve.stiffness / curve.unloading_stiffness
             loading = share * ends[0], share * ends[1]
-        return Intervals(loading, ends, self.shared_area if shared else self.area)
+            if curve.stiffness_error is not None:
+                shares = ends[0] / self.stiffness.values, ends[1] / self.stiffness.values
+                own = interval(curve.stiffness, curve.stiffness_error)
+                yields = share < 1
+                with_own = loading_under_unloading(_widened(curve.stiffness, own, shares), ends)
+                loading = (
+                    np.where(yields, with_own[0], loading[0]),
+                    np.where(yields, with_own[1], loading[1]),
+                )
+        area = self.shared_area if shared else self.area
+        if area is not None and curve.hardness is not None:  # no area bears more than the hardness
+            area = np.maximum(area[0], curve.force / (curve.hardness * curve.length**2)), area[1]
+        return Intervals(loading, ends, area)
 
 
 def roll_offs_along_a_side(surface: Surface) -> float | None:

@@ -29,12 +29,16 @@ def refuse_misfit(question: Question, body: Body) -> None:
             "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
             "loads, through its spectrum"
         )
-    if isinstance(body, Line) and (
-        question.hardness is not None or question.history or question.unload
-    ):
+    given = {
+        "hardness=": question.hardness is not None,
+        "history=True": question.history,
+        "unload=True": question.unload,
+    }
+    if isinstance(body, Line) and any(given.values()):
+        came = " and ".join(name for name, is_given in given.items() if is_given)
         raise InputError(
             "hardness, history and unload belong to a surface; the reduced model of a line "
-            f"{WITHOUT_YIELD}"
+            f"{WITHOUT_YIELD} (rms slopes below 0.8 H / E*): leave {came} out, or press a map"
         )
     if question.joint is not None:
         _refuse_as_piece_of_a_joint(body, question.joint)

@@ -8,14 +8,14 @@ import numpy as np
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.given import has_forces, several
-from roughline.assessment.hardness import hardness_of
+from roughline.assessment.hardness import WITHOUT_YIELD, hardness_of
 from roughline.assessment.kinds import is_map
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.engineering.answer import Answer
-from roughline.engineering.formulas import electrical_resistance
+from roughline.engineering.formulas import ELASTIC_UP_TO, electrical_resistance
 from roughline.engineering.joint import constriction_of_disc
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, Line, Surface
 from roughline.topography.repetition import border_jump
 from roughline.units import decimal, engineering
 
@@ -167,6 +167,28 @@ def cropping_and_resampling(body: Body) -> list[str]:
     return notes
 
 
+def how_far_a_line_serves(result: Assessment, *, grave: bool) -> list[str]:
+    """Say up to which slopes a line, whose model has no yield, stands for metals.
+
+    It is grave where the slopes of a scan are larger.
+    """
+    pair, body = result.question.pair, result.body
+    if pair is None or pair.hardness is None or not isinstance(body, Line):
+        return []
+    most = 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
+    said = (
+        f"the reduced model {WITHOUT_YIELD}, which rms slopes over {2 * ELASTIC_UP_TO:g} H / E* = "
+        f"{decimal(most, 2)} exceed"
+    )
+    is_scan = body.kind == "profile"
+    if is_scan:
+        said += f"; that of the scan is {decimal(body.rms_slope, 2)}"
+    is_grave = is_scan and body.rms_slope > most
+    if is_grave:
+        said += ", so these elastic answers do not hold: press a map, whose model has yield"
+    return [said] if is_grave == grave else []
+
+
 def of_yield(result: Assessment) -> list[str]:
     """Say what yields at the largest load, with which hardness, and how far its scatter matters."""
     curve, pair, hardness = result.curve, result.question.pair, hardness_of(result.question)
@@ -207,7 +229,10 @@ def _scatter_in_words(result: Assessment) -> str:
             "is not known there, and they come without intervals"
         )
     if np.allclose([*moved.values()], 1, rtol=0, atol=_LEAST / 100):
-        return "that moves no answer at the largest load, as nothing yields"
+        return (
+            "that moves no answer at the largest load but p_c/H and the estimates that are made "
+            "with the hardness, as nothing yields"
+        )
     told = [f"{name} {change_in_words(low, high)}" for name, (low, high) in moved.items()]
     return (
         f"as soft and as hard as that, at the largest load: {', '.join(told)}; that is in the "

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.limits import Limits, within
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Real
 from roughline.engineering.answer import Answer
 from roughline.statistics.places import average_of_places
-
-_AT_MOST_ONE = ("contact_area_fraction", "reflection")  # keys of what cannot be more than all
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +42,8 @@ class PartAnswer:
     count: Indices
 
     @classmethod
-    def of(cls, of_maps: Sequence[Answer]) -> PartAnswer:
-        """Average the answers of one or more maps."""
+    def of(cls, of_maps: Sequence[Answer], limits: Sequence[Limits] = ()) -> PartAnswer:
+        """Average the answers of one or more maps, within what each of them can be."""
         values = np.stack([each.values for each in of_maps])
         unknown = np.full(values.shape[1], np.nan)
         shared = [each.shared or each.ends or (unknown, unknown) for each in of_maps]
@@ -52,8 +51,10 @@ class PartAnswer:
         found = average_of_places(values, low, high)
         if len(of_maps) == 1:  # what one map leaves open of itself is no interval of the part
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
-        at_most = 1.0 if of_maps[0].key in _AT_MOST_ONE else np.inf
-        low, high = (np.minimum(end, at_most) for end in (found.low, found.high))
+        low, high = found.low, found.high
+        if limits:
+            least, most = zip(*limits, strict=True)
+            low, high = within((low, high), (np.min(least, axis=0), np.max(most, axis=0)))
         return cls(of_maps, found.mean, found.scatter, low, high, found.count)
 
     def ends_of_maps(self, load: int) -> tuple[Real, Real]:
@@ -72,6 +73,11 @@ class PartAnswer:
         ends = [each.ends or (each.values, each.values) for each in self.of_maps]
         low, high = (np.array([each[load] for each in side]) for side in zip(*ends, strict=True))
         return low, high
+
+    def at_most(self, most: Real) -> PartAnswer:
+        """The same, with no upper end over one."""
+        high = np.where(np.isnan(self.high), np.nan, np.fmin(self.high, most))
+        return replace(self, high=high)
 
     @property
     def key(self) -> str:
@@ -113,6 +119,8 @@ class PartAssessment:
     answers : mapping of str to PartAnswer
         By their keys, over the loads that were asked for. Maps of different size, without a joint,
         have no common answers that depend on it.
+    elastic : mapping of str to PartAnswer
+        The same without yield; empty where nothing yields in any map.
     warnings, notes : sequence of str
         What is to be said of all maps, and of single ones, with their names.
     """
@@ -123,6 +131,7 @@ class PartAssessment:
     refused: Mapping[str, str]
     left: Sequence[str]
     answers: Mapping[str, PartAnswer]
+    elastic: Mapping[str, PartAnswer] = field(default_factory=dict)
     warnings: Sequence[str] = ()
     notes: Sequence[str] = ()
 

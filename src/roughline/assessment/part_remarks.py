@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
 from roughline.assessment.assessment import Assessment
@@ -98,12 +99,16 @@ def what_the_maps_say(results: Mapping[str, Assessment]) -> tuple[list[str], lis
 def _once(said: Mapping[str, Sequence[str]]) -> list[str]:
     """Each remark once, with the names of the maps that it is of, unless it is of all.
 
-    Remarks that differ in their numbers alone are one; it has the numbers of its first map.
+    Remarks of different maps that differ in their numbers alone are one; it has the numbers of its
+    first map. Those of one map, such as of its loads, stay apart.
     """
-    remarks: dict[str, dict[str, str]] = {}
+    remarks: dict[tuple[str, int], dict[str, str]] = {}
     for name, texts in said.items():
-        for text in texts:
-            remarks.setdefault(_NUMBER.sub("#", text), {}).setdefault(name, text)
+        count: Counter[str] = Counter()
+        for text in dict.fromkeys(texts):
+            alike = _NUMBER.sub("#", text)
+            count[alike] += 1
+            remarks.setdefault((alike, count[alike]), {})[name] = text
     found = []
     for of_maps in remarks.values():
         first, *others = of_maps

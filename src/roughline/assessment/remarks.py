@@ -6,12 +6,10 @@ from roughline.assessment import notes as say
 from roughline.assessment.answers import broken_assumptions
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.grid import why_without_grid_error
-from roughline.assessment.hardness import WITHOUT_YIELD
-from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
-from roughline.topography.body import Line, Surface
+from roughline.topography.body import Surface
 
 
 def warnings_of(
@@ -22,6 +20,7 @@ def warnings_of(
     warnings = [
         *say.of_each(bodies, suspicions),
         *broken_assumptions(result, spectrum),
+        *say.how_far_a_line_serves(result, grave=True),
         *curve.warnings,
     ]
     warnings += say.of_joint_and_borders(result, grave=True)
@@ -36,11 +35,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
     bodies = [each.body for each in result.topographies]
     notes = say.of_yield(result)
     if pair is not None:
-        if isinstance(body, Line) and pair.hardness is not None:
-            notes.append(
-                f"the reduced model {WITHOUT_YIELD}, which rms slopes over "
-                f"{2 * ELASTIC_UP_TO:g} H / E* exceed"
-            )
+        notes += say.how_far_a_line_serves(result, grave=False)
         notes += left_out(pair, question.frequency_in_hertz)
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")

@@ -66,11 +66,14 @@ class Solution:
         assert unloading is not None
         assert unloading_error is not None
         low, high = interval(value, np.hypot(error, changes.area))
+        loading = interval(curve.stiffness, np.hypot(curve.stiffness_error, changes.stiffness))
+        springing = interval(unloading, np.hypot(unloading_error, changes.unloading))
         if curve.hardness is not None:  # no area bears more than the hardness
             low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
+            loading = loading_under_unloading(loading, springing)
         intervals = Intervals(
-            interval(curve.stiffness, np.hypot(curve.stiffness_error, changes.stiffness)),
-            interval(unloading, np.hypot(unloading_error, changes.unloading)),
+            loading,
+            springing,
             # whole cells overstate an area under summits, and finer waves take away from it
             (low, np.minimum(high, most + changes.area)),
         )
@@ -81,6 +84,16 @@ def interval(value: Real, error: Real) -> Ends:
     """Both ends of an interval, v / (1 + e / v) and v + e: nothing positive gets below zero."""
     with np.errstate(invalid="ignore"):
         return np.where(value == 0, 0.0, value / (1 + error / value)), value + error
+
+
+def loading_under_unloading(loading: Ends, unloading: Ends) -> Ends:
+    """Ends of the stiffness on loading, which lies between none and that on unloading.
+
+    That is all that is known where a coarser grid has nothing below the hardness.
+    """
+    known = np.isfinite(unloading[1])
+    low = np.where(np.isnan(loading[0]) & known, 0.0, loading[0])
+    return low, np.where(known, np.fmin(loading[1], unloading[1]), loading[1])
 
 
 def change(before: Real | None, after: Real | None) -> tuple[Real, float]:

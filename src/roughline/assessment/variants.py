@@ -11,6 +11,7 @@ from roughline.assessment.answers import with_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.hardness import hardness_of
 from roughline.assessment.larger_surface import LargerSurface
+from roughline.assessment.limits import Limits, limits_of_answers, within
 from roughline.assessment.loads import LoadCase
 from roughline.assessment.question import Question
 from roughline.assessment.uncertainty import Solution
@@ -67,8 +68,10 @@ class Variation:
             return with_answers(replace(other, curve=curve), self.larger, self.spectrum)
         loads = _borne(result, self.case, hardness)
         if not loads.any():
-            nothing = among_loads(at_loads(curve, np.flatnonzero(loads)), loads)
-            return with_answers(replace(other, curve=nothing), None, self.spectrum)
+            none = np.flatnonzero(loads)
+            nothing = among_loads(at_loads(curve, none), loads)
+            larger = self.larger.at(none).among(loads) if self.larger else None
+            return with_answers(replace(other, curve=nothing), larger, self.spectrum)
         solution, larger = self.solve(body, self.case.of_hardness(hardness, loads, curve))
         curve = among_loads(solution.curve, loads)
         other = replace(other, curve=curve, interrupted=solution.interrupted)
@@ -167,36 +170,35 @@ def _without_intervals(result: Assessment) -> Assessment:
 
 def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment]) -> Assessment:
     """Widen the intervals of an assessment by the ratios of others to a nominal one."""
-    whole = result.area * result.scale
-    limits: dict[str, tuple[Real | float, float]] = {
-        "contact_area": (0.0, whole),
-        "contact_area_fraction": (0.0, 1.0),
-        "contact_pressure": (result.curve_as_asked.force / result.area, np.inf),
-        "contact_pressure_over_hardness": (0.0, 1.0),
+    scatter = {
+        key: _ratios(nominal.answers[key].values, [other.answers[key].values for other in moved])
+        for key in result.answers
     }
-    answers, scatter = {}, {}
+    answers, limits = {}, dict(limits_of_answers(result))
+    stiffest = "interface_stiffness" if result.question.joint else "unloading_stiffness"
+    if (ends := result.answers[stiffest].ends) is not None:  # points at the hardness bear no more
+        most = _times(ends, scatter[stiffest])[1]
+        limits["contact_stiffness"] = (0.0, most)
+        limits["stiffness_per_area"] = (0.0, most / (result.area * result.scale))
     for key, each in result.answers.items():
-        ratios = _ratios(
-            nominal.answers[key].values, [other.answers[key].values for other in moved]
-        )
-        scatter[key] = ratios
-        ends = each.ends
+        ratios, ends = scatter[key], each.ends
         if key in _OF_HARDNESS_ALONE and result.intervals is not None:
             ends = each.values, each.values  # nothing else leaves them open
-        within = limits.get(key, (0.0, np.inf))
-        low, high = (None, None) if ends is None else _times(ends, ratios, *within)
-        shared = None if each.shared is None else _times(each.shared, ratios, *within)
+        can_be = limits.get(key, (0.0, np.inf))
+        low, high = (None, None) if ends is None else _times(ends, ratios, can_be)
+        shared = None if each.shared is None else _times(each.shared, ratios, can_be)
         answers[key] = replace(each, low=low, high=high, shared=shared)
 
-    def of_curve(ends: Ends, name: str, most: float = np.inf) -> Ends:
+    def of_curve(ends: Ends, name: str, most: Real | float = np.inf) -> Ends:
         values = [getattr(each.curve, name) for each in (nominal, *moved)]
-        return _times(ends, _ratios(values[0], values[1:]), most=most)
+        return _times(ends, _ratios(values[0], values[1:]), (0.0, most))
 
     known = result.intervals
     if known is not None:
+        unloading = of_curve(known.unloading, "unloading_stiffness")
         known = Intervals(
-            of_curve(known.stiffness, "stiffness"),
-            of_curve(known.unloading, "unloading_stiffness"),
+            of_curve(known.stiffness, "stiffness", unloading[1]),
+            unloading,
             None if known.area is None else of_curve(known.area, "area_fraction_corrected", 1.0),
         )
     return replace(result, intervals=known, answers=answers, hardness_scatter=scatter)
@@ -214,8 +216,7 @@ def _ratios(values: Real, moved: Sequence[Real]) -> Ends:
     return ratios.min(axis=0), ratios.max(axis=0)
 
 
-def _times(ends: Ends, ratios: Ends, least: Real | float = 0.0, most: float = np.inf) -> Ends:
+def _times(ends: Ends, ratios: Ends, can_be: Limits = (0.0, np.inf)) -> Ends:
     """Ends times ratios, within what can be."""
     with np.errstate(invalid="ignore"):  # nothing, times infinity
-        low, high = ends[0] * ratios[0], ends[1] * ratios[1]
-    return np.maximum(low, least), np.minimum(high, most)
+        return within((ends[0] * ratios[0], ends[1] * ratios[1]), can_be)

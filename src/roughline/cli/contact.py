@@ -222,7 +222,7 @@ def press_command(
     if report is not None and not load:
         raise InputError('a report needs a --load, such as "10 N"')
     if friction is not None and report is None and not json:
-        raise InputError("partial slip is drawn in a report: give --report too")
+        raise InputError("partial slip is told in a report and in JSON: give --report or --json")
     question = Question(
         file[0] if len(file) == 1 else file,
         materials=materials,

@@ -11,6 +11,7 @@ _FLAGS = {
     "materials": "--materials",
     "loads": "--load",
     "depths": "--depth",
+    "against": "--against",
     "hardness": "--hardness",
     "elastic": "--elastic",
     "history": "--history",

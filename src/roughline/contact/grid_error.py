@@ -71,26 +71,33 @@ def with_grid_error(
     half = _halved(surface)
     curves = [press_coarse(grid) for grid in (_halved(half), half)] + [curve]
     areas = [_area(each) for each in curves]
-    most, plastic = curve.area_fraction_most, curve.plastic_fraction
+    most = curve.area_fraction_most
     assert most is not None
-    assert plastic is not None
     area_error = np.maximum(_error(areas, _SAFETY_AREA), most - areas[-1])
+    with np.errstate(invalid="ignore"):  # bodies apart
+        loading, unloading = _stiffness_errors(curves, np.log1p(area_error / areas[-1]))
+    return replace(
+        curve,
+        stiffness_error=loading,
+        unloading_stiffness_error=unloading,
+        area_fraction_error=area_error,
+    )
+
+
+def _stiffness_errors(curves: Sequence[Curve], area: Real) -> tuple[Real, Real]:
+    """Return the errors of both stiffnesses from that of the area's logarithm."""
+    plastic = curves[-1].plastic_fraction
+    assert plastic is not None
     safety = _SAFETY_STIFFNESS + _SAFETY_OF_YIELD * plastic
-    stiffness = [each.stiffness for each in curves]
-    unloading = [_unloading(each) for each in curves]
+    loading, unloading = [each.stiffness for each in curves], [_unloading(each) for each in curves]
+    k, k_u = loading[-1], unloading[-1]
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
-        least = np.where(plastic > 0, _SHARE_OF_AREA * np.log1p(area_error / areas[-1]), 0.0)
-        taken = np.where(plastic > 0, _SHARE_OF_YIELD * np.log(unloading[-1] / stiffness[-1]), 0.0)
-        taken[stiffness[-1] == 0] = 0.0  # all of the contact yields
-        return replace(
-            curve,
-            stiffness_error=np.maximum(
-                _error(stiffness, safety), stiffness[-1] * np.expm1(np.maximum(least, taken))
-            ),
-            unloading_stiffness_error=np.maximum(
-                _error(unloading, safety), unloading[-1] * np.expm1(least)
-            ),
-            area_fraction_error=area_error,
+        least = np.where(plastic > 0, _SHARE_OF_AREA * area, 0.0)
+        # where all of the contact yields, nothing is left of k
+        taken = np.where((plastic > 0) & (k > 0), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
+        return (
+            np.maximum(_error(loading, safety), k * np.expm1(np.maximum(least, taken))),
+            np.maximum(_error(unloading, safety), k_u * np.expm1(least)),
         )
 
 

@@ -28,9 +28,9 @@ def elastic_warnings(answers: Mapping[str, Answer], plasticity: float | None) ->
         worst = float(np.nanmax(over_hardness.values))
         if worst > formulas.ELASTIC_UP_TO:
             warnings.append(
-                f"the mean contact pressure reaches {decimal(worst, 2)} of the softer body's "
-                f"hardness; beyond {formulas.ELASTIC_UP_TO:g} the summits yield, so these elastic "
-                "answers do not hold: leave out elastic=True, or an infinite hardness="
+                f"the mean contact pressure reaches {decimal(worst, 2)} times the softer body's "
+                f"hardness; beyond {formulas.ELASTIC_UP_TO:g} of it summits yield, so these "
+                "elastic answers do not hold: leave out elastic=True, or an infinite hardness="
             )
     if plasticity is not None and plasticity > 1:
         warnings.append(

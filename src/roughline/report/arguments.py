@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-_ARGUMENT = re.compile(r'\b(\w+)=(?:True|"([^"]*)")?')
+_ARGUMENT = re.compile(r'(?<!")\b(\w+)=(?:True|"([^"]*)")?')
 
 
 def with_arguments_called(
@@ -16,7 +16,8 @@ def with_arguments_called(
     Parameters
     ----------
     message : str
-        Such as "allow more (most_missing=)".
+        Such as "allow more (most_missing=)". What follows a quotation mark, such as
+        "hardness=...", is no argument but text to be typed, and stays.
     names : mapping of str to str
         What arguments are called; others are left as they are.
     quoted : callable

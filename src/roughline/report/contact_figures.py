@@ -18,7 +18,7 @@ from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends
 from roughline.report.folder import make_folder
 from roughline.report.pixels import any_marked, thinned
-from roughline.report.style import PAGE, new_figure, save, styled
+from roughline.report.style import PAGE, label_decades, new_figure, save, styled
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.roughness import Roughness
 from roughline.topography.body import Body, Surface
@@ -62,13 +62,7 @@ def curve_figure(assessment: Assessment) -> Figure:
     """Force over depth, and stiffness over force; open marks where the grid decides."""
     figure = new_figure(PAGE, 3.0)
     left, right = figure.subplots(1, 2)
-    curve = assessment.curve
-    depth_unit, depth = _prefixed(curve.depth, "m")
-    force_unit, force = _prefixed(curve.force, "N", assessment.scale)
-    _draw_loads(left, curve.depth * depth, curve.force * force, curve)
-    left.set(
-        xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=_force_label(assessment, force_unit)
-    )
+    draw_force(left, assessment)
     draw_stiffness(right, assessment)
     return figure
 
@@ -92,6 +86,20 @@ def roughness_figure(body: Body, parameters: Roughness) -> Figure:
     return figure
 
 
+def draw_force(axes: Axes, assessment: Assessment) -> None:
+    """Force over depth; where loads fall, on linear scales, which show both ways and the dent."""
+    curve, falls = assessment.curve, has_falling_loads(assessment)
+    depth_unit, depth = _prefixed(curve.depth, "m")
+    force_unit, force = _prefixed(curve.force, "N", assessment.scale)
+    _draw_loads(axes, curve.depth * depth, curve.force * force, curve, linear=falls)
+    axes.set(
+        xlabel=f"depth since touch $d$ [{depth_unit}]", ylabel=_force_label(assessment, force_unit)
+    )
+    if falls:
+        axes.plot([], [], "o", color="tab:blue", label="after a larger load")
+        axes.legend()
+
+
 def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     """Stiffness over force with its interval, and theories beside it; of the joint, if given."""
     curve, area, scale = assessment.curve, assessment.area, assessment.scale
@@ -102,9 +110,9 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     if curve.hardness is not None and curve.unloading_stiffness is not None:
         rising = _rising(curve)
         unloading = curve.unloading_stiffness[rising] * stiffness
-        axes.loglog(
-            curve.force[rising] * force, unloading, "--.", color="tab:red", label="unloading $k_u$"
-        )
+        symbol = "k_u" if assessment.question.joint is None else "k_i"
+        label = f"unloading ${symbol}$"
+        axes.loglog(curve.force[rising] * force, unloading, "--.", color="tab:red", label=label)
         _draw_interval(axes, curve, assessment.unloading_interval, (force, stiffness), "tab:red")
         axes.legend()
     for theory, dashes in zip(assessment.theories, _DASHES, strict=False):
@@ -116,7 +124,7 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
                 label=theory.name,
             )
             axes.legend()
-    symbol = "k" if assessment.question.joint is None else "k_i"
+    symbol = "k_i" if assessment.question.joint and curve.hardness is None else "k"
     axes.set(xlabel=_force_label(assessment, force_unit), ylabel=f"stiffness ${symbol}$ [{unit}]")
 
 
@@ -202,7 +210,8 @@ def draw_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
         assert curve.area_fraction_corrected is not None
         share = decimal(100 * curve.area_fraction_corrected[i], 4)
         force = engineering(curve.force[i] * assessment.scale, "N")
-        axes.set_title(f"corrected area {share}% at {force}", fontsize=8)
+        key = "\nred: at the hardness" if fields.plastic.any() else ""
+        axes.set_title(f"corrected area {share}% at {force}{key}", fontsize=8)
         return
 
 
@@ -217,6 +226,7 @@ def draw_spectrum(axes: Axes, parameters: Roughness) -> None:
     axes.loglog(spectrum.q[known], power[known], ".", color="0.4", markersize=2)
     if parameters.law is not None:
         axes.loglog(*parameters.law, color="tab:red")
+    label_decades(axes)
     symbol = "$C_{2d}$ [m⁴]" if of_surface else "$C_{profile}$ [m³]"
     axes.set(xlabel="wavenumber $q = 2\\pi/\\lambda$ [1/m]", ylabel=f"spectrum {symbol}")
     if fit is not None:
@@ -224,15 +234,24 @@ def draw_spectrum(axes: Axes, parameters: Roughness) -> None:
         axes.set_title(f"H = {fit.hurst:.2f} ({low:.2f} to {high:.2f})", fontsize=9)
 
 
-def _draw_loads(axes: Axes, x: Real, y: Real, curve: Curve) -> None:
+def has_falling_loads(assessment: Assessment) -> bool:
+    """Whether a load is smaller than one before it."""
+    return not bool(_rising(assessment.curve).all())
+
+
+def _draw_loads(axes: Axes, x: Real, y: Real, curve: Curve, *, linear: bool = False) -> None:
     """Draw the loads of a curve in their order; those after a larger one in blue."""
-    rising, resolved = _rising(curve), curve.resolved
-    shown = (x > 0) & (y > 0)  # scales are logarithmic: bodies just apart have no place
-    axes.loglog(x[shown], y[shown], color="0.5", linewidth=0.8)
+    rising, resolved = _rising(curve), curve.resolved | (curve.force == 0)
+    # on logarithmic scales bodies just apart have no place
+    shown = np.isfinite(x * y) if linear else (x > 0) & (y > 0)
+    draw = axes.plot if linear else axes.loglog
+    draw(x[shown], y[shown], color="0.5", linewidth=0.8)
     for when, colour in ((rising, "k"), (~rising, "tab:blue")):
         for which, fill in ((resolved, "full"), (~resolved, "none")):
             points = shown & when & which
-            axes.loglog(x[points], y[points], "o", color=colour, fillstyle=fill)
+            draw(x[points], y[points], "o", color=colour, fillstyle=fill)
+    if not linear:
+        label_decades(axes)
 
 
 def _draw_interval(

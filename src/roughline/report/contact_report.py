@@ -12,10 +12,12 @@ from roughline.report.contact_figures import (
     draw_area,
     draw_contact,
     draw_filled,
+    draw_force,
     draw_heights,
     draw_partial_slip,
     draw_spectrum,
     draw_stiffness,
+    has_falling_loads,
     write_contact,
 )
 from roughline.report.contact_tables import (
@@ -106,9 +108,9 @@ def _lead(assessment: Assessment) -> str:
 
 
 def _overview(assessment: Assessment) -> Figure:
-    friction = assessment.question.friction
+    friction, falls = assessment.question.friction, has_falling_loads(assessment)
     figure = new_figure(PAGE, 4.6)
-    panels = figure.subplots(2, 2 if friction is None else 3).ravel()
+    panels = figure.subplots(2, 3 if friction is not None or falls else 2).ravel()
     draw_heights(panels[0], assessment.body)
     draw_filled(panels[0], assessment)
     remaining = list(panels[1:])
@@ -116,10 +118,12 @@ def _overview(assessment: Assessment) -> Figure:
         draw_spectrum(remaining.pop(0), assessment.roughness)
     draw_stiffness(remaining.pop(0), assessment)
     if isinstance(assessment.body, Surface):
-        if assessment.theories or friction is not None:
+        if assessment.theories or (friction is not None) != falls:  # with both there is no room
             draw_area(remaining.pop(0), assessment)
         if remaining:
             draw_contact(remaining.pop(0), assessment.body, assessment)
+    if falls and remaining:
+        draw_force(remaining.pop(0), assessment)
     if friction is not None and remaining:
         draw_partial_slip(remaining.pop(0), assessment.partial_slip)
     for empty in remaining:
@@ -174,7 +178,7 @@ def _caption(assessment: Assessment) -> str:
     marked = any(part.filled_region is not None for part in assessment.topographies)
     marks = ["open marks: fewer than ten points in contact"]
     marks += ["dashed: on unloading"] if yields else []
-    marks += ["blue: after a larger load"] if question.history or question.unload else []
+    marks += ["blue: after a larger load"] if has_falling_loads(assessment) else []
     shown = [
         ("Heights of the map" if question.joint is not None else "Heights")
         + (" (red: filled points)" if marked else ""),
@@ -183,6 +187,8 @@ def _caption(assessment: Assessment) -> str:
     ]
     if assessment.theories:
         shown.append("and theories for the same spectrum")
+    if has_falling_loads(assessment):
+        shown.append("force over depth")
     if isinstance(assessment.body, Surface):
         red = " (red: at the hardness)" if yields else ""
         shown.append(

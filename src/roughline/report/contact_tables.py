@@ -119,8 +119,12 @@ def elastic_in_words(assessment: Assessment) -> str:
 
 def _differs(elastic: Answer, yielding: Answer, i: int) -> bool:
     """Whether elastic bodies give something else: beyond the interval, or a per cent without."""
-    value, other = yielding.values[i], elastic.values[i]
-    low, high = _at(yielding.ends, i) or (np.nan, np.nan)
+    return differs(float(elastic.values[i]), float(yielding.values[i]), _at(yielding.ends, i))
+
+
+def differs(other: float, value: float, ends: tuple[float, float] | None) -> bool:
+    """Whether another value lies beyond the interval of a value, or a per cent off without one."""
+    low, high = ends or (np.nan, np.nan)
     if np.isnan([low, high]).any():
         low, high = 0.99 * value, 1.01 * value
     return bool(other < low or other > high)

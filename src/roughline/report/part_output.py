@@ -11,7 +11,13 @@ from rich.console import Console
 from roughline.assessment.part import PartAssessment
 from roughline.report.contact_tables import UNRESOLVED
 from roughline.report.json_output import of_assessment
-from roughline.report.part_tables import leading_table, maps_table, part_table, star_is_shown_of
+from roughline.report.part_tables import (
+    elastic_of_part_in_words,
+    leading_table,
+    maps_table,
+    part_table,
+    star_is_shown_of,
+)
 from roughline.report.terminal import print_files, print_table
 
 _MOST_LOADS = 2  # whose answers fit on a screen beside each other
@@ -37,6 +43,9 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
     if part.answers:
         console.print()
         print_table(console, *part_table(part, loads))
+    if elastic := elastic_of_part_in_words(part):
+        where = " (at the largest load)" if len(part.headings) > 1 else ""
+        console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
     if star_is_shown_of(part):
         console.print(f"* {UNRESOLVED}", highlight=False)
     if len(part.headings) > _MOST_LOADS:
@@ -64,6 +73,7 @@ def of_part(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
                 "low": each.low,
                 "high": each.high,
                 "maps": each.count,
+                "if_elastic": (elastic := part.elastic.get(each.key)) and elastic.mean,
             }
             for each in part.answers.values()
         },

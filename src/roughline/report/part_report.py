@@ -18,6 +18,7 @@ from roughline.report.page import Picture, Section, Table
 from roughline.report.part_figures import answers_figure, heights_figure
 from roughline.report.part_tables import (
     each_map_table,
+    elastic_of_part_in_words,
     leading_keys_of,
     leading_table,
     maps_table,
@@ -115,11 +116,13 @@ def _lead(part: PartAssessment) -> str:
         )
     answers = ", ".join(f"{each.of_maps[0].name} {mean_and_interval(each, i)}" for each in leading)
     scatter = scatter_in_words(leading[0], i)
+    elastic = elastic_of_part_in_words(part)
     unsure = any(not each.curve_as_asked.resolved[i] for each in part.assessments)
     between = f"; places scatter by {scatter} in {leading[0].name}" if len(part.names) > 1 else ""
     return sentence(
         f"{pair.first.name} on {pair.second.name} under {under}: {answers}{between}"
         + (f" ({UNRESOLVED})" if unsure else "")
+        + (f"; {elastic}" if elastic else "")
     )
 
 
@@ -130,7 +133,10 @@ def _sections(
     assert pair is not None
     legend = [f"A star: {UNRESOLVED}."] if star_is_shown_of(part) else []
     loads, maps = range(len(part.headings)), range(len(part.names))
-    of_part = [part_table(part, loads[i : i + _LOADS_ABREAST]) for i in loads[::_LOADS_ABREAST]]
+    of_part = [
+        part_table(part, loads[i : i + _LOADS_ABREAST], with_elastic=True)
+        for i in loads[::_LOADS_ABREAST]
+    ]
     of_maps = [
         each_map_table(part, load, maps[i : i + _MAPS_ABREAST])
         for load in loads

@@ -8,6 +8,8 @@ import numpy as np
 
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.report.contact_tables import (
+    IF_ELASTIC,
+    differs,
     leading_keys,
     quantity,
     star_is_shown,
@@ -24,22 +26,45 @@ NO_MEAN = "-"
 _SAME = 1e-6  # scatter below which a quantity was given, and did not come out
 
 
-def part_table(part: PartAssessment, loads: Sequence[int]) -> tuple[list[str], list[list[str]]]:
+def part_table(
+    part: PartAssessment, loads: Sequence[int], *, with_elastic: bool = False
+) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of mean, interval and scatter of all answers at some of the loads.
 
-    A star marks loads under which the grid decides on a map.
+    A star marks loads under which the grid decides on a map. The mean of elastic bodies stands
+    below, if wanted, where yield changes it by more than its interval.
     """
     headings = [starred(each) for each in part.assessments]
     header = [""]
     for i in loads:
         header += [max((each[i] for each in headings), key=len), "scatter"]
     rows = []
-    for each in part.answers.values():
+    for key, each in part.answers.items():
         row = [f"{each.name} {each.symbol}"]
         for i in loads:
             row += [mean_and_interval(each, i), scatter_in_words(each, i)]
         rows.append(row)
+        elastic = part.elastic.get(key) if with_elastic else None
+        if elastic is not None and any(_differs(elastic, each, i) for i in loads):
+            row = [IF_ELASTIC]
+            for i in loads:
+                row += [_mean(elastic, i), ""]
+            rows.append(row)
     return header, rows
+
+
+def elastic_of_part_in_words(part: PartAssessment) -> str:
+    """Say what the leading means would be of elastic bodies, at the largest load.
+
+    Nothing is said of those that yield does not change by more than their interval.
+    """
+    i = part.largest
+    shown = []
+    for key in leading_keys_of(part):
+        elastic, answer = part.elastic.get(key), part.answers.get(key)
+        if elastic is not None and answer is not None and _differs(elastic, answer, i):
+            shown.append(f"{elastic.name} {_mean(elastic, i)}")
+    return f"{IF_ELASTIC}: {', '.join(shown)}" if shown else ""
 
 
 def each_map_table(
@@ -100,6 +125,18 @@ def mean_and_interval(answer: PartAnswer, i: int) -> str:
         return NO_MEAN
     ends = (float(answer.low[i]), float(answer.high[i]))
     return with_interval(mean, ends, unit_shown(answer.of_maps[0]))
+
+
+def _mean(answer: PartAnswer, i: int) -> str:
+    """Write the mean of an answer at one load alone."""
+    mean = float(answer.mean[i])
+    return NO_MEAN if np.isnan(mean) else with_interval(mean, None, unit_shown(answer.of_maps[0]))
+
+
+def _differs(elastic: PartAnswer, yielding: PartAnswer, i: int) -> bool:
+    """Whether yield changes a mean by more than its interval."""
+    ends = float(yielding.low[i]), float(yielding.high[i])
+    return differs(float(elastic.mean[i]), float(yielding.mean[i]), ends)
 
 
 def scatter_in_words(answer: PartAnswer, i: int) -> str:

@@ -9,6 +9,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterSciNotation
 from numpy.typing import NDArray
 
 COLUMN, PAGE = 3.5, 7.2
@@ -62,6 +63,11 @@ def save(figure: Figure, folder: Path, name: str) -> list[Path]:
     figure.savefig(paths[0], metadata={"Software": None})
     figure.savefig(paths[1], metadata={"CreationDate": None, "Creator": None, "Producer": None})
     return paths
+
+
+def label_decades(axes: Axes) -> None:
+    """Label the powers of ten alone on a logarithmic x axis, where labels would overlap."""
+    axes.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(0, 0.4)))
 
 
 def legend_dimensions(axes: Axes, dimensions: NDArray[np.float64]) -> None:

@@ -13,6 +13,7 @@ from rich.table import Table
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.comparison import ModelComparison
 from roughline.assessment.description import Description
+from roughline.assessment.given import several
 from roughline.contact.curve import Status
 from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import (
@@ -59,20 +60,23 @@ def print_assessment(
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
-    many = assessment.asked.size > _MOST_SHOWN
-    answered = pair is not None and assessment.asked.size <= _MOST_ANSWERED
+    count = assessment.asked.size
+    many, typed = count > _MOST_SHOWN, len(several(assessment.question.loads)) or count
+    answered = typed if pair is not None and typed <= _MOST_ANSWERED else 0
     if many:
         console.print(_in_one_line(assessment, long_curves_by), highlight=False, soft_wrap=True)
-    elif answered:
-        print_table(console, *answer_table(assessment, slice(None)))  # formulas are for the report
-    else:
+    elif answered < count:
         print_table(console, *curve_table(assessment))
+    if answered:  # formulas are for the report
+        print_table(console, *answer_table(assessment, slice(answered)))
     if elastic := elastic_in_words(assessment):
-        console.print(elastic, highlight=False, soft_wrap=not console.is_terminal)
+        where = " (at the largest load)" if count > 1 else ""
+        console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
     if star_is_shown(assessment) and not many:
         console.print(f"* {UNRESOLVED}", highlight=False)
-    if pair is not None and not answered:
-        console.print(f"answers at more than {_MOST_ANSWERED} loads are for {many_answers_by}")
+    if pair is not None and answered < count:
+        which = "under the falling loads" if answered else f"at more than {_MOST_ANSWERED} loads"
+        console.print(f"answers {which} are for {many_answers_by}")
     for failure in _failures(assessment) if not many else ():
         console.print(failure, highlight=False)
     for theory in assessment.theories:

@@ -73,8 +73,9 @@ def average_of_places(
             np.hypot(of_places, _median_distance(np.abs(np.log(values / ends)), known))
             for ends in (low, high)
         ]
+        is_open = np.fmax(*halves) > 0
         ends = [
-            np.where(half > 0, np.exp(centre + sign * half), np.nan)
+            np.where(is_open, np.exp(centre + sign * half), np.nan)
             for sign, half in zip((-1, 1), halves, strict=True)
         ]
     alike = (values == values[:1]).all(axis=0) & extreme

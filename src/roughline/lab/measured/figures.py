@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bokeh.models import (
+    BasicTickFormatter,
     BoxAnnotation,
     BoxSelectTool,
     BoxZoomTool,
@@ -12,6 +13,7 @@ from bokeh.models import (
     ColumnDataSource,
     DataRange1d,
     FactorRange,
+    FixedTicker,
     GlyphRenderer,
     LinearColorMapper,
     Range1d,
@@ -235,6 +237,9 @@ def _part() -> figure:
     _colour(drawn, fill_color="dark-line", line_color="dark-line")
     plot.xaxis.major_label_orientation = 0.6
     plot.xgrid.visible = False
+    ticks = [mantissa * 10.0**power for power in range(-6, 7) for mantissa in (1, 2, 5)]
+    plot.yaxis.ticker = plot.ygrid.ticker = FixedTicker(ticks=ticks)  # Bokeh's own miss decades
+    plot.yaxis.formatter = BasicTickFormatter()
     _finish(plot, "part", None, None)
     return plot
 

@@ -1,7 +1,7 @@
 // Plots of Bokeh: embedding, data, colours of the theme, keys, and the tables below them.
 import {unpacked} from "./link.js";
 
-const documents = [];
+const documents = [], allPlots = [];
 
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
 const bokeh = new Promise((loaded) => {
@@ -30,6 +30,7 @@ export class Plots {
   constructor(made, palettes) {
     this.made = made;
     this.palettes = palettes;
+    allPlots.push(this);
     for (const root of made.roots()) {
       Bokeh.index.find_one(root)?.repainted.connect(() => this.#tellDrawn(root.name));
     }
@@ -77,6 +78,11 @@ export class Plots {
     const wanted = palette === "marks" ? [colour("paper"), colour("ink"), colour("plastic")] : this.palettes[palette];
     this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper")});
     this.model(`${name} bar`).visible = palette !== "marks";
+  }
+
+  // Give maps that were drawn before the palettes of the theme.
+  recolourMaps() {
+    for (const [name, before] of Object.entries(this.#palette)) this.colours(name, before.split(" ")[0]);
   }
 
   // Show a rectangle in maps that share their ranges, with equal scales, whatever their size.
@@ -146,6 +152,7 @@ export function fillTable(id, header, rows) {
 export function recolourAll() {
   known.clear();
   documents.forEach(recolour);
+  allPlots.forEach((plots) => plots.recolourMaps());
 }
 
 const known = new Map(); // colours: to ask for one makes the browser style the page again
