@@ -75,7 +75,7 @@ STIFFNESS_OF_MANY = Share(
 )
 """Stiffness per area, beside the mean over many pieces: what more of them do not mend."""
 
-AREA_OF_ONE = Share(Halves(0.13, (0.2, 0.55)), Halves(0.02, (0.15, 0.45)), bounded=True)
+AREA_OF_ONE = Share(Halves(0.2, (0.2, 0.6)), Halves(0.06, (0.25, 0.6)), bounded=True)
 """Contact area fraction, beside that of a single piece."""
 
 AREA_OF_MANY = Share(Halves(0.03, (0.1, 0.35)), Halves(0.02, (0.05, 0.2)), bounded=True)

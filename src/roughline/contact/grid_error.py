@@ -9,6 +9,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
+from roughline.contact.scaling import EXACT_PUNCH
 from roughline.errors import InputError
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
@@ -20,7 +21,7 @@ _SAFETY_OF_YIELD = (
     2.5  # more where all of the contact yields: finer waves go on cutting up its spots
 )
 _SAFETY_AREA = 3.0
-_SHARE_OF_AREA = 0.15  # of the area's error is in the stiffness where something yields, at least
+_SHARE_OF_AREA = 0.25  # of the area's error is in the stiffness where something yields, at least
 _SHARE_OF_YIELD = 0.3  # of what yield takes from the stiffness on loading is uncertain, at least
 _FASTEST_DECAY = 0.5  # at contact edges the order is one: differences halve at best grid by grid
 _FASTEST_GROWTH = 2.0  # and double at worst, where noise of the pixels prevails
@@ -41,8 +42,9 @@ def with_grid_error(
 
     Yield adds to this. Safety factors of stiffnesses grow with the share of the contact that
     yields. Where something yields, the logarithm of a stiffness is at least as uncertain as a part
-    of that of the area: waves that only a finer grid has let more of the body yield, and what they
-    change can cancel on the coarser grids. That of the stiffness on loading, which single cells
+    of that of the area, less near the stiffness of the flat punch, where areas hardly matter: waves
+    that only a finer grid has let more of the body yield, and what they change can cancel on the
+    coarser grids. That of the stiffness on loading, which single cells
     decide, is at least as uncertain as a part of its difference from that on unloading.
 
     The errors cover grids four times finer of a surface that goes on as rough as it is; they do not
@@ -92,13 +94,21 @@ def _stiffness_errors(curves: Sequence[Curve], area: Real) -> tuple[Real, Real]:
     loading, unloading = [each.stiffness for each in curves], [_unloading(each) for each in curves]
     k, k_u = loading[-1], unloading[-1]
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
-        least = np.where(plastic > 0, _SHARE_OF_AREA * area, 0.0)
+        least = np.where(plastic > 0, _SHARE_OF_AREA * area * _open_share(curves[-1]), 0.0)
         # where all of the contact yields, nothing is left of k
         taken = np.where((plastic > 0) & (k > 0), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
         return (
             np.maximum(_error(loading, safety), k * np.expm1(np.maximum(least, taken))),
             np.maximum(_error(unloading, safety), k_u * np.expm1(least)),
         )
+
+
+def _open_share(curve: Curve) -> Real | float:
+    """Return what the stiffness on unloading lacks of that of a flat punch of the same area."""
+    if curve.settings["boundary"] == "periodic":  # a flat one is infinitely stiff
+        return 1.0
+    punch = EXACT_PUNCH * curve.E_star * curve.length
+    return np.clip(1 - _unloading(curve) / punch, 0.0, 1.0)
 
 
 def refuse_few_points(surface: Surface) -> None:
