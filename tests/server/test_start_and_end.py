@@ -131,7 +131,7 @@ def test_ctrl_c_before_it_is_up_ends_it_quietly(moment, tmp_path):
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        env=os.environ | {"TMPDIR": str(tmp_path)},
+        env=os.environ | {"TMPDIR": str(tmp_path), "PYTHONFAULTHANDLER": "1"},
         start_new_session=True,
     ) as process:
         if moment == "forking":
@@ -139,7 +139,11 @@ def test_ctrl_c_before_it_is_up_ends_it_quietly(moment, tmp_path):
         else:
             wait_until(lambda: list(tmp_path.glob("roughline-lab-*")))
         os.killpg(process.pid, signal.SIGINT)
-        said = process.communicate(timeout=20)[0]
+        try:
+            said = process.communicate(timeout=20)[0]
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGABRT)  # it says where it waits
+            pytest.fail(process.communicate(timeout=20)[0])
     assert "KeyboardInterrupt" not in said
     assert "Task" not in said
     assert not list(tmp_path.glob("roughline-lab-*"))
