@@ -17,6 +17,7 @@ from tornado.netutil import bind_sockets
 from tornado.websocket import websocket_connect
 
 from roughline.lab.site import site
+from roughline.server.interrupts import noted_interrupts
 from roughline.server.serve import Server
 from roughline.server.settings import ServerSettings
 from server.serving import (
@@ -147,6 +148,16 @@ def test_ctrl_c_before_it_is_up_ends_it_quietly(moment, tmp_path):
     assert "KeyboardInterrupt" not in said
     assert "Task" not in said
     assert not list(tmp_path.glob("roughline-lab-*"))
+
+
+def test_ctrl_c_while_modules_are_loaded_is_not_lost():
+    """Python ignores what is raised in the calls that it makes itself then."""
+    before = signal.getsignal(signal.SIGINT)
+    with noted_interrupts() as interrupted:
+        assert not interrupted()
+        signal.raise_signal(signal.SIGINT)
+        assert interrupted()
+    assert signal.getsignal(signal.SIGINT) is before
 
 
 def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):

@@ -34,6 +34,7 @@ def lab(
     The server runs on this machine until Ctrl-C, needs no network, and is open to this machine
     alone. With --host others can reach it; then it asks for a password.
     """
+    from roughline.server.interrupts import noted_interrupts
     from roughline.server.process import start_forking
     from roughline.server.settings import ServerSettings, password_in
 
@@ -46,9 +47,6 @@ def lab(
         max_seconds=max_seconds,
         max_memory=max_memory * _MB,
     )
-    start_forking("roughline.lab.warm")  # which loads numerics while this process loads the server
-    from roughline.lab.site import site
-    from roughline.server.serve import serve
 
     def ready(address: str) -> None:
         typer.echo(f"The lab is open at {address} - Ctrl-C closes it.")
@@ -64,5 +62,11 @@ def lab(
 
             webbrowser.open(address)
 
-    serve(site(), settings, ready)
+    with noted_interrupts() as interrupted:
+        # which loads numerics while this process loads the server
+        start_forking("roughline.lab.warm")
+        from roughline.lab.site import site
+        from roughline.server.serve import serve
+
+        serve(site(), settings, ready, interrupted)
     typer.echo("The lab is closed.")

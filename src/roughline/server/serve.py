@@ -151,7 +151,12 @@ def _lanes(settings: ServerSettings) -> tuple[Lane, Lane]:
     return Lane(quick, lasting=True), Lane(slow, lasting=False)
 
 
-def serve(site: Site, settings: ServerSettings, ready: Callable[[str], None]) -> None:
+def serve(
+    site: Site,
+    settings: ServerSettings,
+    ready: Callable[[str], None],
+    interrupted: Callable[[], bool],
+) -> None:
     """Serve until Ctrl-C.
 
     Parameters
@@ -162,6 +167,8 @@ def serve(site: Site, settings: ServerSettings, ready: Callable[[str], None]) ->
         What to listen to, and the limits of a session.
     ready : callable
         Told the address of the page as soon as it can be opened.
+    interrupted : callable
+        Says whether Ctrl-C came before the server listens to it.
 
     Raises
     ------
@@ -172,16 +179,21 @@ def serve(site: Site, settings: ServerSettings, ready: Callable[[str], None]) ->
     with suppress(KeyboardInterrupt), ExitStack() as opened:
         sockets = [opened.enter_context(each) for each in _listening(settings)]
         server = Server(site, settings, opened.enter_context(folder_of_files()))
-        asyncio.run(_serve(server, sockets, ready))
+        asyncio.run(_serve(server, sockets, ready, interrupted))
 
 
 async def _serve(
-    server: Server, sockets: list[socket.socket], ready: Callable[[str], None]
+    server: Server,
+    sockets: list[socket.socket],
+    ready: Callable[[str], None],
+    interrupted: Callable[[], bool],
 ) -> None:
     stopped = asyncio.Event()
     for name in ("SIGINT", "SIGTERM"):
         with suppress(NotImplementedError, AttributeError):  # Windows raises KeyboardInterrupt
             asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
+    if interrupted():
+        stopped.set()
     listening = HTTPServer(
         server.application(), max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS
     )
