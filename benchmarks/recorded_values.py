@@ -214,8 +214,8 @@ def _difference(before, after):
 
 
 def _bits(array):
-    array = np.ascontiguousarray(array)
-    return array.view(f"u{array.itemsize}").reshape(array.shape)
+    # a scalar would come back with one axis
+    return np.ascontiguousarray(array).view(f"u{array.itemsize}").reshape(array.shape)
 
 
 def _text_difference(before, after):
