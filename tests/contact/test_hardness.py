@@ -86,7 +86,11 @@ def test_a_zero_unloads(surface, hardness):
     assert curve.converged.all()
     for name in ("force", "stiffness", "unloading_stiffness", "area_fraction", "plastic_fraction"):
         assert not getattr(curve, name)[apart].any(), name
-    assert (curve.depth[apart] == curve.indentation[apart].max()).all() == (hardness is None)
+    if hardness is None:
+        assert not curve.depth[apart].any()
+    else:  # the highest point that is left is lower, if not by the deepest dent
+        assert (curve.depth[apart] > 0).all()
+        assert (curve.depth[apart] < curve.indentation[apart]).all()
     for i in apart:
         assert not curve.fields[i].contact.any()
         assert curve.fields[i].gap.min() == pytest.approx(0, abs=1e-12)

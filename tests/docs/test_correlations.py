@@ -1,6 +1,7 @@
 """The page on the handbooks' correlations: it is that of the data, and the data are the plan's."""
 
 import math
+from statistics import NormalDist
 
 import numpy as np
 import pytest
@@ -165,12 +166,14 @@ def test_four_times_the_surfaces_halve_an_interval():
 
 
 def test_heights_are_gaussian():
-    """Moments to 0.02 and 0.04, and the shares above heights to three standard errors."""
+    """Moments to 0.02 and 0.04, shares above heights to three standard errors, heights to 2 %."""
     found = heights()
     assert abs(found.skewness[0]) < 0.02
     assert abs(found.excess_kurtosis[0]) < 0.04
     for gaussian, share, error in found.bearing:
         assert share == pytest.approx(gaussian, abs=3 * error)
+        height, expected = (-NormalDist().inv_cdf(each) for each in (share, gaussian))
+        assert height == pytest.approx(expected, rel=0.02)
 
 
 def test_common_laws_and_root_sums_are_as_near_as_the_page_says():

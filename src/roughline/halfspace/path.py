@@ -29,10 +29,10 @@ _PART_OF_RISE = 0.5
 # the tangent.
 _LARGEST_CHANGE = 1.0
 # A guess whose pressures exceed the hardness so many times leaves no doubt that nodes yield.
-_SURELY = 3.0
+_BEYOND_DOUBT = 3.0
 
-# Over a force; so near, two forces are one, whatever the tolerance.
-_HAIR = 1e-13
+# Forces that differ by no more than this part count as one, whatever the tolerance.
+_SAME_FORCE = 1e-13
 
 
 def solve_path(
@@ -90,7 +90,7 @@ class _Path:
             return furthest.again
         if load.value == 0 or (load.depth is not None and load.depth <= self._problem.touch):
             self._prepare(next_load, None)
-            return apart(self._problem, load, Outcome.CONVERGED), _NONE
+            return apart(self._problem, load, Outcome.CONVERGED), _NO_RESPONSE
         contact = self._contact(load)
         if contact.outcome is not Outcome.CONVERGED:
             self._last = None
@@ -113,7 +113,7 @@ class _Path:
         problem, most = self._elastic_or_yielding(load), self._yielding.largest_pressure
         if start is None:
             start, pressure = first_guess(problem, load)
-            if pressure > _SURELY * most and problem.conditions is not self._yielding:
+            if pressure > _BEYOND_DOUBT * most and problem.conditions is not self._yielding:
                 problem = replace(problem, conditions=self._yielding)
                 start, _ = first_guess(problem, load)
         contact = self._solve(problem, load, start)
@@ -128,16 +128,16 @@ class _Path:
         return contact
 
     def _solve(self, problem: Problem, load: Load, start: ContactSet, spent: int = 0) -> Contact:
-        """Solve a contact, under a hair less force where nodes at the hardness alone would bear it.
+        """Solve a contact that has spent some of its convolutions before.
 
-        With no elastic node among them the depth would be open. The load has spent some of its
-        convolutions before.
+        Where nodes at the hardness alone would bear the force, it is made slightly less: with no
+        elastic node among them the depth would be open.
         """
         if problem.conditions is self._yielding and load.force is not None:
             nodes = load.force / (self._yielding.largest_pressure * problem.operator.cell_area)
             whole = round(nodes)
-            if whole and abs(nodes - whole) <= _HAIR * whole:
-                load = Load(force=load.force * (1 - 2 * _HAIR))
+            if whole and abs(nodes - whole) <= _SAME_FORCE * whole:
+                load = Load(force=load.force * (1 - 2 * _SAME_FORCE))
         left = max(1, self._method.max_iterations - spent)
         return solve(problem, load, start, replace(self._method, max_iterations=left))
 
@@ -237,7 +237,7 @@ class _Tangents:
 
 
 _APART = Tangent(0.0, np.empty(0), 0, converged=True)
-_NONE = Response(_APART, _APART)
+_NO_RESPONSE = Response(_APART, _APART)
 
 
 def apart(problem: Problem, load: Load, outcome: Outcome) -> Contact:

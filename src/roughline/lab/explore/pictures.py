@@ -105,15 +105,7 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
     n = min(state.n, _CURVE_POINTS)
     surface = surface_of(state, n)
     most = _MOST_OF_HARDNESS * most_force_bar(state)
-    pressed = rl.press(
-        surface,
-        E_star=state.E_star,
-        hardness=hardness(state),
-        forces=_force(state, _CURVE_FORCES[most > _CURVE_FORCES]),
-        periodic=state.periodic,
-        throw=False,
-        progress=progress,
-    )
+    pressed = _pressed(state, surface, _CURVE_FORCES[most > _CURVE_FORCES], progress)
     return frame(
         {
             "state": state.address(),
@@ -130,15 +122,8 @@ def unloading(arguments: Arguments, progress: Progress) -> bytes:
     """The way back from the load of the state to none."""
     state = _state(arguments)
     n = min(state.n, _CURVE_POINTS)
-    pressed = rl.press(
-        surface_of(state, n),
-        E_star=state.E_star,
-        hardness=hardness(state),
-        forces=_force(state, state.F * np.array([1.0, *UNLOADING])),
-        periodic=state.periodic,
-        throw=False,
-        progress=progress,
-    )
+    loads = state.F * np.array([1.0, *UNLOADING])
+    pressed = _pressed(state, surface_of(state, n), loads, progress)
     return frame(
         {
             "state": state.address(),
@@ -154,17 +139,8 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
     started = time.perf_counter()
     is_coarse = n < state.n
     surface = surface_of(state, n)
-    pressed = rl.press(
-        surface,
-        E_star=state.E_star,
-        hardness=hardness(state),
-        forces=[_force(state, state.F)],
-        periodic=state.periodic,
-        fields=True,
-        grid_error=not is_coarse,
-        throw=False,
-        progress=progress,
-    )
+    loads = np.array([state.F])
+    pressed = _pressed(state, surface, loads, progress, fields=True, grid_error=not is_coarse)
     fields = pressed.fields[0]
     seconds = time.perf_counter() - started
     arrays: dict[str, NDArray[Any]] = {"topography": shaded(surface)}
@@ -206,6 +182,29 @@ def _numbers(state: ExploreState) -> dict[str, float]:
     names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "F", "hardness_bar")
     values = {name: getattr(state, name) for name in names}
     return {name: float(value) for name, value in values.items() if value is not None}
+
+
+def _pressed(
+    state: ExploreState,
+    surface: rl.Surface,
+    force_bar: NDArray[Any],
+    progress: Progress,
+    *,
+    fields: bool = False,
+    grid_error: bool = False,
+) -> rl.Curve:
+    """Press a surface of the state under dimensionless forces."""
+    return rl.press(
+        surface,
+        E_star=state.E_star,
+        hardness=hardness(state),
+        forces=_force(state, force_bar),
+        periodic=state.periodic,
+        fields=fields,
+        grid_error=grid_error,
+        throw=False,
+        progress=progress,
+    )
 
 
 def _force(state: ExploreState, force_bar: Any) -> Any:
