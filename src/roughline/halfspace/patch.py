@@ -19,9 +19,9 @@ class Patch:
         Displacement under pressures on the whole grid.
     inverse : ApproximateInverse
         Approximate inverse of the operator, for the preconditioner.
-    nodes : ndarray of int
-        Flat indices in the grid, ascending.
-    watched : ndarray of int, optional
+    nodes : GridNodes
+        The nodes.
+    watched : GridNodes, optional
         Other nodes whose displacement is computed as well.
     """
 
@@ -29,17 +29,17 @@ class Patch:
         self,
         operator: Operator,
         inverse: ApproximateInverse,
-        nodes: Indices,
-        watched: Indices | None = None,
+        nodes: GridNodes,
+        watched: GridNodes | None = None,
     ) -> None:
         self._operator = operator
-        self._nodes = GridNodes.of(nodes, operator.shape)
-        self.precondition = preconditioner(inverse, self._nodes)
-        self._targets = self._nodes
-        if watched is not None and watched.size:
-            both, order = merged(nodes, watched)
+        self._nodes = nodes
+        self.precondition = preconditioner(inverse, nodes)
+        self._targets = nodes
+        if watched is not None and watched.indices.size:
+            both, order = merged(nodes.indices, watched.indices)
             self._targets = GridNodes.of(both, operator.shape)
-            self._in_patch = order < nodes.size
+            self._in_patch = order < nodes.indices.size
 
     def displacement(self, pressure: Real, precision: Precision) -> tuple[Real, Real]:
         """Displacement of the nodes, and of the watched ones, under pressures on the nodes."""

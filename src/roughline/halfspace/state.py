@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
-from functools import cached_property
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.conditions import ContactConditions, Residuals
 from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import Operator, Precision
+from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse
+from roughline.halfspace.split import Splits
 
 
 class Outcome(enum.Enum):
@@ -51,6 +53,10 @@ class Problem:
     separation: Real
     rms_height: float
     conditions: ContactConditions
+    touch: float
+    splits: Splits
+    sites: GridNodes | None = None
+    reference: Any = None
 
     @classmethod
     def of(
@@ -63,12 +69,41 @@ class Problem:
     ) -> Problem:
         """Put a rough body over a half-space; the operator is one that the half-space made."""
         inverse = ApproximateInverse.of(operator)
-        return cls(half_space, operator, inverse, separation, rms_height, conditions)
+        return cls(half_space, operator, inverse, separation, rms_height, conditions, float(separation.min()), Splits(operator))
 
-    @cached_property
-    def touch(self) -> float:
-        """Depth at which the surfaces touch, as they are now. [length]"""
-        return float(self.separation.min())
+    def grid_nodes(self, nodes: Indices) -> GridNodes:
+        if self.sites is not None:
+            nodes = self.sites.indices[nodes]
+        return GridNodes.of(nodes, self.operator.shape)
+
+    def fast_operator(self, nodes):
+        return self.splits.best(GridNodes.of(nodes, self.operator.shape)) or self.operator
+
+    def nearby(self, contact_set, gap, approach, sites):
+        nodes = GridNodes.of(sites, self.operator.shape)
+        split = self.splits.best(nodes)
+        separation = self.separation.flat[sites]
+        moved = gap.flat[sites] + (approach + self.touch) - separation
+        pressure = np.zeros(sites.size)
+        pressure[np.searchsorted(sites, contact_set.nodes)] = contact_set.pressure
+        return replace(self, operator=split, separation=separation, sites=nodes, reference=(pressure, moved))
+
+    def displacement(self, pressure, nodes, precision, out):
+        if self.sites is None:
+            sources = GridNodes.of(nodes, self.operator.shape)
+            return self.operator.displacement(pressure, sources, None, precision, out=out)
+        before, moved = self.reference
+        change = -before
+        change[nodes] += pressure
+        if not change.any():
+            out[:] = moved
+            return out
+        self.operator.displacement(change, self.sites, self.sites, precision, out=out)
+        out += moved
+        return out
+
+    def indented(self, separation):
+        return replace(self, separation=separation, touch=float(separation.min()))
 
     def fewest_nodes(self, load: Load) -> int:
         """Return how many nodes a load needs, so that one of them is below the hardness."""

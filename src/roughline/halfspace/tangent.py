@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
+from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.patch import ConjugateGradients, Patch
 from roughline.halfspace.state import Contact, Method, Problem
 
@@ -127,11 +128,15 @@ def tangent(
     if operator.zero_mean and nodes.size == contact.gap.size:  # full contact is rigid
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
-    patch = Patch(operator, problem.inverse, nodes)
+    fast = problem.fast_operator(nodes)
+    gain = 0.0 if fast is operator else 1e-5
+    patch = Patch(problem.fast_operator(nodes), problem.inverse, GridNodes.of(nodes, operator.shape))
     pressure = _unit_force(elastic, cell_area, start, contact.pressure)
     convolutions, accuracy = 0, _ENERGY_MARGIN * method.rtol
     for _ in range(_ROUNDS):
-        displacement, watched = patch.displacement(pressure, method.certificate)
+        grid_nodes = GridNodes.of(nodes, operator.shape)
+        displacement = operator.displacement(pressure, grid_nodes, grid_nodes, method.certificate)
+        watched = displacement[:0]
         compliance = float(pressure @ displacement) * cell_area
         gradients = ConjugateGradients(
             patch, pressure, -displacement, watched, fixed_total=True, precision=method.steps
@@ -141,12 +146,13 @@ def tangent(
         converged = gradients.energy * cell_area <= accuracy * compliance
         if converged:
             break
-        while gradients.energy * cell_area > 0.1 * accuracy * compliance and (
+        aim = max(0.1 * accuracy * compliance, gain * gradients.energy * cell_area)
+        while gradients.energy * cell_area > aim and (
             gradients.steps < _STEPS and gradients.advance()
         ):
             pass
         pressure = gradients.pressure
-        convolutions += gradients.steps
+        convolutions += gradients.steps if fast is operator else 0
     pressure_per_force = np.zeros(contact.nodes.size)
     pressure_per_force[elastic] = pressure
     stiffness = 1 / compliance if compliance > 0 else np.nan

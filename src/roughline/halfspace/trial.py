@@ -77,8 +77,7 @@ class Trial:
         else:
             pressure = conditions.with_total(pressure, load.force / cell_area)
         elastic = conditions.elastic(pressure)
-        sources = GridNodes.of(nodes, operator.shape)
-        gap = operator.displacement(pressure, sources, None, precision, out=out)
+        gap = problem.displacement(pressure, nodes, precision, out)
         # dents put touch deep: from there on, differences of lengths lose least to rounding
         above = problem.separation.flat[nodes] - problem.touch
         approach = None if load.depth is None else load.depth - problem.touch
@@ -92,7 +91,9 @@ class Trial:
         displacement = gap.flat[nodes]
         if approach is None:
             approach = _level(displacement + above, pressure, elastic)
-        loops.leave_gaps(gap, problem.separation, problem.touch, approach)
+        loops.leave_gaps(
+            np.atleast_2d(gap), np.atleast_2d(problem.separation), problem.touch, approach
+        )
         held = nodes[~elastic]
         overlap = np.maximum(-gap.flat[held], 0.0)
         gap.flat[held] += overlap
