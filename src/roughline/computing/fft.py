@@ -60,6 +60,11 @@ def share_out(work: Callable[[int], None], count: int) -> None:
         other.result()
 
 
+def in_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:
+    """Call ``work(first, last)`` for blocks of `size` of `count` things, shared out likewise."""
+    share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
+
+
 @cache
 def _pool(workers: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(workers, thread_name_prefix="roughline")

@@ -27,69 +27,14 @@ References
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
-
 import numpy as np
 
-from roughline.halfspace.contact_set import ContactSet, merged
+from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.exchange import ExchangeRule, able_to_carry, watched_nodes
 from roughline.halfspace.relaxation import relaxed
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.stopping import StoppingRule
 from roughline.halfspace.trial import Trial
-
-
-def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
-    if not problem.splits.possible:
-        return search(problem, load, start, method)
-    contact_set, gap = start, np.empty(problem.separation.shape)
-    precision, convolutions, worst_before = method.steps, 0, np.inf
-    near: Any = problem.separation
-    first = True
-    while True:
-        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), gap if not first else problem.separation)
-        trial = Trial.of(problem, load, contact_set, precision, gap, rescale=first)
-        first = False
-        convolutions += 1
-        worst = trial.residuals.worst
-        TRACE.append((precision, trial.contact_set.nodes.size, worst, trial.residuals))
-        if precision == method.certificate:
-            if worst <= method.rtol and trial.residuals.penetration == 0:
-                return trial.contact(problem, Outcome.CONVERGED, convolutions)
-        if not worst < 0.5 * worst_before:
-            contact = search(problem, load, trial.contact_set, method)
-            return replace(contact, convolutions=contact.convolutions + convolutions)
-        worst_before = worst
-        target = max(_GAIN * worst, 0.3 * method.rtol)
-        nodes = trial.contact_set.nodes
-        error = float(np.sqrt(np.mean(gap.flat[nodes] ** 2)))
-        watched = near_nodes(gap, nodes, max(_NEAR * error, 0.0))
-        sites, _ = merged(nodes, watched)
-        inner = problem.nearby(trial.contact_set, gap, trial.approach, sites)
-        places = ContactSet(np.searchsorted(sites, nodes), trial.contact_set.pressure)
-        contact = search(inner, load, places, Method(target, method.max_iterations, "float32"))
-        TRACE.append(('inner', sites.size, inner.operator.ratio, contact.convolutions, contact.residuals.worst, contact.outcome))
-        contact_set = ContactSet(sites[contact.nodes], contact.pressure)
-        expected = max(target, 1e-2 * worst)
-        if expected < 1e-4:
-            precision = method.certificate
-
-
-TRACE: list = []
-_GAIN = 1e-2
-_NEAR = 4.0
-
-
-def near_nodes(gap, nodes, reach):
-    close = gap.ravel() < reach
-    close[nodes] = False
-    others = np.flatnonzero(close)
-    if others.size <= 2 * nodes.size + 1000:
-        return others
-    gaps = gap.flat[others]
-    most = 2 * nodes.size + 1000
-    return others[gaps <= np.partition(gaps, most)[most]]
 
 
 def search(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:

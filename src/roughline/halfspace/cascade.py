@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.halfspace.active_set import solve
+from roughline.halfspace.correction import solve
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.state import Load, Method, Problem

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -124,14 +123,10 @@ class Convolution:
             else:
                 loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
 
-        _in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS_AT_A_TIME)
-        _in_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
-        _in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS_AT_A_TIME)
+        fft.in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS_AT_A_TIME)
+        fft.in_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
+        fft.in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS_AT_A_TIME)
         return result
-
-
-def _in_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:
-    fft.share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
 
 
 def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:
@@ -158,7 +153,7 @@ def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) ->
         offsets_x = dx * np.arange(first, last)[:, np.newaxis]
         spectrum[first:last] = love(offsets_x, offsets_y, dx, dy)
 
-    _in_blocks(fill, len(spectrum), max(1, 2**16 // len(offsets_y)))
+    fft.in_blocks(fill, len(spectrum), max(1, 2**16 // len(offsets_y)))
     fft.cosine_spectrum(spectrum)
     spectrum /= E_star * mx * my
     return Convolution(shape, spacing, (mx, my), spectrum, zero_mean=False)

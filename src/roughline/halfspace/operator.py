@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.restricted_loops import find_runs
 
 Precision = Literal["float32", "float64"]
 
+_APART = 8  # columns between nodes that belong to one run, at most
 _SMALL_IN_SINGLE = 1e-20  # single precision ends at 1e-38, and transforms divide by their size
 
 
@@ -29,12 +32,15 @@ class GridNodes:
         Where each of these rows begins in `indices`.
     columns : ndarray of int32
         Column of each node.
+    shape : tuple of int
+        Points of the grid, (nx, ny).
     """
 
     indices: Indices
     rows: Indices
     starts: Indices
     columns: NDArray[np.int32]
+    shape: tuple[int, int]
 
     @classmethod
     def of(cls, indices: Indices, shape: tuple[int, int]) -> GridNodes:
@@ -42,7 +48,19 @@ class GridNodes:
         edges = np.searchsorted(indices, np.arange(shape[0] + 1) * shape[1])
         rows = np.flatnonzero(np.diff(edges))
         starts = np.append(edges[rows], indices.size)
-        return cls(indices, rows, starts, (indices % shape[1]).astype(np.int32))
+        return cls(indices, rows, starts, (indices % shape[1]).astype(np.int32), shape)
+
+    @cached_property
+    def runs(self) -> tuple[NDArray[np.int32], Indices]:
+        """Runs of neighbouring nodes in a row, and where those of each row begin.
+
+        For each run: its first node, the node after its last one, and the columns that it takes,
+        rounded up to eight.
+        """
+        runs = np.empty((self.indices.size, 3), dtype=np.int32)
+        first_run = np.empty(self.rows.size + 1, dtype=np.intp)
+        find_runs(self.starts, self.columns, _APART, runs, first_run)
+        return runs[: first_run[-1]].copy(), first_run
 
 
 class Operator(Protocol):

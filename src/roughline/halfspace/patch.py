@@ -38,7 +38,7 @@ class Patch:
         self._targets = nodes
         if watched is not None and watched.indices.size:
             both, order = merged(nodes.indices, watched.indices)
-            self._targets = GridNodes.of(both, operator.shape)
+            self._targets = GridNodes.of(both, nodes.shape)
             self._in_patch = order < nodes.indices.size
 
     def displacement(self, pressure: Real, precision: Precision) -> tuple[Real, Real]:

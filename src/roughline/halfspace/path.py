@@ -14,7 +14,7 @@ from itertools import zip_longest
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.active_set import solve
+from roughline.halfspace.correction import solve
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import Residuals, UnilateralContact
 from roughline.halfspace.contact_set import ContactSet

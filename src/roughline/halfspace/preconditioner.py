@@ -74,7 +74,7 @@ class ApproximateInverse:
     def of(cls, operator: Operator) -> ApproximateInverse:
         """Derive it from the operator's spectrum."""
         raised = _raised(operator)
-        diagonal = _even_sum(operator, operator.spectrum, [np.zeros(1)] * 2)[0, 0] + raised
+        diagonal = even_sum(operator.spectrum, operator.periods, [np.zeros(1)] * 2)[0, 0] + raised
         dx, dy = operator.spacing
         stretch = float(np.clip(np.sqrt(dy / dx), 1 / _STRETCH, _STRETCH))
         nx, ny = operator.shape
@@ -89,7 +89,7 @@ class ApproximateInverse:
                 side * np.arange(-(-n // side))
                 for side, n in zip(sides, operator.shape, strict=True)
             ]
-            block_kernels.append(_even_sum(operator, operator.spectrum, lags, sides) + raised)
+            block_kernels.append(even_sum(operator.spectrum, operator.periods, lags, sides) + raised)
             if max(block_kernels[-1].shape) <= _COARSEST:
                 break
             sides = GROUP * sides[0], GROUP * sides[1]
@@ -135,16 +135,16 @@ def _stencil(operator: Operator, stretch: float) -> tuple[Indices, Real]:
     within = (x / radii[0]) ** 2 + (y / radii[1]) ** 2 <= 1
     offsets = np.stack([x[within], y[within]], axis=1)
     lags = [np.arange(axis.max() + 1) for axis in reach]
-    taps = _even_sum(operator, inverse, lags)[abs(offsets[:, 0]), abs(offsets[:, 1])]
+    taps = even_sum(inverse, operator.periods, lags)[abs(offsets[:, 0]), abs(offsets[:, 1])]
     centre = (offsets == 0).all(axis=1)
     around = np.minimum(taps, 0.0)
     around *= min(1.0, 0.99 * taps[centre].item() / max(-around.sum(), 1e-300))
     return offsets, np.where(centre, taps, around)
 
 
-def _even_sum(
-    operator: Operator,
+def even_sum(
     quarter: Real,
+    periods: tuple[int, int],
     lags: Sequence[Integers | Floats],
     sides: Sequence[int] = (1, 1),
 ) -> Real:
@@ -153,7 +153,7 @@ def _even_sum(
     With `sides`, the result is averaged over all pairs of cells of two blocks at these lags.
     """
     result = quarter
-    for axis, period in enumerate(operator.periods):
+    for axis, period in enumerate(periods):
         modes = np.arange(period // 2 + 1)
         weights = np.full(modes.size, 2.0)
         weights[0] = 1.0

@@ -146,7 +146,7 @@ class _Equations:
         fixed_total = load.force is not None
         gradients = ConjugateGradients(
             Patch(
-                problem.operator,
+                problem.steps,
                 problem.inverse,
                 problem.grid_nodes(nodes[elastic]),
                 problem.grid_nodes(followed),

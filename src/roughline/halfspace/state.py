@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass, replace
-from typing import Any, Literal
-
-import numpy as np
+from typing import Literal
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.conditions import ContactConditions, Residuals
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse
-from roughline.halfspace.split import Splits
+from roughline.halfspace.restricted import RestrictedOperator, RestrictedOperators
 
 
 class Outcome(enum.Enum):
@@ -45,6 +43,10 @@ class Problem:
         flat punch. [length]
     conditions : ContactConditions
         What pressures and gaps obey.
+    touch : float
+        Depth at which the surfaces touch, as they are now. [length]
+    restricted : RestrictedOperators
+        Approximate forms of the operator, which cost what the contact costs.
     """
 
     half_space: HalfSpace
@@ -54,9 +56,7 @@ class Problem:
     rms_height: float
     conditions: ContactConditions
     touch: float
-    splits: Splits
-    sites: GridNodes | None = None
-    reference: Any = None
+    restricted: RestrictedOperators
 
     @classmethod
     def of(
@@ -69,40 +69,26 @@ class Problem:
     ) -> Problem:
         """Put a rough body over a half-space; the operator is one that the half-space made."""
         inverse = ApproximateInverse.of(operator)
-        return cls(half_space, operator, inverse, separation, rms_height, conditions, float(separation.min()), Splits(operator))
+        touch, restricted = float(separation.min()), RestrictedOperators(operator)
+        return cls(
+            half_space, operator, inverse, separation, rms_height, conditions, touch, restricted
+        )
+
+    @property
+    def steps(self) -> Operator | RestrictedOperator:
+        """What the steps of conjugate gradients take for the operator."""
+        return self.operator
 
     def grid_nodes(self, nodes: Indices) -> GridNodes:
-        if self.sites is not None:
-            nodes = self.sites.indices[nodes]
+        """Return nodes of the problem as nodes of the grid."""
         return GridNodes.of(nodes, self.operator.shape)
 
-    def fast_operator(self, nodes):
-        return self.splits.best(GridNodes.of(nodes, self.operator.shape)) or self.operator
+    def displacement(self, pressure: Real, nodes: Indices, precision: Precision, out: Real) -> Real:
+        """Return the displacement wherever there is a separation, under the pressure on nodes."""
+        return self.operator.displacement(pressure, self.grid_nodes(nodes), None, precision, out)
 
-    def nearby(self, contact_set, gap, approach, sites):
-        nodes = GridNodes.of(sites, self.operator.shape)
-        split = self.splits.best(nodes)
-        separation = self.separation.flat[sites]
-        moved = gap.flat[sites] + (approach + self.touch) - separation
-        pressure = np.zeros(sites.size)
-        pressure[np.searchsorted(sites, contact_set.nodes)] = contact_set.pressure
-        return replace(self, operator=split, separation=separation, sites=nodes, reference=(pressure, moved))
-
-    def displacement(self, pressure, nodes, precision, out):
-        if self.sites is None:
-            sources = GridNodes.of(nodes, self.operator.shape)
-            return self.operator.displacement(pressure, sources, None, precision, out=out)
-        before, moved = self.reference
-        change = -before
-        change[nodes] += pressure
-        if not change.any():
-            out[:] = moved
-            return out
-        self.operator.displacement(change, self.sites, self.sites, precision, out=out)
-        out += moved
-        return out
-
-    def indented(self, separation):
+    def indented(self, separation: Real) -> Problem:
+        """Return the bodies with their surfaces as a load has left them."""
         return replace(self, separation=separation, touch=float(separation.min()))
 
     def fewest_nodes(self, load: Load) -> int:

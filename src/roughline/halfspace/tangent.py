@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.patch import ConjugateGradients, Patch
 from roughline.halfspace.state import Contact, Method, Problem
 
@@ -20,6 +19,7 @@ from roughline.halfspace.state import Contact, Method, Problem
 # error, and the bound on it is this part of the tolerance on residuals.
 _ENERGY_MARGIN = 0.01
 _STEPS = 300  # after which the energy form is computed afresh
+_GAIN = 1e-5  # of energy by steps that are restricted to the contact
 _ROUNDS = 6  # of so many steps, at most
 
 
@@ -128,13 +128,13 @@ def tangent(
     if operator.zero_mean and nodes.size == contact.gap.size:  # full contact is rigid
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
-    fast = problem.fast_operator(nodes)
-    gain = 0.0 if fast is operator else 1e-5
-    patch = Patch(problem.fast_operator(nodes), problem.inverse, GridNodes.of(nodes, operator.shape))
+    grid_nodes = problem.grid_nodes(nodes)
+    steps = problem.restricted.on(grid_nodes) or operator
+    gain = 0.0 if steps is operator else _GAIN
+    patch = Patch(steps, problem.inverse, grid_nodes)
     pressure = _unit_force(elastic, cell_area, start, contact.pressure)
     convolutions, accuracy = 0, _ENERGY_MARGIN * method.rtol
     for _ in range(_ROUNDS):
-        grid_nodes = GridNodes.of(nodes, operator.shape)
         displacement = operator.displacement(pressure, grid_nodes, grid_nodes, method.certificate)
         watched = displacement[:0]
         compliance = float(pressure @ displacement) * cell_area
@@ -152,7 +152,7 @@ def tangent(
         ):
             pass
         pressure = gradients.pressure
-        convolutions += gradients.steps if fast is operator else 0
+        convolutions += gradients.steps if steps is operator else 0
     pressure_per_force = np.zeros(contact.nodes.size)
     pressure_per_force[elastic] = pressure
     stiffness = 1 / compliance if compliance > 0 else np.nan

@@ -104,6 +104,14 @@ class Trial:
             ContactSet(nodes, pressure), approach, force, gap, overlap, length_scale, violated
         )
 
+    def certified(self, rtol: float) -> bool:
+        """Whether the residuals are within a tolerance, and no node overlaps that was left out.
+
+        Approaches of which rounding hides such gaps certify nothing.
+        """
+        resolved = np.spacing(abs(self.approach)) <= rtol * self.length_scale
+        return bool(resolved and self.residuals.worst <= rtol and not self.residuals.penetration)
+
     def contact(self, problem: Problem, outcome: Outcome, convolutions: int) -> Contact:
         """Return the trial as the contact with which a search ended."""
         nodes, pressure = self.contact_set.nodes, self.contact_set.pressure

@@ -1,0 +1,65 @@
+"""The contact under one load, by the correction of a defect.
+
+A search near the contact, with an operator that is restricted to it, errs by what this operator
+errs. So the exact operator tells the gap of what was found, everywhere, and the search goes on from
+there: the restricted operator is asked only for what further changes of the pressures displace.
+Each turn leaves a hundredth of the error or less. The residuals that count are those of the exact
+operator. Where turns do not help, the search goes on with the exact operator alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from roughline.halfspace.active_set import search
+from roughline.halfspace.contact_set import ContactSet
+from roughline.halfspace.exchange import able_to_carry
+from roughline.halfspace.nearby import nearby
+from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
+from roughline.halfspace.trial import Trial
+
+_GAIN = 1e-2  # of residuals by a search near the contact
+_AIM = 0.3  # below the tolerance, so that the certificate is not missed by a hair
+_SINGLE_ABOVE = 1e-4  # residuals below this are computed in the precision of the certificate
+
+
+def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
+    """Find the contact set and the pressures under one load.
+
+    Parameters
+    ----------
+    problem : Problem
+        The body and the half-space.
+    load : Load
+        What is prescribed.
+    start : ContactSet
+        Where to start from, with pressures of which none is negative.
+    method : Method
+        Tolerance, bound on the convolutions and precision.
+    """
+    contact_set, gap = start, np.empty(problem.separation.shape)
+    precision, convolutions, steps, worst = method.steps, 0, 0, np.inf
+    while True:
+        near_gap = gap if convolutions else problem.separation
+        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), near_gap)
+        trial = Trial.of(problem, load, contact_set, precision, gap, rescale=not convolutions)
+        convolutions += 1
+        worst_before, worst = worst, trial.residuals.worst
+        if precision == method.certificate and trial.certified(method.rtol):
+            return trial.contact(problem, Outcome.CONVERGED, convolutions)
+        left = method.max_iterations - convolutions - steps
+        near = nearby(problem, trial)
+        if near is None or left <= 1 or not worst < 0.5 * worst_before:
+            break
+        target = max(_GAIN * worst, _AIM * method.rtol)
+        rough = Method(target, left - 1, "float32")
+        found = search(near[0], load, near[1], rough)
+        steps += found.convolutions
+        contact_set = near[0].on_grid(ContactSet(found.nodes, found.pressure))
+        if target < _SINGLE_ABOVE:
+            precision = method.certificate
+    left = max(1, method.max_iterations - convolutions - steps)
+    contact = search(problem, load, trial.contact_set, replace(method, max_iterations=left))
+    return replace(contact, convolutions=contact.convolutions + convolutions)

@@ -1,0 +1,120 @@
+"""A contact problem looked at near the contact only, with an approximate operator."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.contact_set import ContactSet, merged
+from roughline.halfspace.operator import GridNodes, Precision
+from roughline.halfspace.restricted import RestrictedOperator
+from roughline.halfspace.state import Problem
+from roughline.halfspace.trial import Trial
+
+# Nodes of a gap below so many times the error on contact may come into contact.
+_REACH = 4.0
+_SPARE = 1000  # nodes beyond twice those in contact
+
+
+@dataclass(frozen=True, eq=False)
+class NearbyProblem(Problem):
+    """The problem on some nodes, its sites, which are numbered in their order.
+
+    Displacements are those of a trial, computed with the exact operator, and what the restricted
+    operator adds for a change of its pressures.
+
+    Attributes
+    ----------
+    approximate : RestrictedOperator
+        Approximate operator.
+    sites : GridNodes
+        The nodes.
+    before : ndarray, shape (sites,)
+        Pressures of the trial. [pressure]
+    moved : ndarray, shape (sites,)
+        Displacements under them. [length]
+    """
+
+    approximate: RestrictedOperator
+    sites: GridNodes
+    before: Real
+    moved: Real
+
+    @property
+    def steps(self) -> RestrictedOperator:
+        """The approximate operator."""
+        return self.approximate
+
+    def grid_nodes(self, nodes: Indices) -> GridNodes:
+        """Return some sites as nodes of the grid."""
+        return GridNodes.of(self.sites.indices[nodes], self.operator.shape)
+
+    def displacement(self, pressure: Real, nodes: Indices, precision: Precision, out: Real) -> Real:
+        """Return the displacement of all sites under the pressure on some of them."""
+        change = -self.before
+        change[nodes] += pressure
+        self.steps.displacement(change, self.sites, self.sites, precision, out)
+        out += self.moved
+        return out
+
+    def on_grid(self, contact_set: ContactSet) -> ContactSet:
+        """Return a set of sites as one of nodes of the grid."""
+        return ContactSet(self.sites.indices[contact_set.nodes], contact_set.pressure)
+
+
+def nearby(problem: Problem, trial: Trial) -> tuple[NearbyProblem, ContactSet] | None:
+    """Look at a problem near the contact of a trial.
+
+    Returns
+    -------
+    problem : NearbyProblem
+        The problem there.
+    contact_set : ContactSet
+        Sites in contact and the pressures on them.
+
+    None where the exact operator is cheaper than a restricted one.
+    """
+    contact_set = trial.contact_set
+    sites, order = merged(contact_set.nodes, _close_nodes(trial.gap, contact_set.nodes))
+    nodes = GridNodes.of(sites, problem.operator.shape)
+    operator = problem.restricted.on(nodes)
+    if operator is None:
+        return None
+    places = np.flatnonzero(order < contact_set.nodes.size)
+    separation = problem.separation.flat[sites]
+    moved = trial.gap.flat[sites]
+    moved[places[~problem.conditions.elastic(contact_set.pressure)]] -= trial.overlap
+    moved += trial.approach
+    moved -= separation - problem.touch
+    before = np.zeros(sites.size)
+    before[places] = contact_set.pressure
+    near = NearbyProblem(
+        problem.half_space,
+        problem.operator,
+        problem.inverse,
+        separation,
+        problem.rms_height,
+        problem.conditions,
+        problem.touch,
+        problem.restricted,
+        operator,
+        nodes,
+        before,
+        moved,
+    )
+    return near, ContactSet(places, contact_set.pressure)
+
+
+def _close_nodes(gap: Real, nodes: Indices) -> Indices:
+    """Return the nodes off the contact whose gap is small, at most a few times those in it."""
+    reach = _REACH * float(np.sqrt(np.mean(gap.flat[nodes] ** 2)))
+    close = gap.ravel() < reach
+    close[nodes] = False
+    others = np.flatnonzero(close)
+    most = 2 * nodes.size + _SPARE
+    if others.size <= most:
+        return others
+    gaps = gap.flat[others]
+    return others[gaps <= np.partition(gaps, most)[most]]

@@ -1,0 +1,199 @@
+"""Compiled loops of the operator that is restricted to the contact."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.computing.arrays import Floats, Integers
+from roughline.computing.compiled import compiled
+
+
+@compiled
+def find_runs(
+    starts: Integers, columns: Integers, apart: int, runs: Integers, first_run: Integers
+) -> None:
+    """List runs of nodes in a row of which neighbours are no further apart.
+
+    Parameters
+    ----------
+    starts, columns : ndarray of int
+        Where each row begins in `columns`; column of each node.
+    apart : int
+        Columns from one node to the next, at most.
+    runs : ndarray of int, shape (nodes, 3)
+        Overwritten, as far as there are runs, with the first node, the node after the last one,
+        and the columns from the first node to the last, rounded up to eight.
+    first_run : ndarray of int, shape (rows + 1,)
+        Overwritten: where the runs of each row begin.
+    """
+    count = 0
+    for row in range(starts.size - 1):
+        first_run[row] = count
+        begin = starts[row]
+        for i in range(starts[row], starts[row + 1]):
+            if i + 1 == starts[row + 1] or columns[i + 1] - columns[i] > apart:
+                runs[count, 0], runs[count, 1] = begin, i + 1
+                runs[count, 2] = (columns[i] - columns[begin] + 8) // 8 * 8
+                begin = i + 1
+                count += 1
+    first_run[starts.size - 1] = count
+
+
+@compiled
+def spread_along_rows(
+    values: Floats,
+    starts: Integers,
+    columns: Integers,
+    rows: Integers,
+    weights: Floats,
+    margins: tuple[int, int],
+    first: int,
+    last: int,
+    grid: Floats,
+    lines: Floats,
+) -> None:
+    """Write the values of some rows to the grid, and spread them over the coarse columns.
+
+    Parameters
+    ----------
+    values : ndarray
+        Values of all rows, one row after the other.
+    starts, columns, rows : ndarray of int
+        Where each row begins in `values`; column of each value; row of the grid.
+    weights : ndarray, shape (ratio, 4)
+        Weights of the four coarse columns around a column, by its place between two of them.
+    margins : tuple of int
+        Of the grid.
+    first, last : int
+        The rows to do.
+    grid : ndarray
+        With a margin, and zero elsewhere.
+    lines : ndarray, shape (rows, coarse columns)
+        Overwritten with the spread rows.
+    """
+    ratio = weights.shape[0]
+    for k in range(first, last):
+        places, line = grid[rows[k] + margins[0]], lines[k]
+        line[:] = 0
+        for i in range(starts[k], starts[k + 1]):
+            places[columns[i] + margins[1]] = values[i]
+            coarse, part = columns[i] // ratio, columns[i] % ratio
+            for a in range(4):
+                line[coarse + a] += weights[part, a] * values[i]
+
+
+@compiled
+def clear_grid(
+    starts: Integers, columns: Integers, rows: Integers, margins: tuple[int, int], grid: Floats
+) -> None:
+    """Set to zero what :func:`spread_along_rows` wrote to the grid."""
+    for k in range(rows.size):
+        places = grid[rows[k] + margins[0]]
+        for i in range(starts[k], starts[k + 1]):
+            places[columns[i] + margins[1]] = 0.0
+
+
+@compiled
+def spread_across_rows(
+    lines: Floats, place: Integers, weights: Floats, first: int, last: int, coarse: Floats
+) -> None:
+    """Spread rows over the coarse rows.
+
+    Parameters
+    ----------
+    lines : ndarray, shape (rows with values, coarse columns)
+        Rows of the grid, spread along themselves.
+    place : ndarray of int, shape (nx,)
+        Where in `lines` each row of the grid is; -1 where it holds no value.
+    weights : ndarray, shape (ratio, 4)
+        Weights of the four coarse rows around a row, by its place between two of them.
+    first, last : int
+        The coarse rows to fill.
+    coarse : ndarray, shape (coarse rows, coarse columns)
+        Overwritten.
+    """
+    ratio = weights.shape[0]
+    for row in range(first, last):
+        total = coarse[row]
+        total[:] = 0
+        for i in range(max(0, (row - 3) * ratio), min(place.size, (row + 1) * ratio)):
+            if place[i] >= 0:
+                weight = weights[i % ratio, row - i // ratio]
+                line = lines[place[i]]
+                for j in range(line.size):
+                    total[j] += weight * line[j]
+
+
+@compiled
+def add_near_and_far(
+    grid: Floats,
+    margins: tuple[int, int],
+    taps: Floats,
+    reach: Integers,
+    coarse: Floats,
+    weights: tuple[Floats, Floats],
+    rows: Integers,
+    columns: Integers,
+    first_run: Integers,
+    runs: Integers,
+    first: int,
+    last: int,
+    result: Floats,
+) -> None:
+    """Add what near values and what the coarse grid displace, at each node of some rows.
+
+    Parameters
+    ----------
+    grid : ndarray
+        Values on the grid with its margins, zero elsewhere.
+    margins : tuple of int
+        Of the grid.
+    taps : ndarray, shape (2 radius + 1, 2 radius + 4)
+        The near part of the kernel, by the distance in cells, followed by zeros.
+    reach : ndarray of int, shape (2 radius + 1,)
+        Columns to which each row of the near part reaches, to both sides.
+    coarse : ndarray, shape (coarse rows, coarse columns)
+        The far part.
+    weights : tuple of ndarray, shape (ratio, 4)
+        Weights of the four coarse rows around a row, and of the columns around a column.
+    rows, columns : ndarray of int
+        Rows that hold nodes; column of each node.
+    first_run, runs : ndarray of int
+        As :func:`find_runs` lists them.
+    first, last : int
+        The rows to do.
+    result : ndarray, shape (nodes,)
+        Overwritten where the nodes of these rows are.
+    """
+    weights_x, weights_y = weights
+    ratio_x, ratio_y = weights_x.shape[0], weights_y.shape[0]
+    radius_x, radius_y = taps.shape[0] // 2, (taps.shape[1] - 4) // 2
+    far = np.empty(coarse.shape[1], dtype=np.float32)
+    sums = np.empty(grid.shape[1], dtype=np.float32)
+    for k in range(first, last):
+        above, part = rows[k] // ratio_x, rows[k] % ratio_x
+        c0, c1, c2, c3 = coarse[above], coarse[above + 1], coarse[above + 2], coarse[above + 3]
+        w0, w1, w2, w3 = weights_x[part]
+        for j in range(far.size):
+            far[j] = w0 * c0[j] + w1 * c1[j] + w2 * c2[j] + w3 * c3[j]
+        for run in range(first_run[k], first_run[k + 1]):
+            begin, end, length = runs[run]
+            start = columns[begin]
+            total = sums[:length]
+            total[:] = 0
+            for di in range(2 * radius_x + 1):
+                line = grid[rows[k] + margins[0] - radius_x + di]
+                for dj in range(radius_y - reach[di], radius_y + reach[di] + 1, 4):
+                    t0, t1, t2, t3 = taps[di, dj : dj + 4]
+                    left = start + margins[1] - radius_y + dj
+                    near = line[left : left + length + 3]
+                    for j in range(length):
+                        total[j] += (
+                            t0 * near[j] + t1 * near[j + 1] + t2 * near[j + 2] + t3 * near[j + 3]
+                        )
+            for i in range(begin, end):
+                column, part = columns[i] // ratio_y, columns[i] % ratio_y
+                value = total[columns[i] - start]
+                for a in range(4):
+                    value += weights_y[part, a] * far[column + a]
+                result[i] = value
