@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughline.halfspace.active_set import solve
+from roughline.halfspace.correction import solve
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import (
     UnilateralContact,

@@ -83,6 +83,9 @@ class ConjugateGradients:
         Displacement that is still missing. [length]
     energy : float
         Estimate of the energy norm of the error, squared. [pressure length]
+    gained : float
+        By how much the steps so far have lessened the energy norm of the error, squared.
+        [pressure length]
     steps : int
         Steps done; each takes one convolution.
 
@@ -113,6 +116,7 @@ class ConjugateGradients:
         self._ones = patch.precondition(np.ones_like(pressure)) if fixed_total else None
         self._direction = np.zeros_like(pressure)
         self.energy = np.inf
+        self.gained = 0.0
         self._project()
 
     def _project(self) -> None:
@@ -140,6 +144,7 @@ class ConjugateGradients:
         self.watched += length * watched
         self._residual -= length * response
         self.steps += 1
+        self.gained += length * self.energy
         # 4. Project and precondition what is left.
         self._project()
         return True

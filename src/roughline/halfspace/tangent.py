@@ -13,13 +13,16 @@ import numpy as np
 
 from roughline.computing.arrays import Mask, Real
 from roughline.halfspace.patch import ConjugateGradients, Patch
+from roughline.halfspace.operator import Operator
+from roughline.halfspace.restricted import RestrictedOperator
 from roughline.halfspace.state import Contact, Method, Problem
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
 # error, and the bound on it is this part of the tolerance on residuals.
 _ENERGY_MARGIN = 0.01
 _STEPS = 300  # after which the energy form is computed afresh
-_GAIN = 1e-5  # of energy by steps that are restricted to the contact
+_ROUGHLY = 3e-8  # energy of the error, over the compliance, that an approximate operator leaves
+_DEFECT = 0.1  # of an approximate operator, at most
 _ROUNDS = 6  # of so many steps, at most
 
 
@@ -129,30 +132,39 @@ def tangent(
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
     grid_nodes = problem.grid_nodes(nodes)
-    steps = problem.restricted.on(grid_nodes) or operator
-    gain = 0.0 if steps is operator else _GAIN
+    steps: Operator | RestrictedOperator = problem.restricted.on(grid_nodes) or operator
+    restricted = steps is not operator
     patch = Patch(steps, problem.inverse, grid_nodes)
     pressure = _unit_force(elastic, cell_area, start, contact.pressure)
     convolutions, accuracy = 0, _ENERGY_MARGIN * method.rtol
-    for _ in range(_ROUNDS):
-        displacement = operator.displacement(pressure, grid_nodes, grid_nodes, method.certificate)
-        watched = displacement[:0]
+    for turn in range(_ROUNDS):
+        exact = turn > 0 or not restricted
+        if exact:
+            displacement = operator.displacement(
+                pressure, grid_nodes, grid_nodes, method.certificate
+            )
+            convolutions += 1
+        else:
+            displacement = steps.displacement(pressure, grid_nodes, grid_nodes)
         compliance = float(pressure @ displacement) * cell_area
         gradients = ConjugateGradients(
-            patch, pressure, -displacement, watched, fixed_total=True, precision=method.steps
+            patch, pressure, -displacement, displacement[:0], fixed_total=True, precision=method.steps
         )
-        convolutions += 1
         # compliance counts forces, energies of errors count pressures
-        converged = gradients.energy * cell_area <= accuracy * compliance
-        if converged:
-            break
-        aim = max(0.1 * accuracy * compliance, gain * gradients.energy * cell_area)
+        aim = (0.1 * accuracy if exact else _ROUGHLY) * compliance
         while gradients.energy * cell_area > aim and (
             gradients.steps < _STEPS and gradients.advance()
         ):
             pass
         pressure = gradients.pressure
-        convolutions += gradients.steps if steps is operator else 0
+        convolutions += 0 if restricted else gradients.steps
+        gained = gradients.gained * cell_area
+        compliance -= gained
+        converged = exact and max(
+            gradients.energy * cell_area, _DEFECT * gained
+        ) <= accuracy * compliance
+        if converged:
+            break
     pressure_per_force = np.zeros(contact.nodes.size)
     pressure_per_force[elastic] = pressure
     stiffness = 1 / compliance if compliance > 0 else np.nan
