@@ -5,20 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.halfspace.correction import solve
+from roughline.halfspace.correction import guessed
 from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.state import Load, Method, Problem
 
-_COARSEST = 256  # points along the longer side of the grid that starts from the rigid shift
+_COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
 _ROUGH = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
 def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     """Guess which nodes come into contact, and the pressures on them.
 
-    The coarse grid sees the mean separation of two by two nodes. Its pressures, the same on all
-    four, leave gaps on the finer grid, which one step of relaxation turns into pressures.
+    The coarse grid sees the mean separation of two by two nodes, and its pressures are the same on
+    all four.
 
     Parameters
     ----------
@@ -47,7 +46,7 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
         problem.rms_height,
         problem.conditions,
     )
-    contact = solve(coarse, load, first_guess(coarse, load)[0], _ROUGH)
+    contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
     largest = float(contact.pressure.max())
     pressure = np.zeros(coarse_separation.shape)
     pressure.flat[contact.nodes] = contact.pressure
@@ -55,19 +54,11 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
         # at the end of an odd side one node takes the force of two
         share = coarse.operator.spacing[axis] / operator.spacing[axis] / _widths(n, axis)
         pressure = np.repeat(pressure * share, min(n, 2), axis=axis).take(range(n), axis=axis)
-    loaded = np.flatnonzero(pressure)
-    sources = GridNodes.of(loaded, operator.shape)
-    gap = operator.displacement(pressure.flat[loaded], sources, None, "float32")
-    gap += separation
-    gap -= contact.depth
-    gap /= problem.inverse.diagonal
-    pressure -= gap
-    del gap
     pressure = problem.conditions.projected(pressure)
     nodes = np.flatnonzero(pressure > 0)
     if nodes.size:
         return ContactSet(nodes, pressure.flat[nodes]), largest
-    return ContactSet(loaded, np.ones(loaded.size)), largest
+    return _rigid_guess(problem, load), 0.0
 
 
 def _halved(field: Real) -> Real:

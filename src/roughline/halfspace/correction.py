@@ -50,16 +50,60 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         if precision == method.certificate and trial.certified(method.rtol):
             return trial.contact(problem, Outcome.CONVERGED, convolutions)
         left = method.max_iterations - convolutions - steps
-        near = nearby(problem, trial)
-        if near is None or left <= 1 or not worst < 0.5 * worst_before:
+        if left <= 1 or not worst < 0.5 * worst_before:
             break
         target = max(_GAIN * worst, _AIM * method.rtol)
-        rough = Method(target, left - 1, "float32")
-        found = search(near[0], load, near[1], rough)
-        steps += found.convolutions
-        contact_set = near[0].on_grid(ContactSet(found.nodes, found.pressure))
+        found = corrected(problem, load, trial, Method(target, left - 1, "float32"))
+        if found is None:
+            break
+        contact_set, spent = found
+        steps += spent
         if target < _SINGLE_ABOVE:
             precision = method.certificate
     left = max(1, method.max_iterations - convolutions - steps)
     contact = search(problem, load, trial.contact_set, replace(method, max_iterations=left))
     return replace(contact, convolutions=contact.convolutions + convolutions)
+
+
+def corrected(
+    problem: Problem, load: Load, trial: Trial, method: Method
+) -> tuple[ContactSet, int] | None:
+    """Search near the contact of a trial with a restricted operator.
+
+    Parameters
+    ----------
+    problem, load : Problem, Load
+        The bodies, and what is prescribed.
+    trial : Trial
+        Where to start from, with the gap that the exact operator gives.
+    method : Method
+        Tolerance, bound on the products and precision of the search.
+
+    Returns
+    -------
+    contact_set : ContactSet
+        What was found.
+    products : int
+        Products with the restricted operator.
+
+    None where the exact operator is cheaper than a restricted one.
+    """
+    near = nearby(problem, trial)
+    if near is None:
+        return None
+    there, start = near
+    found = search(there, load, start, method)
+    contact_set = there.on_grid(ContactSet(found.nodes, found.pressure))
+    return contact_set, found.convolutions
+
+
+def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> ContactSet:
+    """Find a contact roughly: as :func:`solve`, with one turn, and no certificate."""
+    trial = Trial.of(
+        problem, load, start, method.steps, np.empty(problem.separation.shape), rescale=True
+    )
+    found = corrected(problem, load, trial, method)
+    if found is None:
+        contact = search(problem, load, trial.contact_set, method)
+        return ContactSet(contact.nodes, contact.pressure)
+    return found[0]

@@ -34,10 +34,9 @@ from roughline.halfspace.preconditioner import even_sum
 
 _WIDTH = 1.2  # of the smoothing, in cells of the coarse grid
 _RADIUS = 2.0  # of the near part, in cells of the coarse grid
-_FINEST, _COARSEST = 4, 8  # cells along the side of a coarse cell, where these are square
-_MARGIN = int(_RADIUS * _COARSEST)  # of the grid on which near pressures lie
-_FEW = 0.025  # part of the grid up to which the coarsest grid serves best
-_MANY = 0.4  # part of the grid from which nothing is gained
+_SIDES = 2, 4, 8  # cells along the side of a coarse cell, where these are square
+_MARGIN = int(_RADIUS * _SIDES[-1])  # of the grid on which near pressures lie
+_SHARES = 0.6, 0.25, 0.025  # of the grid, up to which the coarse cells of each size serve best
 _FEWEST_POINTS = 64  # along the shorter side of the grid
 _ROWS_AT_A_TIME = 32
 
@@ -249,25 +248,25 @@ class RestrictedOperators:
             return None
         points = self._operator.shape[0] * self._operator.shape[1]
         part = int(nodes.runs[0][:, 2].sum()) / points
-        if part > _MANY:
+        ratios = next((each for share, each in reversed(self._ratios) if part <= share), None)
+        if ratios is None:
             return None
-        ratios = self._ratios[-1 if part < _FEW else 0]
         if ratios not in self._made:
             self._made[ratios] = RestrictedOperator.of(self._operator, ratios, self._near)
         return self._made[ratios]
 
 
-def _ratios(operator: Operator) -> list[tuple[int, int]]:
-    """List possible coarse cells, about square, from the finest to the coarsest."""
-    possible = []
+def _ratios(operator: Operator) -> list[tuple[float, tuple[int, int]]]:
+    """List possible coarse cells, about square, and the share of the grid up to which they serve."""
+    possible: list[tuple[float, tuple[int, int]]] = []
     if min(operator.shape) < _FEWEST_POINTS:
         return []
     dx, dy = operator.spacing
     longer = max(dx, dy)
-    for ratio in (_FINEST, _COARSEST):
+    for ratio, share in zip(_SIDES, _SHARES, strict=True):
         ratios = ratio * 2 ** round(np.log2(longer / dx)), ratio * 2 ** round(np.log2(longer / dy))
         radius = _RADIUS * max(ratios[0] * dx, ratios[1] * dy) / min(dx, dy)
         divides = all(p % r == 0 for p, r in zip(operator.periods, ratios, strict=True))
         if divides and radius < _MARGIN + 1:
-            possible.append(ratios)
+            possible.append((share, ratios))
     return possible

@@ -168,6 +168,7 @@ def add_near_and_far(
     weights_x, weights_y = weights
     ratio_x, ratio_y = weights_x.shape[0], weights_y.shape[0]
     radius_x, radius_y = taps.shape[0] // 2, (taps.shape[1] - 4) // 2
+    flat, width = grid.reshape(-1), grid.shape[1]
     far = np.empty(coarse.shape[1], dtype=np.float32)
     sums = np.empty(grid.shape[1], dtype=np.float32)
     for k in range(first, last):
@@ -182,11 +183,13 @@ def add_near_and_far(
             total = sums[:length]
             total[:] = 0
             for di in range(2 * radius_x + 1):
-                line = grid[rows[k] + margins[0] - radius_x + di]
-                for dj in range(radius_y - reach[di], radius_y + reach[di] + 1, 4):
-                    t0, t1, t2, t3 = taps[di, dj : dj + 4]
-                    left = start + margins[1] - radius_y + dj
-                    near = line[left : left + length + 3]
+                groups = (2 * reach[di] + 4) // 4  # of four taps
+                across = radius_y - reach[di]
+                at = (rows[k] + margins[0] - radius_x + di) * width + start + margins[1] - reach[di]
+                line, tap = flat[at : at + 4 * groups + length], taps[di, across:]
+                for group in range(0, 4 * groups, 4):
+                    t0, t1, t2, t3 = tap[group], tap[group + 1], tap[group + 2], tap[group + 3]
+                    near = line[group:]
                     for j in range(length):
                         total[j] += (
                             t0 * near[j] + t1 * near[j + 1] + t2 * near[j + 2] + t3 * near[j + 3]

@@ -22,7 +22,7 @@ from roughline.halfspace.state import Contact, Method, Problem
 _ENERGY_MARGIN = 0.01
 _STEPS = 300  # after which the energy form is computed afresh
 _ROUGHLY = 3e-8  # energy of the error, over the compliance, that an approximate operator leaves
-_DEFECT = 0.1  # of an approximate operator, at most
+_DEFECT = 0.02  # of an approximate operator, at most
 _ROUNDS = 6  # of so many steps, at most
 
 
