@@ -20,7 +20,7 @@ from roughline.halfspace.nearby import nearby
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.trial import Trial
 
-_GAIN = 1e-2  # of residuals by a search near the contact
+_GAIN = 2e-3  # of residuals by a search near the contact
 _AIM = 0.3  # below the tolerance, so that the certificate is not missed by a hair
 _SINGLE_ABOVE = 1e-4  # residuals below this are computed in the precision of the certificate
 

@@ -14,8 +14,9 @@ from roughline.halfspace.state import Problem
 from roughline.halfspace.trial import Trial
 
 # Nodes of a gap below so many times the error on contact may come into contact.
-_REACH = 4.0
-_SPARE = 1000  # nodes beyond twice those in contact
+_REACH = 2.0
+_SPARE = 1000  # nodes beyond six times those in contact
+_LARGEST = 0.4  # part of the grid on which a problem is looked at
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,12 +110,14 @@ def nearby(problem: Problem, trial: Trial) -> tuple[NearbyProblem, ContactSet] |
 
 def _close_nodes(gap: Real, nodes: Indices) -> Indices:
     """Return the nodes off the contact whose gap is small, at most a few times those in it."""
-    reach = _REACH * float(np.sqrt(np.mean(gap.flat[nodes] ** 2)))
+    wrong = gap.ravel() < 0
+    wrong[nodes] = True
+    reach = _REACH * float(np.sqrt(np.mean(gap.ravel()[wrong] ** 2)))
     close = gap.ravel() < reach
     close[nodes] = False
     others = np.flatnonzero(close)
-    most = 2 * nodes.size + _SPARE
+    most = max(0, min(6 * nodes.size + _SPARE, int(_LARGEST * gap.size) - nodes.size))
     if others.size <= most:
         return others
     gaps = gap.flat[others]
-    return others[gaps <= np.partition(gaps, most)[most]]
+    return others[np.sort(np.argpartition(gaps, most)[:most])]

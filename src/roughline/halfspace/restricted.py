@@ -32,8 +32,8 @@ from roughline.halfspace.convolution import Convolution
 from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import even_sum
 
-_WIDTH = 1.2  # of the smoothing, in cells of the coarse grid
-_RADIUS = 2.0  # of the near part, in cells of the coarse grid
+_WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
+_RADIUS = 2.25  # of the near part, in cells of the coarse grid
 _SIDES = 2, 4, 8  # cells along the side of a coarse cell, where these are square
 _MARGIN = int(_RADIUS * _SIDES[-1])  # of the grid on which near pressures lie
 _SHARES = 0.6, 0.25, 0.025  # of the grid, up to which the coarse cells of each size serve best
