@@ -188,6 +188,11 @@ class RestrictedOperator:
         moved[:] = np.pad(inner, (1, 2), mode="wrap")
 
 
+def empty_grid(shape: tuple[int, int]) -> Single:
+    """Return memory for pressures on a grid and on the margin that near parts reach."""
+    return np.zeros((shape[0] + 2 * _MARGIN, shape[1] + 2 * _MARGIN + 8), dtype=np.float32)
+
+
 def _folded(values: Single) -> Single:
     """Add the rows that splines reach beyond a period to those a period away."""
     inner = values[1:-2].copy()
@@ -239,8 +244,7 @@ class RestrictedOperators:
 
     @cached_property
     def _near(self) -> Single:
-        nx, ny = self._operator.shape
-        return np.zeros((nx + 2 * _MARGIN, ny + 2 * _MARGIN + 8), dtype=np.float32)
+        return empty_grid(self._operator.shape)
 
     def on(self, nodes: GridNodes) -> RestrictedOperator | None:
         """Return the cheapest one for some nodes, or None where the exact operator is cheaper."""
