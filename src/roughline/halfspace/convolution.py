@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -12,11 +11,13 @@ import numpy as np
 from roughline.computing import fft
 from roughline.computing.arrays import Real, Single
 from roughline.halfspace import loops
-from roughline.halfspace.kernel import love
+from roughline.halfspace.kernel import love_rows
 from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
+_TABLE_AT_A_TIME = 2**16  # points
+_LONG = 64  # points along a side, from which on it has as many periods to choose from
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,14 +125,11 @@ class Convolution:
             else:
                 loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
 
-        _in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS_AT_A_TIME)
-        _in_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
-        _in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS_AT_A_TIME)
+        pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
+        fft.share_out_blocks(transform_rows, pairs, _PAIRS_AT_A_TIME)
+        fft.share_out_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
+        fft.share_out_blocks(transform_rows_back, pairs_out, _PAIRS_AT_A_TIME)
         return result
-
-
-def _in_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:
-    fft.share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
 
 
 def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:
@@ -149,19 +147,21 @@ def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) ->
     E_star : float
         Contact modulus E*. [pressure]
     """
-    mx, my = fft.good_size(2 * shape[0]), fft.good_size(2 * shape[1])
-    dx, dy = spacing
+    mx, my = _padded(shape[0]), _padded(shape[1])
     spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
-    offsets_y = dy * np.arange(my // 2 + 1)
 
     def fill(first: int, last: int) -> None:
-        offsets_x = dx * np.arange(first, last)[:, np.newaxis]
-        spectrum[first:last] = love(offsets_x, offsets_y, dx, dy)
+        love_rows(first, *spacing, 1 / E_star / (mx * my), spectrum[first:last])
 
-    _in_blocks(fill, len(spectrum), max(1, 2**16 // len(offsets_y)))
+    rows, columns = spectrum.shape
+    fft.share_out_blocks(fill, rows, max(1, _TABLE_AT_A_TIME // columns))
     fft.cosine_spectrum(spectrum)
-    spectrum /= E_star * mx * my
     return Convolution(shape, spacing, (mx, my), spectrum, zero_mean=False)
+
+
+def _padded(n: int) -> int:
+    """Return a period of at least twice a side; a long one can be halved three times."""
+    return fft.good_size(2 * n, 8 if n >= _LONG else 2)
 
 
 def periodic(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:
