@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from roughline.computing import fft
-from roughline.computing.arrays import Real, Single
+from roughline.computing.arrays import Real
 from roughline.halfspace import loops
 from roughline.halfspace.kernel import love_rows
 from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
@@ -50,10 +50,6 @@ class Convolution:
     def cell_area(self) -> float:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
-
-    @cached_property
-    def _spectrum_float32(self) -> Single:
-        return self.spectrum.astype(np.float32)
 
     @cached_property
     def _buffers(self) -> dict[Precision, tuple[Any, Any]]:
@@ -98,7 +94,6 @@ class Convolution:
             result *= unit
             return result
         (nx, ny), (mx, my) = self.shape, self.periods
-        spectrum = self._spectrum_float32 if precision == "float32" else self.spectrum
         modes, real_modes = self._buffer(precision)
         rows_out = np.arange(nx) if targets is None else targets.rows
         if out is None:
@@ -114,7 +109,7 @@ class Convolution:
             real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
             loops.load_columns(real_modes, sources.rows, first, real_columns)
             fft.fft_columns(columns, forward=True)
-            loops.weigh_columns(real_columns, spectrum, first)
+            loops.weigh_columns(real_columns, self.spectrum, first)
             fft.fft_columns(columns, forward=False)
             loops.store_columns(real_columns, rows_out, first, real_modes)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
 
@@ -107,14 +109,24 @@ def load_columns(pairs: Floats, rows: Integers, first: int, columns: Floats) -> 
 
 @compiled
 def weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
-    """Multiply a block of modes by an even spectrum of which a quarter is given."""
-    period = columns.shape[0]
-    for i in range(period):
-        weights = quarter[min(i, period - i)]
+    """Multiply a block of modes by an even spectrum of which a quarter is given.
+
+    The spectrum is rounded to the precision of the modes.
+    """
+    period, modes = columns.shape[0], columns.shape[1]
+    weights = np.empty(modes, columns.dtype)
+    for i in range(period // 2 + 1):
         row = columns[i]
-        for j in range(row.shape[0]):
-            row[j, 0] *= weights[first + j]
-            row[j, 1] *= weights[first + j]
+        for j in range(modes):
+            weights[j] = quarter[i, first + j]
+        for j in range(modes):
+            row[j, 0] *= weights[j]
+            row[j, 1] *= weights[j]
+        if 0 < i < period - i:
+            mirror = columns[period - i]
+            for j in range(modes):
+                mirror[j, 0] *= weights[j]
+                mirror[j, 1] *= weights[j]
 
 
 @compiled
