@@ -130,6 +130,22 @@ def weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
 
 
 @compiled
+def invert(values: Floats, inverse: Floats) -> None:
+    """Divide one by each value that is positive; zero for others."""
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            inverse[i, j] = np.divide(1.0, values[i, j]) if values[i, j] > 0 else 0.0
+
+
+@compiled
+def fold_rows(rows: Floats, weights: Floats, places: Integers, sums: Floats) -> None:
+    """Add the weighted values of each row to the places of its sums."""
+    for i in range(rows.shape[0]):
+        for j in range(rows.shape[1]):
+            sums[i, places[j]] += weights[j] * rows[i, j]
+
+
+@compiled
 def store_columns(columns: Floats, rows: Integers, first: int, pairs: Floats) -> None:
     """Join two real rows into each complex one: the inverse of load_columns, for some rows."""
     period = pairs.shape[1]
