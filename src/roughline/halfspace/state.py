@@ -31,10 +31,8 @@ class Problem:
     ----------
     half_space : HalfSpace
         The half-space.
-    operator : Operator
-        Its displacements under pressures on the grid.
     inverse : ApproximateInverse
-        Approximate inverse of the operator.
+        Approximate inverse of its operator on the grid.
     separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
         until that is indented. [length]
@@ -46,24 +44,15 @@ class Problem:
     """
 
     half_space: HalfSpace
-    operator: Operator
     inverse: ApproximateInverse
     separation: Real
     rms_height: float
     conditions: ContactConditions
 
-    @classmethod
-    def of(
-        cls,
-        half_space: HalfSpace,
-        operator: Operator,
-        separation: Real,
-        rms_height: float,
-        conditions: ContactConditions,
-    ) -> Problem:
-        """Put a rough body over a half-space; the operator is one that the half-space made."""
-        inverse = ApproximateInverse.of(operator)
-        return cls(half_space, operator, inverse, separation, rms_height, conditions)
+    @property
+    def operator(self) -> Operator:
+        """The half-space's displacements under pressures on the grid."""
+        return self.inverse.operator
 
     @cached_property
     def touch(self) -> float:
