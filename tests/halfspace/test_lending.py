@@ -11,15 +11,10 @@ from roughline.halfspace import lending
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.lending import lent
 
+pytestmark = pytest.mark.usefixtures("nothing_kept")
+
 HALF_SPACE = HalfSpace(1.0)
 SQUARE = (1.0, 1.0)
-
-
-@pytest.fixture(autouse=True)
-def _nothing_kept():
-    lending._kept.clear()
-    yield
-    lending._kept.clear()
 
 
 def press(seed, n=300, **settings):
