@@ -114,19 +114,16 @@ def weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
     The spectrum is rounded to the precision of the modes.
     """
     period, modes = columns.shape[0], columns.shape[1]
-    weights = np.empty(modes, columns.dtype)
     for i in range(period // 2 + 1):
-        row = columns[i]
+        row, mirror = columns[i], columns[(period - i) % period]
+        is_its_own_mirror = 2 * i % period == 0
         for j in range(modes):
-            weights[j] = quarter[i, first + j]
-        for j in range(modes):
-            row[j, 0] *= weights[j]
-            row[j, 1] *= weights[j]
-        if 0 < i < period - i:
-            mirror = columns[period - i]
-            for j in range(modes):
-                mirror[j, 0] *= weights[j]
-                mirror[j, 1] *= weights[j]
+            weight = columns.dtype.type(quarter[i, first + j])
+            row[j, 0] *= weight
+            row[j, 1] *= weight
+            if not is_its_own_mirror:
+                mirror[j, 0] *= weight
+                mirror[j, 1] *= weight
 
 
 @compiled
