@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.halfspace.correction import guessed
 from roughline.halfspace.contact_set import ContactSet
+from roughline.halfspace.correction import guessed
+from roughline.halfspace.lending import lent
 from roughline.halfspace.state import Load, Method, Problem
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
@@ -39,20 +42,17 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     coarse_separation = _halved(separation)
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(problem, load), 0.0
-    coarse = Problem.of(
-        problem.half_space,
-        problem.half_space.coarser_operator(operator),
-        coarse_separation,
-        problem.rms_height,
-        problem.conditions,
-    )
-    contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
+    shape, spacing = problem.half_space.coarser_grid(operator.shape, operator.spacing)
+    with lent(problem.half_space, shape, spacing) as inverse:
+        coarse = replace(problem, inverse=inverse, separation=coarse_separation)
+        contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
+    del coarse, inverse
     largest = float(contact.pressure.max())
-    pressure = np.zeros(coarse_separation.shape)
+    pressure = np.zeros(shape)
     pressure.flat[contact.nodes] = contact.pressure
     for axis, n in enumerate(separation.shape):
         # at the end of an odd side one node takes the force of two
-        share = coarse.operator.spacing[axis] / operator.spacing[axis] / _widths(n, axis)
+        share = spacing[axis] / operator.spacing[axis] / _widths(n, axis)
         pressure = np.repeat(pressure * share, min(n, 2), axis=axis).take(range(n), axis=axis)
     pressure = problem.conditions.projected(pressure)
     nodes = np.flatnonzero(pressure > 0)

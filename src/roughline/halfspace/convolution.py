@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 
 from roughline.computing import fft
-from roughline.computing.arrays import Real, Single
+from roughline.computing.arrays import Real
 from roughline.halfspace import loops
-from roughline.halfspace.kernel import love
+from roughline.halfspace.kernel import love_rows
 from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
+_TABLE_AT_A_TIME = 2**16  # points
+_LONG = 64  # points along a side, from which on it has as many periods to choose from
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,10 +50,6 @@ class Convolution:
     def cell_area(self) -> float:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
-
-    @cached_property
-    def _spectrum_float32(self) -> Single:
-        return self.spectrum.astype(np.float32)
 
     @cached_property
     def _buffers(self) -> dict[Precision, tuple[Any, Any]]:
@@ -96,7 +94,6 @@ class Convolution:
             result *= unit
             return result
         (nx, ny), (mx, my) = self.shape, self.periods
-        spectrum = self._spectrum_float32 if precision == "float32" else self.spectrum
         modes, real_modes = self._buffer(precision)
         rows_out = np.arange(nx) if targets is None else targets.rows
         if out is None:
@@ -112,7 +109,7 @@ class Convolution:
             real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
             loops.load_columns(real_modes, sources.rows, first, real_columns)
             fft.fft_columns(columns, forward=True)
-            loops.weigh_columns(real_columns, spectrum, first)
+            loops.weigh_columns(real_columns, self.spectrum, first)
             fft.fft_columns(columns, forward=False)
             loops.store_columns(real_columns, rows_out, first, real_modes)
 
@@ -123,9 +120,10 @@ class Convolution:
             else:
                 loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
 
-        fft.in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS_AT_A_TIME)
-        fft.in_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
-        fft.in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS_AT_A_TIME)
+        pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
+        fft.share_out_blocks(transform_rows, pairs, _PAIRS_AT_A_TIME)
+        fft.share_out_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
+        fft.share_out_blocks(transform_rows_back, pairs_out, _PAIRS_AT_A_TIME)
         return result
 
 
@@ -144,19 +142,21 @@ def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) ->
     E_star : float
         Contact modulus E*. [pressure]
     """
-    mx, my = fft.good_size(2 * shape[0]), fft.good_size(2 * shape[1])
-    dx, dy = spacing
+    mx, my = _padded(shape[0]), _padded(shape[1])
     spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
-    offsets_y = dy * np.arange(my // 2 + 1)
 
     def fill(first: int, last: int) -> None:
-        offsets_x = dx * np.arange(first, last)[:, np.newaxis]
-        spectrum[first:last] = love(offsets_x, offsets_y, dx, dy)
+        love_rows(first, *spacing, 1 / E_star / (mx * my), spectrum[first:last])
 
-    fft.in_blocks(fill, len(spectrum), max(1, 2**16 // len(offsets_y)))
+    rows, columns = spectrum.shape
+    fft.share_out_blocks(fill, rows, max(1, _TABLE_AT_A_TIME // columns))
     fft.cosine_spectrum(spectrum)
-    spectrum /= E_star * mx * my
     return Convolution(shape, spacing, (mx, my), spectrum, zero_mean=False)
+
+
+def _padded(n: int) -> int:
+    """Return a period of at least twice a side; a long one can be halved three times."""
+    return fft.good_size(2 * n, 8 if n >= _LONG else 2)
 
 
 def periodic(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
@@ -10,7 +12,49 @@ from roughline.computing.arrays import Real
 GROUP = 4
 """Blocks along a side of a group; a group is one block of the next lattice."""
 
+_COARSEST = 32  # blocks along a side of the lattice whose equations are solved directly
 _RIDGE = 1 + 1e-9  # factor on diagonals, against rounding
+
+
+def lattice_shapes(finest: tuple[int, int]) -> list[tuple[int, int]]:
+    """Return the blocks along both sides of the finest lattice and of ever coarser ones."""
+    shapes = [finest]
+    while max(shapes[-1]) > _COARSEST:
+        mx, my = shapes[-1]
+        shapes.append((-(-mx // GROUP), -(-my // GROUP)))
+    return shapes
+
+
+def lags_for(shapes: Sequence[tuple[int, int]]) -> tuple[int, int]:
+    """Return how many distances of the finest lattice's blocks :func:`kernels_on` needs."""
+    groups = GROUP ** (len(shapes) - 1)
+    return groups * shapes[-1][0], groups * shapes[-1][1]
+
+
+def kernels_on(shapes: Sequence[tuple[int, int]], kernel: Real) -> tuple[Real, ...]:
+    """Return the kernels averaged over the blocks of each lattice, by the distance of two blocks.
+
+    Parameters
+    ----------
+    shapes : sequence of tuple of int
+        Blocks along both sides of each lattice, from :func:`lattice_shapes`.
+    kernel : ndarray, shape of lags_for(shapes)
+        The kernel averaged over the finest lattice's blocks. [length / pressure]
+    """
+    kernels = [kernel]
+    for _ in shapes[1:]:
+        kernel = _group_means(_group_means(kernel).T).T
+        kernels.append(kernel)
+    return tuple(k[:mx, :my].copy() for k, (mx, my) in zip(kernels, shapes, strict=True))
+
+
+def _group_means(kernel: Real) -> Real:
+    """Average over all pairs of blocks of two groups along the first axis."""
+    means = np.zeros((len(kernel) // GROUP, kernel.shape[1]))
+    for distance in range(1 - GROUP, GROUP):
+        pairs = kernel[abs(GROUP * np.arange(len(means)) + distance)]
+        means += (GROUP - abs(distance)) / GROUP**2 * pairs
+    return means
 
 
 class Lattices:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
 
@@ -107,14 +109,37 @@ def load_columns(pairs: Floats, rows: Integers, first: int, columns: Floats) -> 
 
 @compiled
 def weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
-    """Multiply a block of modes by an even spectrum of which a quarter is given."""
-    period = columns.shape[0]
-    for i in range(period):
-        weights = quarter[min(i, period - i)]
-        row = columns[i]
-        for j in range(row.shape[0]):
-            row[j, 0] *= weights[first + j]
-            row[j, 1] *= weights[first + j]
+    """Multiply a block of modes by an even spectrum of which a quarter is given.
+
+    The spectrum is rounded to the precision of the modes.
+    """
+    period, modes = columns.shape[0], columns.shape[1]
+    for i in range(period // 2 + 1):
+        row, mirror = columns[i], columns[(period - i) % period]
+        is_its_own_mirror = 2 * i % period == 0
+        for j in range(modes):
+            weight = columns.dtype.type(quarter[i, first + j])
+            row[j, 0] *= weight
+            row[j, 1] *= weight
+            if not is_its_own_mirror:
+                mirror[j, 0] *= weight
+                mirror[j, 1] *= weight
+
+
+@compiled
+def invert(values: Floats, inverse: Floats) -> None:
+    """Divide one by each value that is positive; zero for others."""
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            inverse[i, j] = np.divide(1.0, values[i, j]) if values[i, j] > 0 else 0.0
+
+
+@compiled
+def fold_rows(rows: Floats, weights: Floats, places: Integers, sums: Floats) -> None:
+    """Add the weighted values of each row to the places of its sums."""
+    for i in range(rows.shape[0]):
+        for j in range(rows.shape[1]):
+            sums[i, places[j]] += weights[j] * rows[i, j]
 
 
 @compiled

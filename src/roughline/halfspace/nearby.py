@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -28,6 +29,8 @@ class NearbyProblem(Problem):
 
     Attributes
     ----------
+    touched : float
+        Depth at which the surfaces touch anywhere on the grid. [length]
     approximate : RestrictedOperator
         Approximate operator.
     sites : GridNodes
@@ -38,10 +41,16 @@ class NearbyProblem(Problem):
         Displacements under them. [length]
     """
 
+    touched: float
     approximate: RestrictedOperator
     sites: GridNodes
     before: Real
     moved: Real
+
+    @cached_property
+    def touch(self) -> float:
+        """Depth at which the surfaces touch, here or elsewhere. [length]"""
+        return self.touched
 
     @property
     def steps(self) -> RestrictedOperator:
@@ -80,7 +89,7 @@ def nearby(problem: Problem, trial: Trial) -> tuple[NearbyProblem, ContactSet] |
     contact_set = trial.contact_set
     sites, order = merged(contact_set.nodes, _close_nodes(trial.gap, contact_set.nodes))
     nodes = GridNodes.of(sites, problem.operator.shape)
-    operator = problem.restricted.on(nodes)
+    operator = problem.inverse.restricted.on(nodes)
     if operator is None:
         return None
     places = np.flatnonzero(order < contact_set.nodes.size)
@@ -93,13 +102,11 @@ def nearby(problem: Problem, trial: Trial) -> tuple[NearbyProblem, ContactSet] |
     before[places] = contact_set.pressure
     near = NearbyProblem(
         problem.half_space,
-        problem.operator,
         problem.inverse,
         separation,
         problem.rms_height,
         problem.conditions,
         problem.touch,
-        problem.restricted,
         operator,
         nodes,
         before,

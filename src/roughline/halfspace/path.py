@@ -94,7 +94,7 @@ class _Path:
                 self._unknown_below = load.value
             return contact, None
         if contact.separation is not self._problem.separation:
-            self._problem = self._problem.indented(contact.separation)
+            self._problem = replace(self._problem, separation=contact.separation)
             self._furthest = None
         start = None if self._last is None else self._last.on(contact.nodes)
         solved = _Solved(load, contact, response(self._problem, contact, start, self._method))

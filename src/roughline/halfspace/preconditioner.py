@@ -15,23 +15,30 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 
-from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
+from roughline.computing.arrays import Indices, Real, Single
 from roughline.halfspace import loops
-from roughline.halfspace.lattices import GROUP, Lattices, set_diagonal
+from roughline.halfspace.even_sums import Lags, even_sums
+from roughline.halfspace.lattices import (
+    Lattices,
+    kernels_on,
+    lags_for,
+    lattice_shapes,
+    set_diagonal,
+)
 from roughline.halfspace.operator import GridNodes, Operator, unit_in_single
+from roughline.halfspace.restricted import NEAR, RestrictedOperators
 
 _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 _STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
-_COARSEST = 32  # blocks along a side of the lattice whose equations are solved directly
 _SINGLE_RIDGE = 1 + 1e-6  # factor on diagonals, against the rounding of single precision
 
 
@@ -49,8 +56,6 @@ class ApproximateInverse:
         Coefficients of the stencil. All but the central one are negative, and together they weigh
         less than it, so the stencil cut to any set of nodes is positive definite.
         [pressure / length]
-    margins : tuple of int
-        Cells that the stencil reaches along x and y.
     block_sides : tuple of int
         Cells along the sides of the smallest blocks.
     diagonal : float
@@ -60,21 +65,22 @@ class ApproximateInverse:
         For each lattice, displacement of a node by the pressure on another, averaged over the
         blocks of the two, by the distance of these blocks. A positive definite function, as the
         kernel is. [length / pressure]
+    restricted : RestrictedOperators
+        Forms of the operator that cost what the contact costs.
     """
 
     operator: Operator
     offsets: Indices
     taps: Real
-    margins: tuple[int, int]
     block_sides: tuple[int, int]
     diagonal: float
     block_kernels: tuple[Real, ...]
+    restricted: RestrictedOperators
 
     @classmethod
     def of(cls, operator: Operator) -> ApproximateInverse:
         """Derive it from the operator's spectrum."""
         raised = _raised(operator)
-        diagonal = even_sum(operator.spectrum, operator.periods, [np.zeros(1)] * 2)[0, 0] + raised
         dx, dy = operator.spacing
         stretch = float(np.clip(np.sqrt(dy / dx), 1 / _STRETCH, _STRETCH))
         nx, ny = operator.shape
@@ -82,20 +88,26 @@ class ApproximateInverse:
             min(max(1, round(_BLOCK * stretch)), nx),
             min(max(1, round(_BLOCK / stretch)), ny),
         )
-        block_kernels = []
-        sides = smallest
-        while True:
-            lags = [
-                side * np.arange(-(-n // side))
-                for side, n in zip(sides, operator.shape, strict=True)
-            ]
-            block_kernels.append(even_sum(operator.spectrum, operator.periods, lags, sides) + raised)
-            if max(block_kernels[-1].shape) <= _COARSEST:
-                break
-            sides = GROUP * sides[0], GROUP * sides[1]
-        offsets, taps = _stencil(operator, stretch)
+        lattices = lattice_shapes((-(-nx // smallest[0]), -(-ny // smallest[1])))
+        offsets = _stencil_cells(operator, stretch)
         margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
-        return cls(operator, offsets, taps, margins, smallest, diagonal, tuple(block_kernels))
+        kernel, inverse, near = even_sums(
+            operator.spectrum,
+            operator.periods,
+            Lags(lags_for(lattices), smallest),
+            Lags((margins[0] + 1, margins[1] + 1)),
+            Lags(NEAR),
+        )
+        inverse /= float(operator.periods[0] * operator.periods[1]) ** 2
+        return cls(
+            operator,
+            offsets,
+            _stencil_taps(offsets, inverse),
+            smallest,
+            float(near[0, 0]) + raised,
+            kernels_on(lattices, kernel + raised),
+            RestrictedOperators(operator, near, margins),
+        )
 
     @cached_property
     def kernel(self) -> Single:
@@ -104,13 +116,6 @@ class ApproximateInverse:
         kernel = self.operator.displacement(np.ones(1), corner, None, "float32")
         kernel += _raised(self.operator)
         return kernel.astype(np.float32)
-
-    @cached_property
-    def padded_grid(self) -> Single:
-        """Memory for values on the grid and on the stencil's margin; zero when not in use."""
-        nx, ny = self.operator.shape
-        points = (nx + 2 * self.margins[0]) * (ny + 2 * self.margins[1])
-        return np.zeros(points, dtype=np.float32)
 
 
 def _raised(operator: Operator) -> float:
@@ -121,50 +126,25 @@ def _raised(operator: Operator) -> float:
     return float(operator.spectrum.max()) if operator.zero_mean else 0.0
 
 
-def _stencil(operator: Operator, stretch: float) -> tuple[Indices, Real]:
-    """Return offsets and coefficients of the inverse convolution, cut short."""
-    scale = operator.periods[0] * operator.periods[1]
-    inverse = np.zeros_like(operator.spectrum)
-    np.divide(1 / scale**2, operator.spectrum, out=inverse, where=operator.spectrum > 0)
+def _stencil_cells(operator: Operator, stretch: float) -> Indices:
+    """Return the cells of the stencil, counted from its centre."""
     radii = _RADIUS * stretch, _RADIUS / stretch
     reach = [
         np.arange(-min(int(radius), (period - 1) // 2), min(int(radius), (period - 1) // 2) + 1)
         for radius, period in zip(radii, operator.periods, strict=True)
     ]
-    x, y = (lag.ravel() for lag in np.meshgrid(*reach, indexing="ij"))
+    x, y = (cells.ravel() for cells in np.meshgrid(*reach, indexing="ij"))
     within = (x / radii[0]) ** 2 + (y / radii[1]) ** 2 <= 1
-    offsets = np.stack([x[within], y[within]], axis=1)
-    lags = [np.arange(axis.max() + 1) for axis in reach]
-    taps = even_sum(inverse, operator.periods, lags)[abs(offsets[:, 0]), abs(offsets[:, 1])]
+    return np.stack([x[within], y[within]], axis=1)
+
+
+def _stencil_taps(offsets: Indices, inverse: Real) -> Real:
+    """Return the coefficients of the inverse convolution, cut short."""
+    taps = inverse[abs(offsets[:, 0]), abs(offsets[:, 1])]
     centre = (offsets == 0).all(axis=1)
     around = np.minimum(taps, 0.0)
     around *= min(1.0, 0.99 * taps[centre].item() / max(-around.sum(), 1e-300))
-    return offsets, np.where(centre, taps, around)
-
-
-def even_sum(
-    quarter: Real,
-    periods: tuple[int, int],
-    lags: Sequence[Integers | Floats],
-    sides: Sequence[int] = (1, 1),
-) -> Real:
-    """Transform an even spectrum, given by its quarter, and only at the lags that are wanted.
-
-    With `sides`, the result is averaged over all pairs of cells of two blocks at these lags.
-    """
-    result = quarter
-    for axis, period in enumerate(periods):
-        modes = np.arange(period // 2 + 1)
-        weights = np.full(modes.size, 2.0)
-        weights[0] = 1.0
-        if period % 2 == 0:
-            weights[-1] = 1.0
-        angle = np.pi / period * modes[1:]
-        weights[1:] *= (np.sin(sides[axis] * angle) / (sides[axis] * np.sin(angle))) ** 2
-        # modulo the period, the product and so the angle stay small and exact
-        cosines = weights * np.cos(2 * np.pi / period * (np.outer(lags[axis], modes) % period))
-        result = np.moveaxis(np.tensordot(cosines, result, axes=(1, axis)), 0, axis)
-    return result
+    return np.where(centre, taps, around)
 
 
 Preconditioner = Callable[[Real], Real]
@@ -189,14 +169,14 @@ class _Multilevel:
     """The approximate inverse on many contact nodes."""
 
     def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
-        margins, sides = inverse.margins, inverse.block_sides
+        grid, sides = inverse.restricted.grid, inverse.block_sides
         rows = np.repeat(nodes.rows, np.diff(nodes.starts))
-        width = inverse.operator.shape[1] + 2 * margins[1]
+        width = grid.values.shape[1]
         self._taps = inverse.taps
         self._offsets = inverse.offsets @ np.array([width, 1])
-        self._grid = inverse.padded_grid
+        self._grid = grid.values.reshape(-1)
         index: type[np.integer] = np.int32 if self._grid.size < 2**31 else np.int64
-        self._places = ((rows + margins[0]) * width + nodes.columns + margins[1]).astype(index)
+        self._places = ((rows + grid.margins[0]) * width + nodes.columns + grid.margins[1]).astype(index)
         kernel = inverse.block_kernels[0]
         self._lattice = kernel.shape
         block = (rows // sides[0]) * self._lattice[1] + nodes.columns // sides[1]

@@ -30,15 +30,52 @@ from roughline.computing.arrays import Indices, Real, Single
 from roughline.halfspace import restricted_loops as loops
 from roughline.halfspace.convolution import Convolution
 from roughline.halfspace.operator import GridNodes, Operator, Precision
-from roughline.halfspace.preconditioner import even_sum
 
 _WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
 _RADIUS = 2.25  # of the near part, in cells of the coarse grid
 _SIDES = 2, 4, 8  # cells along the side of a coarse cell, where these are square
-_MARGIN = int(_RADIUS * _SIDES[-1])  # of the grid on which near pressures lie
+_REACH = int(_RADIUS * _SIDES[-1])  # of the near part, at most
 _SHARES = 0.6, 0.25, 0.025  # of the grid, up to which the coarse cells of each size serve best
 _FEWEST_POINTS = 64  # along the shorter side of the grid
+_ROUNDING = 8  # to which the lengths of runs are rounded up
 _ROWS_AT_A_TIME = 32
+
+NEAR = _REACH + 1, _REACH + 1
+"""Distances in cells, counted from zero, at which the kernel is needed."""
+
+
+@dataclass(frozen=True, eq=False)
+class PaddedGrid:
+    """Memory for values on a grid with a margin; zero when not in use.
+
+    Attributes
+    ----------
+    values : ndarray, shape (nx + 2 margins[0], ny + 2 margins[1])
+        The values.
+    margins : tuple of int
+        Cells of the margin along x and y.
+    """
+
+    values: Single
+    margins: tuple[int, int]
+
+    @classmethod
+    def of(cls, shape: tuple[int, int], margins: tuple[int, int]) -> PaddedGrid:
+        """Put a margin around a grid."""
+        padded = shape[0] + 2 * margins[0], shape[1] + 2 * margins[1]
+        return cls(np.zeros(padded, dtype=np.float32), margins)
+
+    def wrap(self) -> None:
+        """Fill the margin with what lies a period away."""
+        for values, margin in zip((self.values, self.values.T), self.margins, strict=True):
+            values[:margin] = values[-2 * margin : -margin]
+            values[-margin:] = values[margin : 2 * margin]
+
+    def clear_margin(self) -> None:
+        """Set the margin to zero."""
+        for values, margin in zip((self.values, self.values.T), self.margins, strict=True):
+            values[:margin] = 0
+            values[-margin:] = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,8 +93,8 @@ class RestrictedOperator:
     weights : tuple of ndarray, shape (ratio, 4)
         Weights of the four coarse rows around a row, by its place between two of them, and those
         of the columns around a column.
-    near : ndarray
-        Memory for pressures on the grid and on a margin; zero when not in use.
+    grid : PaddedGrid
+        Memory for pressures.
     periodic : bool
         Whether pressures repeat themselves beyond the grid.
     """
@@ -66,11 +103,11 @@ class RestrictedOperator:
     taps: Single
     reach: Indices
     weights: tuple[Single, Single]
-    near: Single
+    grid: PaddedGrid
     periodic: bool
 
     @classmethod
-    def of(cls, operator: Operator, ratios: tuple[int, int], near: Single) -> RestrictedOperator:
+    def of(cls, operator: Operator, ratios: tuple[int, int], kernel: Real, grid: PaddedGrid) -> RestrictedOperator:
         """Split an operator.
 
         Parameters
@@ -79,7 +116,10 @@ class RestrictedOperator:
             The operator.
         ratios : tuple of int
             Cells along the sides of a coarse cell; they divide the periods.
-        near : ndarray
+        kernel : ndarray, shape NEAR
+            Displacement under unit pressure on one node, by the distance from it in cells.
+            [length / pressure]
+        grid : PaddedGrid
             Memory, as described above.
         """
         (px, py), (dx, dy), (rx, ry) = operator.periods, operator.spacing, ratios
@@ -87,10 +127,13 @@ class RestrictedOperator:
         side = max(rx * dx, ry * dy)
         modes = [np.arange(period // 2 + 1) for period in coarse]
         q = 2 * np.pi * np.hypot(modes[0][:, np.newaxis] / (px * dx), modes[1] / (py * dy))
-        smooth = operator.spectrum[: modes[0].size, : modes[1].size] * erfc(q * _WIDTH * side / 2)
+        spectrum = operator.spectrum[: modes[0].size, : modes[1].size]
+        smooth = spectrum * erfc(q * _WIDTH * side / 2)
+        # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
+        some = 1 + modes[0].size // 8
+        smooth[0, 0] -= spectrum[some, 0] * q[some, 0] * _WIDTH * side / np.sqrt(np.pi)
         lags = [np.arange(int(_RADIUS * side / spacing) + 1) for spacing in (dx, dy)]
-        taps = even_sum(operator.spectrum, operator.periods, lags)
-        taps -= even_sum(smooth, coarse, [lags[0] / rx, lags[1] / ry])
+        taps = kernel[: lags[0].size, : lags[1].size] - _at_cells(smooth, coarse, ratios, lags)
         inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _RADIUS * side
         taps[~inside] = 0
         taps = np.concatenate([taps[:0:-1], taps])
@@ -107,7 +150,7 @@ class RestrictedOperator:
             taps.astype(np.float32),
             np.concatenate([reach[:0:-1], reach]),
             (_spline_weights(rx), _spline_weights(ry)),
-            near,
+            grid,
             periodic,
         )
 
@@ -138,13 +181,13 @@ class RestrictedOperator:
         """
         if out is None:
             out = np.empty(targets.indices.size)
-        unit = float(np.abs(pressure).max(initial=0.0))
+        unit = np.abs(pressure).max(initial=0.0)
         if unit == 0:
             out[:] = 0
             return out
         values = (pressure / unit).astype(np.float32)
         spread, moved = self._coarse
-        margins = _MARGIN, _MARGIN
+        grid, margins = self.grid.values, self.grid.margins
         lines = np.empty((sources.rows.size, spread.shape[1]), dtype=np.float32)
         place = np.full((spread.shape[0] - 3) * self.weights[0].shape[0], -1)
         place[sources.rows] = np.arange(sources.rows.size)
@@ -152,30 +195,30 @@ class RestrictedOperator:
 
         def spread_along(first: int, last: int) -> None:
             loops.spread_along_rows(
-                values, *at, self.weights[1], margins, first, last, self.near, lines
+                values, *at, self.weights[1], margins, first, last, grid, lines
             )
 
         def spread_across(first: int, last: int) -> None:
             loops.spread_across_rows(lines, place, self.weights[0], first, last, spread)
 
-        fft.in_blocks(spread_along, sources.rows.size, _ROWS_AT_A_TIME)
-        fft.in_blocks(spread_across, len(spread), _ROWS_AT_A_TIME)
+        fft.share_out_blocks(spread_along, sources.rows.size, _ROWS_AT_A_TIME)
+        fft.share_out_blocks(spread_across, len(spread), _ROWS_AT_A_TIME)
         self._convolve(spread, moved)
         if self.periodic:
-            _repeat(self.near)
+            self.grid.wrap()
         runs, first_run = targets.runs
         result = np.empty(targets.indices.size, dtype=np.float32)
 
         def add(first: int, last: int) -> None:
             loops.add_near_and_far(
-                self.near, margins, self.taps, self.reach, moved, self.weights,
+                grid, margins, self.taps, self.reach, moved, self.weights,
                 targets.rows, targets.columns, first_run, runs, first, last, result,
             )
 
-        fft.in_blocks(add, targets.rows.size, _ROWS_AT_A_TIME)
-        loops.clear_grid(*at, margins, self.near)
+        fft.share_out_blocks(add, targets.rows.size, _ROWS_AT_A_TIME)
+        loops.clear_grid(*at, margins, grid)
         if self.periodic:
-            _clear_margins(self.near)
+            self.grid.clear_margin()
         return np.multiply(result, unit, out=out)
 
     def _convolve(self, spread: Single, moved: Single) -> None:
@@ -188,9 +231,17 @@ class RestrictedOperator:
         moved[:] = np.pad(inner, (1, 2), mode="wrap")
 
 
-def empty_grid(shape: tuple[int, int]) -> Single:
-    """Return memory for pressures on a grid and on the margin that near parts reach."""
-    return np.zeros((shape[0] + 2 * _MARGIN, shape[1] + 2 * _MARGIN + 8), dtype=np.float32)
+def _at_cells(
+    spectrum: Real, periods: tuple[int, int], ratios: tuple[int, int], lags: list[Indices]
+) -> Real:
+    """Transform an even spectrum back, given by its quarter, at fractions of a coarse cell."""
+    result = spectrum
+    for axis, period in enumerate(periods):
+        modes = np.arange(period // 2 + 1)
+        weights = np.where((modes == 0) | (2 * modes == period), 1.0, 2.0)
+        cosines = np.cos(2 * np.pi / (period * ratios[axis]) * np.outer(lags[axis], modes))
+        result = np.moveaxis(np.tensordot(weights * cosines, result, axes=(1, axis)), 0, axis)
+    return result
 
 
 def _folded(values: Single) -> Single:
@@ -200,20 +251,6 @@ def _folded(values: Single) -> Single:
     inner[0] += values[-2]
     inner[1] += values[-1]
     return inner
-
-
-def _repeat(near: Single) -> None:
-    """Fill the margin of a grid with what lies a period away."""
-    for grid in (near, near[:, :-8].T):
-        grid[:_MARGIN] = grid[-2 * _MARGIN : -_MARGIN]
-        grid[-_MARGIN:] = grid[_MARGIN : 2 * _MARGIN]
-
-
-def _clear_margins(near: Single) -> None:
-    """Set the margin of a grid to zero."""
-    for grid in (near, near[:, :-8].T):
-        grid[:_MARGIN] = 0
-        grid[-_MARGIN:] = 0
 
 
 def _spread_shape(shape: tuple[int, int], ratios: tuple[int, int]) -> tuple[int, int]:
@@ -235,16 +272,27 @@ class RestrictedOperators:
     ----------
     operator : Operator
         The operator.
+    kernel : ndarray, shape NEAR
+        Displacement under unit pressure on one node, by the distance from it in cells.
+        [length / pressure]
+    margins : tuple of int
+        Cells of the margin that others need, who use the same memory.
     """
 
-    def __init__(self, operator: Operator) -> None:
+    def __init__(self, operator: Operator, kernel: Real, margins: tuple[int, int]) -> None:
         self._operator = operator
-        self._made: dict[tuple[int, int], RestrictedOperator] = {}
+        self._kernel = kernel
+        self._margins = margins
         self._ratios = _ratios(operator)
+        self._made: dict[tuple[int, int], RestrictedOperator] = {}
 
     @cached_property
-    def _near(self) -> Single:
-        return empty_grid(self._operator.shape)
+    def grid(self) -> PaddedGrid:
+        """Memory for values on the grid and on a margin; zero when not in use."""
+        margins = self._margins
+        if self._ratios:
+            margins = max(margins[0], _REACH), max(margins[1], _REACH + _ROUNDING)
+        return PaddedGrid.of(self._operator.shape, margins)
 
     def on(self, nodes: GridNodes) -> RestrictedOperator | None:
         """Return the cheapest one for some nodes, or None where the exact operator is cheaper."""
@@ -256,7 +304,9 @@ class RestrictedOperators:
         if ratios is None:
             return None
         if ratios not in self._made:
-            self._made[ratios] = RestrictedOperator.of(self._operator, ratios, self._near)
+            self._made[ratios] = RestrictedOperator.of(
+                self._operator, ratios, self._kernel, self.grid
+            )
         return self._made[ratios]
 
 
@@ -271,6 +321,6 @@ def _ratios(operator: Operator) -> list[tuple[float, tuple[int, int]]]:
         ratios = ratio * 2 ** round(np.log2(longer / dx)), ratio * 2 ** round(np.log2(longer / dy))
         radius = _RADIUS * max(ratios[0] * dx, ratios[1] * dy) / min(dx, dy)
         divides = all(p % r == 0 for p, r in zip(operator.periods, ratios, strict=True))
-        if divides and radius < _MARGIN + 1:
+        if divides and radius < _REACH + 1:
             possible.append((share, ratios))
     return possible

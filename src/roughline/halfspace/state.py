@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from roughline.computing.arrays import Indices, Mask, Real
@@ -11,7 +12,7 @@ from roughline.halfspace.conditions import ContactConditions, Residuals
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse
-from roughline.halfspace.restricted import RestrictedOperator, RestrictedOperators
+from roughline.halfspace.restricted import RestrictedOperator
 
 
 class Outcome(enum.Enum):
@@ -31,10 +32,8 @@ class Problem:
     ----------
     half_space : HalfSpace
         The half-space.
-    operator : Operator
-        Its displacements under pressures on the grid.
     inverse : ApproximateInverse
-        Approximate inverse of the operator.
+        Approximate inverse of its operator on the grid.
     separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
         until that is indented. [length]
@@ -43,36 +42,23 @@ class Problem:
         flat punch. [length]
     conditions : ContactConditions
         What pressures and gaps obey.
-    touch : float
-        Depth at which the surfaces touch, as they are now. [length]
-    restricted : RestrictedOperators
-        Approximate forms of the operator, which cost what the contact costs.
     """
 
     half_space: HalfSpace
-    operator: Operator
     inverse: ApproximateInverse
     separation: Real
     rms_height: float
     conditions: ContactConditions
-    touch: float
-    restricted: RestrictedOperators
 
-    @classmethod
-    def of(
-        cls,
-        half_space: HalfSpace,
-        operator: Operator,
-        separation: Real,
-        rms_height: float,
-        conditions: ContactConditions,
-    ) -> Problem:
-        """Put a rough body over a half-space; the operator is one that the half-space made."""
-        inverse = ApproximateInverse.of(operator)
-        touch, restricted = float(separation.min()), RestrictedOperators(operator)
-        return cls(
-            half_space, operator, inverse, separation, rms_height, conditions, touch, restricted
-        )
+    @property
+    def operator(self) -> Operator:
+        """The half-space's displacements under pressures on the grid."""
+        return self.inverse.operator
+
+    @cached_property
+    def touch(self) -> float:
+        """Depth at which the surfaces touch, as they are now. [length]"""
+        return float(self.separation.min())
 
     @property
     def steps(self) -> Operator | RestrictedOperator:
@@ -86,10 +72,6 @@ class Problem:
     def displacement(self, pressure: Real, nodes: Indices, precision: Precision, out: Real) -> Real:
         """Return the displacement wherever there is a separation, under the pressure on nodes."""
         return self.operator.displacement(pressure, self.grid_nodes(nodes), None, precision, out)
-
-    def indented(self, separation: Real) -> Problem:
-        """Return the bodies with their surfaces as a load has left them."""
-        return replace(self, separation=separation, touch=float(separation.min()))
 
     def fewest_nodes(self, load: Load) -> int:
         """Return how many nodes a load needs, so that one of them is below the hardness."""

@@ -13,8 +13,6 @@ import numpy as np
 
 from roughline.computing.arrays import Mask, Real
 from roughline.halfspace.patch import ConjugateGradients, Patch
-from roughline.halfspace.operator import Operator
-from roughline.halfspace.restricted import RestrictedOperator
 from roughline.halfspace.state import Contact, Method, Problem
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
@@ -22,7 +20,7 @@ from roughline.halfspace.state import Contact, Method, Problem
 _ENERGY_MARGIN = 0.01
 _STEPS = 300  # after which the energy form is computed afresh
 _ROUGHLY = 3e-8  # energy of the error, over the compliance, that an approximate operator leaves
-_DEFECT = 0.02  # of an approximate operator, at most
+_SLOW = 0.01  # where a turn of a restricted operator gains more of the turn before, it is given up
 _ROUNDS = 6  # of so many steps, at most
 
 
@@ -132,21 +130,18 @@ def tangent(
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
     grid_nodes = problem.grid_nodes(nodes)
-    steps: Operator | RestrictedOperator = problem.restricted.on(grid_nodes) or operator
-    restricted = steps is not operator
-    patch = Patch(steps, problem.inverse, grid_nodes)
+    restricted = problem.inverse.restricted.on(grid_nodes)
+    patch = Patch(restricted or operator, problem.inverse, grid_nodes)
     pressure = _unit_force(elastic, cell_area, start, contact.pressure)
-    convolutions, accuracy = 0, _ENERGY_MARGIN * method.rtol
+    convolutions, gained, accuracy = 0, np.nan, _ENERGY_MARGIN * method.rtol
     for turn in range(_ROUNDS):
-        exact = turn > 0 or not restricted
-        if exact:
-            displacement = operator.displacement(
-                pressure, grid_nodes, grid_nodes, method.certificate
-            )
-            convolutions += 1
-        else:
-            displacement = steps.displacement(pressure, grid_nodes, grid_nodes)
+        # 1. The compliance of the pressures so far; at first a restricted operator will do.
+        exact = turn > 0 or restricted is None
+        by, precision = (operator, method.certificate) if exact else (restricted, method.steps)
+        displacement = by.displacement(pressure, grid_nodes, grid_nodes, precision)
+        convolutions += exact
         compliance = float(pressure @ displacement) * cell_area
+        # 2. Steps that lessen it.
         gradients = ConjugateGradients(
             patch, pressure, -displacement, displacement[:0], fixed_total=True, precision=method.steps
         )
@@ -157,14 +152,18 @@ def tangent(
         ):
             pass
         pressure = gradients.pressure
-        convolutions += 0 if restricted else gradients.steps
-        gained = gradients.gained * cell_area
+        convolutions += gradients.steps if restricted is None else 0
+        # 3. By how much they have, and the part of that by which they err, seen by the turn before.
+        gained_before, gained = gained, gradients.gained * cell_area
         compliance -= gained
-        converged = exact and max(
-            gradients.energy * cell_area, _DEFECT * gained
-        ) <= accuracy * compliance
+        part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
+        error = max(gradients.energy * cell_area, np.sqrt(part) * gained)
+        converged = bool(exact and error <= accuracy * compliance)
         if converged:
             break
+        sound = part <= _SLOW and gradients.energy * cell_area <= aim
+        if exact and restricted is not None and not sound:
+            restricted, patch = None, Patch(operator, problem.inverse, grid_nodes)
     pressure_per_force = np.zeros(contact.nodes.size)
     pressure_per_force[elastic] = pressure
     stiffness = 1 / compliance if compliance > 0 else np.nan
