@@ -21,7 +21,7 @@ _ENERGY_MARGIN = 0.01
 _STEPS = 300  # after which the energy form is computed afresh
 _ROUGHLY = 3e-8  # energy of the error, over the compliance, that an approximate operator leaves
 _SLOW = 0.01  # where a turn of a restricted operator gains more of the turn before, it is given up
-_ROUNDS = 6  # of so many steps, at most
+_ROUNDS = 8  # of so many steps, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +132,8 @@ def tangent(
     grid_nodes = problem.grid_nodes(nodes)
     restricted = problem.inverse.restricted.on(grid_nodes)
     patch = Patch(restricted or operator, problem.inverse, grid_nodes)
-    pressure = _unit_force(elastic, cell_area, start, contact.pressure)
+    start_pressure = _unit_force(elastic, cell_area, start, contact.pressure)
+    pressure = start_pressure
     convolutions, gained, accuracy = 0, np.nan, _ENERGY_MARGIN * method.rtol
     for turn in range(_ROUNDS):
         # 1. The compliance of the pressures so far; at first a restricted operator will do.
@@ -143,7 +144,7 @@ def tangent(
         compliance = float(pressure @ displacement) * cell_area
         # 2. Steps that lessen it.
         gradients = ConjugateGradients(
-            patch, pressure, -displacement, displacement[:0], fixed_total=True, precision=method.steps
+            patch, pressure.copy(), -displacement, displacement[:0], fixed_total=True, precision=method.steps
         )
         # compliance counts forces, energies of errors count pressures
         aim = (0.1 * accuracy if exact else _ROUGHLY) * compliance
@@ -164,6 +165,7 @@ def tangent(
         sound = part <= _SLOW and gradients.energy * cell_area <= aim
         if exact and restricted is not None and not sound:
             restricted, patch = None, Patch(operator, problem.inverse, grid_nodes)
+            pressure, gained = start_pressure, np.nan
     pressure_per_force = np.zeros(contact.nodes.size)
     pressure_per_force[elastic] = pressure
     stiffness = 1 / compliance if compliance > 0 else np.nan
