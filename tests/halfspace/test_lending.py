@@ -40,7 +40,7 @@ def test_what_is_kept_changes_no_bit(settings):
     for seed in (1, 2):
         lending._kept.clear()
         anew.append(press(seed, **settings))
-    assert len(lending._kept) == 2  # the grid, and the coarser one that leads it
+    assert len(lending._kept) == 4  # the grid, and the coarser ones that lead it
     kept = set(lending._kept.values())
     for seed, expected in zip((1, 2), anew, strict=True):
         assert_same_bits(press(seed, **settings), expected)

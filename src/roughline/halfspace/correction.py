@@ -21,6 +21,7 @@ from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.trial import Trial
 
 _GAIN = 2e-3  # of residuals by a search near the contact
+_PRODUCTS = 200  # with the restricted operator in one turn, at most; a sound one takes some 20
 _AIM = 0.3  # below the tolerance, so that the certificate is not missed by a hair
 _SINGLE_ABOVE = 1e-4  # residuals below this are computed in the precision of the certificate
 
@@ -53,7 +54,7 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         if left <= 1 or not worst < 0.5 * worst_before:
             break
         target = max(_GAIN * worst, _AIM * method.rtol)
-        found = corrected(problem, load, trial, Method(target, left - 1, "float32"))
+        found = corrected(problem, load, trial, Method(target, min(left - 1, _PRODUCTS), "float32"))
         if found is None:
             break
         contact_set, spent = found
@@ -61,7 +62,10 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         if target < _SINGLE_ABOVE:
             precision = method.certificate
     left = max(1, method.max_iterations - convolutions - steps)
-    contact = search(problem, load, trial.contact_set, replace(method, max_iterations=left))
+    rest = replace(method, max_iterations=left)
+    if left == 1:  # no more than a certificate
+        rest = replace(rest, precision=method.certificate)
+    contact = search(problem, load, trial.contact_set, rest)
     return replace(contact, convolutions=contact.convolutions + convolutions)
 
 
@@ -99,8 +103,9 @@ def corrected(
 
 def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> ContactSet:
     """Find a contact roughly: as :func:`solve`, with one turn, and no certificate."""
+    contact_set = able_to_carry(start, problem.fewest_nodes(load), problem.separation)
     trial = Trial.of(
-        problem, load, start, method.steps, np.empty(problem.separation.shape), rescale=True
+        problem, load, contact_set, method.steps, np.empty(problem.separation.shape), rescale=True
     )
     found = corrected(problem, load, trial, method)
     if found is None:
