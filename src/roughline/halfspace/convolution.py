@@ -16,6 +16,7 @@ from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
+_SMALL = 2**16  # modes, which a thread transforms before another has begun
 _TABLE_AT_A_TIME = 2**16  # points
 _LONG = 64  # points along a side, from which on it has as many periods to choose from
 
@@ -120,10 +121,13 @@ class Convolution:
             else:
                 loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
 
+        modes_at_a_time, pairs_at_a_time = _MODES_AT_A_TIME, _PAIRS_AT_A_TIME
+        if mx * my <= _SMALL:
+            modes_at_a_time = pairs_at_a_time = my
         pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
-        fft.share_out_blocks(transform_rows, pairs, _PAIRS_AT_A_TIME)
-        fft.share_out_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
-        fft.share_out_blocks(transform_rows_back, pairs_out, _PAIRS_AT_A_TIME)
+        fft.share_out_blocks(transform_rows, pairs, pairs_at_a_time)
+        fft.share_out_blocks(convolve_columns, my // 2 + 1, modes_at_a_time)
+        fft.share_out_blocks(transform_rows_back, pairs_out, pairs_at_a_time)
         return result
 
 

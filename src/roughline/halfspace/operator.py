@@ -50,6 +50,10 @@ class GridNodes:
         starts = np.append(edges[rows], indices.size)
         return cls(indices, rows, starts, (indices % shape[1]).astype(np.int32), shape)
 
+    def rows_of(self, nodes: int) -> int:
+        """Return how many of the rows hold so many nodes, about."""
+        return 1 + nodes * self.rows.size // max(1, self.indices.size)
+
     @cached_property
     def runs(self) -> tuple[NDArray[np.int32], Indices]:
         """Runs of neighbouring nodes in a row, and where those of each row begin.

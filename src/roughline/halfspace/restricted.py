@@ -38,7 +38,8 @@ _REACH = int(_RADIUS * _SIDES[-1])  # of the near part, at most
 _SHARES = 0.6, 0.25, 0.025  # of the grid, up to which the coarse cells of each size serve best
 _FEWEST_POINTS = 64  # along the shorter side of the grid
 _ROUNDING = 8  # to which the lengths of runs are rounded up
-_ROWS_AT_A_TIME = 32
+_SPREAD_AT_A_TIME = 2**14  # nodes, whose work takes a thread longer than to begin with it
+_SUMS_AT_A_TIME = 2**21  # near sums, likewise
 
 NEAR = _REACH + 1, _REACH + 1
 """Distances in cells, counted from zero, at which the kernel is needed."""
@@ -201,8 +202,8 @@ class RestrictedOperator:
         def spread_across(first: int, last: int) -> None:
             loops.spread_across_rows(lines, place, self.weights[0], first, last, spread)
 
-        fft.share_out_blocks(spread_along, sources.rows.size, _ROWS_AT_A_TIME)
-        fft.share_out_blocks(spread_across, len(spread), _ROWS_AT_A_TIME)
+        fft.share_out_blocks(spread_along, sources.rows.size, sources.rows_of(_SPREAD_AT_A_TIME))
+        fft.share_out_blocks(spread_across, len(spread), max(1, _SPREAD_AT_A_TIME // len(spread)))
         self._convolve(spread, moved)
         if self.periodic:
             self.grid.wrap()
@@ -215,7 +216,7 @@ class RestrictedOperator:
                 targets.rows, targets.columns, first_run, runs, first, last, result,
             )
 
-        fft.share_out_blocks(add, targets.rows.size, _ROWS_AT_A_TIME)
+        fft.share_out_blocks(add, targets.rows.size, targets.rows_of(_SUMS_AT_A_TIME // self.taps.size))
         loops.clear_grid(*at, margins, grid)
         if self.periodic:
             self.grid.clear_margin()
