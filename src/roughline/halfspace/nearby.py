@@ -65,6 +65,9 @@ class NearbyProblem(Problem):
         """Return the displacement of all sites under the pressure on some of them."""
         change = -self.before
         change[nodes] += pressure
+        if not change.any():
+            out[:] = self.moved
+            return out
         self.steps.displacement(change, self.sites, self.sites, precision, out)
         out += self.moved
         return out

@@ -87,7 +87,7 @@ class RestrictedOperator:
     ----------
     far : Convolution
         The far part, on the coarse grid.
-    taps : ndarray, shape (2 radius + 1, 2 radius + 4)
+    taps : ndarray, shape (2 radius + 1, 2 radius + 8)
         The near part, by the distance in cells, followed by zeros. [length / pressure]
     reach : ndarray of int
         Columns to which each row of the near part reaches, to both sides.
@@ -138,7 +138,7 @@ class RestrictedOperator:
         inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _RADIUS * side
         taps[~inside] = 0
         taps = np.concatenate([taps[:0:-1], taps])
-        taps = np.concatenate([taps[:, :0:-1], taps, np.zeros((len(taps), 3))], axis=1)
+        taps = np.concatenate([taps[:, :0:-1], taps, np.zeros((len(taps), 7))], axis=1)
         reach = inside.sum(axis=1) - 1
         # the spectrum of a B-spline's values on the grid, there and back
         splines = [(2 + np.cos(2 * np.pi * k / n)) / 3 for k, n in zip(modes, coarse, strict=True)]

@@ -148,7 +148,7 @@ def add_near_and_far(
         Values on the grid with its margins, zero elsewhere.
     margins : tuple of int
         Of the grid.
-    taps : ndarray, shape (2 radius + 1, 2 radius + 4)
+    taps : ndarray, shape (2 radius + 1, 2 radius + 8)
         The near part of the kernel, by the distance in cells, followed by zeros.
     reach : ndarray of int, shape (2 radius + 1,)
         Columns to which each row of the near part reaches, to both sides.
@@ -167,7 +167,7 @@ def add_near_and_far(
     """
     weights_x, weights_y = weights
     ratio_x, ratio_y = weights_x.shape[0], weights_y.shape[0]
-    radius_x, radius_y = taps.shape[0] // 2, (taps.shape[1] - 4) // 2
+    radius_x, radius_y = taps.shape[0] // 2, (taps.shape[1] - 8) // 2
     flat, width = grid.reshape(-1), grid.shape[1]
     far = np.empty(coarse.shape[1], dtype=np.float32)
     sums = np.empty(grid.shape[1], dtype=np.float32)
@@ -183,17 +183,17 @@ def add_near_and_far(
             total = sums[:length]
             total[:] = 0
             for di in range(2 * radius_x + 1):
-                groups = (2 * reach[di] + 4) // 4  # of four taps
-                across = radius_y - reach[di]
+                groups = (2 * reach[di] + 8) // 8  # of eight taps
                 at = (rows[k] + margins[0] - radius_x + di) * width + start + margins[1] - reach[di]
-                line, tap = flat[at : at + 4 * groups + length], taps[di, across:]
-                for group in range(0, 4 * groups, 4):
-                    t0, t1, t2, t3 = tap[group], tap[group + 1], tap[group + 2], tap[group + 3]
-                    near = line[group:]
-                    for j in range(length):
+                line, tap = flat[at : at + 8 * groups + length], taps[di, radius_y - reach[di] :]
+                for g in range(0, 8 * groups, 8):
+                    t0, t1, t2, t3 = tap[g], tap[g + 1], tap[g + 2], tap[g + 3]
+                    t4, t5, t6, t7 = tap[g + 4], tap[g + 5], tap[g + 6], tap[g + 7]
+                    p = line[g:]
+                    for j in range(length):  # summed in pairs, which need not wait for each other
                         total[j] += (
-                            t0 * near[j] + t1 * near[j + 1] + t2 * near[j + 2] + t3 * near[j + 3]
-                        )
+                            (t0 * p[j] + t1 * p[j + 1]) + (t2 * p[j + 2] + t3 * p[j + 3])
+                        ) + ((t4 * p[j + 4] + t5 * p[j + 5]) + (t6 * p[j + 6] + t7 * p[j + 7]))
             for i in range(begin, end):
                 column, part = columns[i] // ratio_y, columns[i] % ratio_y
                 value = total[columns[i] - start]
