@@ -9,19 +9,21 @@ operator. Where turns do not help, the search goes on with the exact operator al
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from roughline.halfspace.active_set import search
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.exchange import able_to_carry
-from roughline.halfspace.nearby import nearby
+from roughline.halfspace.nearby import NearbyProblem, nearby
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.trial import Trial
 
 _GAIN = 2e-3  # of residuals by a search near the contact
-_PRODUCTS = 200  # with the restricted operator in one turn, at most; a sound one takes some 20
+_DEFECT = 2e-3  # of residuals that a restricted operator leaves, about
+_REACH = 30.0  # of later searches, which leave a smaller error than they find
+_PRODUCTS = 200  # with the restricted operator in one search, at most; a sound one takes some 20
 _AIM = 0.3  # below the tolerance, so that the certificate is not missed by a hair
 _SINGLE_ABOVE = 1e-4  # residuals below this are computed in the precision of the certificate
 
@@ -41,74 +43,108 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         Tolerance, bound on the convolutions and precision.
     """
     contact_set, gap = start, np.empty(problem.separation.shape)
-    precision, convolutions, steps, worst = method.steps, 0, 0, np.inf
+    spent, worst, precision = Spent(), np.inf, method.steps
     while True:
-        near_gap = gap if convolutions else problem.separation
+        near_gap = gap if spent.convolutions else problem.separation
         contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), near_gap)
-        trial = Trial.of(problem, load, contact_set, precision, gap, rescale=not convolutions)
-        convolutions += 1
+        first = not spent.convolutions
+        trial = Trial.of(problem, load, contact_set, precision, gap, rescale=first)
+        spent.convolutions += 1
         worst_before, worst = worst, trial.residuals.worst
         if precision == method.certificate and trial.certified(method.rtol):
-            return trial.contact(problem, Outcome.CONVERGED, convolutions)
-        left = method.max_iterations - convolutions - steps
-        if left <= 1 or not worst < 0.5 * worst_before:
+            return trial.contact(problem, Outcome.CONVERGED, spent.convolutions)
+        left = method.max_iterations - spent.total
+        near = nearby(problem, trial)
+        if near is None or left <= 1 or not worst < 0.5 * worst_before:
             break
-        target = max(_GAIN * worst, _AIM * method.rtol)
-        found = corrected(problem, load, trial, Method(target, min(left - 1, _PRODUCTS), "float32"))
-        if found is None:
-            break
-        contact_set, spent = found
-        steps += spent
-        if target < _SINGLE_ABOVE:
-            precision = method.certificate
-    left = max(1, method.max_iterations - convolutions - steps)
+        there, start = near
+        bounded = replace(method, max_iterations=left)
+        contact_set = _refined(there, load, start, worst, bounded, spent)
+        precision = method.certificate
+    left = max(1, method.max_iterations - spent.total)
     rest = replace(method, max_iterations=left)
     if left == 1:  # no more than a certificate
         rest = replace(rest, precision=method.certificate)
     contact = search(problem, load, trial.contact_set, rest)
-    return replace(contact, convolutions=contact.convolutions + convolutions)
+    return replace(contact, convolutions=contact.convolutions + spent.convolutions)
 
 
-def corrected(
-    problem: Problem, load: Load, trial: Trial, method: Method
-) -> tuple[ContactSet, int] | None:
-    """Search near the contact of a trial with a restricted operator.
+@dataclass
+class Spent:
+    """What a load has taken so far.
+
+    Attributes
+    ----------
+    convolutions : int
+        Convolutions with the exact operator.
+    products : int
+        Products with restricted operators.
+    """
+
+    convolutions: int = 0
+    products: int = 0
+
+    @property
+    def total(self) -> int:
+        """Both, which the bound on iterations bounds."""
+        return self.convolutions + self.products
+
+
+def _refined(
+    near: NearbyProblem,
+    load: Load,
+    start: ContactSet,
+    worst: float,
+    method: Method,
+    spent: Spent,
+) -> ContactSet:
+    """Search near the contact, correcting the defect there, until a certificate is likely.
+
+    What is found is returned on the grid.
 
     Parameters
     ----------
-    problem, load : Problem, Load
-        The bodies, and what is prescribed.
-    trial : Trial
-        Where to start from, with the gap that the exact operator gives.
+    near, load : NearbyProblem, Load
+        The problem near the contact, and what is prescribed.
+    start : ContactSet
+        Where to start from.
+    worst : float
+        The largest residual there.
     method : Method
-        Tolerance, bound on the products and precision of the search.
-
-    Returns
-    -------
-    contact_set : ContactSet
-        What was found.
-    products : int
-        Products with the restricted operator.
-
-    None where the exact operator is cheaper than a restricted one.
+        As for :func:`solve`.
+    spent : Spent
+        What the load has taken; added to.
     """
-    near = nearby(problem, trial)
-    if near is None:
-        return None
-    there, start = near
-    found = search(there, load, start, method)
-    contact_set = there.on_grid(ContactSet(found.nodes, found.pressure))
-    return contact_set, found.convolutions
+    most = spent.total + method.max_iterations
+    while True:
+        target, left = max(_GAIN * worst, _AIM * method.rtol), most - spent.total
+        rough = Method(target, max(1, min(left - 1, _PRODUCTS)), "float32")
+        found = search(near, load, start, rough)
+        spent.products += found.convolutions
+        start = ContactSet(found.nodes, found.pressure)
+        expected = max(target, _DEFECT * worst)
+        if expected <= method.rtol or most - spent.total <= 1:
+            return near.on_grid(start)
+        precision = method.steps if expected > _SINGLE_ABOVE else method.certificate
+        exact = near.recentred(start, precision)
+        spent.convolutions += 1
+        trial = exact.trial(load, start)
+        worst_before, worst = worst, trial.residuals.worst
+        nearer = nearby(exact, trial, _REACH)
+        if nearer is None or not worst < 0.5 * worst_before:
+            return exact.on_grid(start)
+        near, start = nearer
 
 
 def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> ContactSet:
-    """Find a contact roughly: as :func:`solve`, with one turn, and no certificate."""
+    """Find a contact roughly: as :func:`solve`, with one search, and no certificate."""
     contact_set = able_to_carry(start, problem.fewest_nodes(load), problem.separation)
-    trial = Trial.of(
-        problem, load, contact_set, method.steps, np.empty(problem.separation.shape), rescale=True
-    )
-    found = corrected(problem, load, trial, method)
-    if found is None:
+    gap = np.empty(problem.separation.shape)
+    trial = Trial.of(problem, load, contact_set, method.steps, gap, rescale=True)
+    near = nearby(problem, trial)
+    if near is None:
         contact = search(problem, load, trial.contact_set, method)
         return ContactSet(contact.nodes, contact.pressure)
-    return found[0]
+    there, start = near
+    found = search(there, load, start, method)
+    return there.on_grid(ContactSet(found.nodes, found.pressure))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,11 +11,11 @@ from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.contact_set import ContactSet, merged
 from roughline.halfspace.operator import GridNodes, Precision
 from roughline.halfspace.restricted import RestrictedOperator
-from roughline.halfspace.state import Problem
+from roughline.halfspace.state import Load, Problem
 from roughline.halfspace.trial import Trial
 
 # Nodes of a gap below so many times the error on contact may come into contact.
-_REACH = 2.0
+REACH = 2.0
 _SPARE = 1000  # nodes beyond six times those in contact
 _LARGEST = 0.4  # part of the grid on which a problem is looked at
 
@@ -72,13 +72,34 @@ class NearbyProblem(Problem):
         out += self.moved
         return out
 
+    def recentred(self, contact_set: ContactSet, precision: Precision) -> NearbyProblem:
+        """Return the problem with other pressures, whose displacements are computed exactly."""
+        before = np.zeros_like(self.before)
+        before[contact_set.nodes] = contact_set.pressure
+        sources = self.grid_nodes(contact_set.nodes)
+        moved = self.operator.displacement(contact_set.pressure, sources, self.sites, precision)
+        return replace(self, before=before, moved=moved)
+
+    def trial(self, load: Load, contact_set: ContactSet) -> Trial:
+        """Return a set of sites with its pressures as a trial."""
+        return Trial.of(self, load, contact_set, "float32", np.empty_like(self.moved))
+
     def on_grid(self, contact_set: ContactSet) -> ContactSet:
         """Return a set of sites as one of nodes of the grid."""
         return ContactSet(self.sites.indices[contact_set.nodes], contact_set.pressure)
 
 
-def nearby(problem: Problem, trial: Trial) -> tuple[NearbyProblem, ContactSet] | None:
+def nearby(
+    problem: Problem, trial: Trial, reach: float = REACH
+) -> tuple[NearbyProblem, ContactSet] | None:
     """Look at a problem near the contact of a trial.
+
+    Parameters
+    ----------
+    problem, trial : Problem, Trial
+        The problem, and the trial with its gap.
+    reach : float
+        Nodes off the contact are looked at whose gap is below so many times the error.
 
     Returns
     -------
@@ -90,8 +111,8 @@ def nearby(problem: Problem, trial: Trial) -> tuple[NearbyProblem, ContactSet] |
     None where the exact operator is cheaper than a restricted one.
     """
     contact_set = trial.contact_set
-    sites, order = merged(contact_set.nodes, _close_nodes(trial.gap, contact_set.nodes))
-    nodes = GridNodes.of(sites, problem.operator.shape)
+    sites, order = merged(contact_set.nodes, _close_nodes(trial.gap, contact_set.nodes, reach))
+    nodes = problem.grid_nodes(sites)
     operator = problem.inverse.restricted.on(nodes)
     if operator is None:
         return None
@@ -118,11 +139,11 @@ def nearby(problem: Problem, trial: Trial) -> tuple[NearbyProblem, ContactSet] |
     return near, ContactSet(places, contact_set.pressure)
 
 
-def _close_nodes(gap: Real, nodes: Indices) -> Indices:
+def _close_nodes(gap: Real, nodes: Indices, reach: float) -> Indices:
     """Return the nodes off the contact whose gap is small, at most a few times those in it."""
     wrong = gap.ravel() < 0
     wrong[nodes] = True
-    reach = _REACH * float(np.sqrt(np.mean(gap.ravel()[wrong] ** 2)))
+    reach *= float(np.sqrt(np.mean(gap.ravel()[wrong] ** 2)))
     close = gap.ravel() < reach
     close[nodes] = False
     others = np.flatnonzero(close)
