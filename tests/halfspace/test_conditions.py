@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from roughline.halfspace.correction import solve
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import (
     UnilateralContact,
@@ -12,6 +11,7 @@ from roughline.halfspace.conditions import (
     residuals,
     violations,
 )
+from roughline.halfspace.correction import solve
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.kernel import love
 from roughline.halfspace.preconditioner import ApproximateInverse

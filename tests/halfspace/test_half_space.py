@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.halfspace import convolution
 from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import displacement_field
+from roughline.halfspace.operator import GridNodes, displacement_field
 
 ROUNDING = 1e-13
 
@@ -61,3 +62,23 @@ def test_on_odd_sides_periods_stay_and_free_cells_double():
 def test_a_modulus_that_is_none_is_refused(E_star):
     with pytest.raises(rl.InputError, match="a positive, finite contact modulus is needed"):
         HalfSpace(E_star)
+
+
+@pytest.mark.parametrize(("shape", "spacing"), [((40, 57), (1.0, 1.0)), ((64, 30), (1.0, 2.7))])
+def test_sums_over_pairs_are_those_of_the_transforms(monkeypatch, shape, spacing):
+    rng = np.random.default_rng(5)
+    operator = HalfSpace(E_star=2.0).operator(shape, spacing)
+    points = shape[0] * shape[1]
+    sources, targets = (
+        GridNodes.of(np.sort(rng.choice(points, n, replace=False)), shape) for n in (300, 200)
+    )
+    pressure = rng.random(300)
+    transformed = operator.displacement(pressure, sources, targets)
+    monkeypatch.setattr(convolution, "_MANY", 0)
+    monkeypatch.setattr(convolution, "_PAIRS", np.inf)
+    summed = operator.displacement(pressure, sources, targets)
+    assert (summed != transformed).any()
+    np.testing.assert_allclose(summed, transformed, rtol=1e-13)
+    out = np.empty(200)
+    assert operator.displacement(pressure, sources, targets, out=out) is out
+    np.testing.assert_array_equal(out, summed)

@@ -13,9 +13,12 @@ from roughline.computing.arrays import Real
 from roughline.halfspace import loops
 from roughline.halfspace.kernel import love_rows
 from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
+from roughline.halfspace.pair_sums import KernelRows, displaced_by_pairs
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
+_PAIRS = 1.5  # of nodes for each mode, up to which sums over pairs take less time ...
+_MANY = 2**20  # ... where there are so many modes
 _SMALL = 2**16  # modes, which a thread transforms before another has begun
 _TABLE_AT_A_TIME = 2**16  # points
 _LONG = 64  # points along a side, from which on it has as many periods to choose from
@@ -39,6 +42,8 @@ class Convolution:
         quarter of it is stored. [length / pressure]
     zero_mean : bool
         Whether displacements count from their mean, so that even pressure displaces nothing.
+    kernel_rows : callable, optional
+        Fills rows of the table of displacements under unit pressure, by the distance in cells.
     """
 
     shape: tuple[int, int]
@@ -46,6 +51,7 @@ class Convolution:
     periods: tuple[int, int]
     spectrum: Real
     zero_mean: bool
+    kernel_rows: KernelRows | None = None
 
     @property
     def cell_area(self) -> float:
@@ -73,6 +79,12 @@ class Convolution:
             self._buffers["float32"] = single, single.view(np.float32).reshape(*shape, 2)
         return self._buffers[precision]
 
+    def _pairs_are_few(self, sources: GridNodes, targets: GridNodes) -> bool:
+        """Whether sums over pairs of nodes take less time than transforms."""
+        modes = self.periods[0] * self.periods[1]
+        pairs = sources.indices.size * targets.indices.size
+        return self.kernel_rows is not None and modes >= _MANY and pairs <= _PAIRS * modes
+
     def displacement(
         self,
         pressure: Real,
@@ -83,7 +95,7 @@ class Convolution:
     ) -> Real:
         """Return the displacement of some nodes, or of all, under the pressure on some nodes.
 
-        Rows without pressure are not transformed, nor are rows without targets. Two real rows make
+        Few nodes are summed over in pairs. Rows without pressure are not transformed, nor are rows without targets. Two real rows make
         one complex row. Rows are transformed first, then columns block by block (separate, pad,
         transform, multiply, transform back, crop, join), then rows back.
 
@@ -95,6 +107,13 @@ class Convolution:
             result *= unit
             return result
         (nx, ny), (mx, my) = self.shape, self.periods
+        if targets is not None and self._pairs_are_few(sources, targets):
+            assert self.kernel_rows is not None
+            found = displaced_by_pairs(self.kernel_rows, pressure, sources, targets)
+            if out is None:
+                return found
+            out[:] = found
+            return out
         modes, real_modes = self._buffer(precision)
         rows_out = np.arange(nx) if targets is None else targets.rows
         if out is None:
@@ -155,7 +174,14 @@ def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) ->
     rows, columns = spectrum.shape
     fft.share_out_blocks(fill, rows, max(1, _TABLE_AT_A_TIME // columns))
     fft.cosine_spectrum(spectrum)
-    return Convolution(shape, spacing, (mx, my), spectrum, zero_mean=False)
+    return Convolution(
+        shape,
+        spacing,
+        (mx, my),
+        spectrum,
+        zero_mean=False,
+        kernel_rows=lambda first, rows: love_rows(first, *spacing, 1 / E_star, rows),
+    )
 
 
 def _padded(n: int) -> int:

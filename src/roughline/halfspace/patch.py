@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import Real
 from roughline.halfspace.contact_set import merged
 from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse, preconditioner

@@ -14,10 +14,10 @@ from itertools import zip_longest
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.correction import solve
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import Residuals, UnilateralContact
 from roughline.halfspace.contact_set import ContactSet
+from roughline.halfspace.correction import solve
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.tangent import Response, Tangent, response
 

@@ -176,7 +176,9 @@ class _Multilevel:
         self._offsets = inverse.offsets @ np.array([width, 1])
         self._grid = grid.values.reshape(-1)
         index: type[np.integer] = np.int32 if self._grid.size < 2**31 else np.int64
-        self._places = ((rows + grid.margins[0]) * width + nodes.columns + grid.margins[1]).astype(index)
+        self._places = ((rows + grid.margins[0]) * width + nodes.columns + grid.margins[1]).astype(
+            index
+        )
         kernel = inverse.block_kernels[0]
         self._lattice = kernel.shape
         block = (rows // sides[0]) * self._lattice[1] + nodes.columns // sides[1]

@@ -108,7 +108,9 @@ class RestrictedOperator:
     periodic: bool
 
     @classmethod
-    def of(cls, operator: Operator, ratios: tuple[int, int], kernel: Real, grid: PaddedGrid) -> RestrictedOperator:
+    def of(
+        cls, operator: Operator, ratios: tuple[int, int], kernel: Real, grid: PaddedGrid
+    ) -> RestrictedOperator:
         """Split an operator.
 
         Parameters
@@ -195,9 +197,7 @@ class RestrictedOperator:
         at = sources.starts, sources.columns, sources.rows
 
         def spread_along(first: int, last: int) -> None:
-            loops.spread_along_rows(
-                values, *at, self.weights[1], margins, first, last, grid, lines
-            )
+            loops.spread_along_rows(values, *at, self.weights[1], margins, first, last, grid, lines)
 
         def spread_across(first: int, last: int) -> None:
             loops.spread_across_rows(lines, place, self.weights[0], first, last, spread)
@@ -212,11 +212,24 @@ class RestrictedOperator:
 
         def add(first: int, last: int) -> None:
             loops.add_near_and_far(
-                grid, margins, self.taps, self.reach, moved, self.weights,
-                targets.rows, targets.columns, first_run, runs, first, last, result,
+                grid,
+                margins,
+                self.taps,
+                self.reach,
+                moved,
+                self.weights,
+                targets.rows,
+                targets.columns,
+                first_run,
+                runs,
+                first,
+                last,
+                result,
             )
 
-        fft.share_out_blocks(add, targets.rows.size, targets.rows_of(_SUMS_AT_A_TIME // self.taps.size))
+        fft.share_out_blocks(
+            add, targets.rows.size, targets.rows_of(_SUMS_AT_A_TIME // self.taps.size)
+        )
         loops.clear_grid(*at, margins, grid)
         if self.periodic:
             self.grid.clear_margin()

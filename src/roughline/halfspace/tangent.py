@@ -144,7 +144,12 @@ def tangent(
         compliance = float(pressure @ displacement) * cell_area
         # 2. Steps that lessen it.
         gradients = ConjugateGradients(
-            patch, pressure.copy(), -displacement, displacement[:0], fixed_total=True, precision=method.steps
+            patch,
+            pressure.copy(),
+            -displacement,
+            displacement[:0],
+            fixed_total=True,
+            precision=method.steps,
         )
         # compliance counts forces, energies of errors count pressures
         aim = (0.1 * accuracy if exact else _ROUGHLY) * compliance

@@ -10,7 +10,7 @@ from roughline.computing.arrays import Mask, Real
 from roughline.halfspace import loops
 from roughline.halfspace.conditions import Residuals, residuals
 from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.operator import GridNodes, Precision
+from roughline.halfspace.operator import Precision
 from roughline.halfspace.state import Contact, Load, Outcome, Problem
 
 
