@@ -9,6 +9,7 @@ from scipy.linalg import eigh
 import roughline as rl
 from roughline.computing import fft
 from roughline.halfspace import correction, lending
+from roughline.halfspace.coarse_grid import CoarseGrid
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.preconditioner import ApproximateInverse
@@ -152,12 +153,13 @@ def damaged(name):
         if name == "near part of the wrong sign":
             return dataclasses.replace(whole, taps=-whole.taps)
         if name == "far part too weak":
-            far = dataclasses.replace(whole.far, spectrum=0.5 * whole.far.spectrum)
+            convolution = whole.far.convolution
+            weak = dataclasses.replace(convolution, spectrum=0.5 * convolution.spectrum)
+            far = dataclasses.replace(whole.far, convolution=weak)
             return dataclasses.replace(whole, far=far)
         if name == "weights of another place":
-            return dataclasses.replace(
-                whole, weights=tuple(np.roll(each, 1, axis=0) for each in whole.weights)
-            )
+            rolled = tuple(np.roll(each, 1, axis=0) for each in whole.far.weights)
+            return dataclasses.replace(whole, far=dataclasses.replace(whole.far, weights=rolled))
         assert name == "not a number"
         return dataclasses.replace(whole, taps=np.nan * whole.taps)
 
@@ -184,7 +186,7 @@ def test_a_damaged_one_costs_time_and_never_a_wrong_result(monkeypatch, damage, 
     loads = {control: getattr(sound, control.removesuffix("s"))}
     lending._kept.clear()
     if damage == "stale coarse grid":
-        monkeypatch.setattr(RestrictedOperator, "_convolve", lambda self, spread, moved: None)
+        monkeypatch.setattr(CoarseGrid, "_convolved", lambda self, pressure, out: out)
     else:
         monkeypatch.setattr(RestrictedOperator, "of", damaged(damage))
     curve = rl.press(surface, E_star=1.0, throw=False, **loads)
@@ -210,5 +212,5 @@ def test_the_coarse_grid_is_chosen_by_what_is_in_contact():
         on(operator, GridNodes.of(contact_nodes((256, 256), 1, part), (256, 256)))
         for part in (0.001, 0.1, 0.5, 1.0)
     ]
-    sides = [None if each is None else each.weights[0].shape[0] for each in shapes]
+    sides = [None if each is None else each.far.weights[0].shape[0] for each in shapes]
     assert sides == [8, 4, 2, None]

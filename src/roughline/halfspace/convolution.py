@@ -95,9 +95,7 @@ class Convolution:
     ) -> Real:
         """Return the displacement of some nodes, or of all, under the pressure on some nodes.
 
-        Few nodes are summed over in pairs. Rows without pressure are not transformed, nor are rows without targets. Two real rows make
-        one complex row. Rows are transformed first, then columns block by block (separate, pad,
-        transform, multiply, transform back, crop, join), then rows back.
+        Pairs of few nodes are summed over; other displacements are transformed.
 
         Parameters and result are those of
         :meth:`roughline.halfspace.operator.Operator.displacement`.
@@ -106,19 +104,32 @@ class Convolution:
             result = self.displacement(pressure / unit, sources, targets, precision, out)
             result *= unit
             return result
-        (nx, ny), (mx, my) = self.shape, self.periods
+        if out is None:
+            out = np.empty(self.shape if targets is None else targets.indices.size)
         if targets is not None and self._pairs_are_few(sources, targets):
             assert self.kernel_rows is not None
-            found = displaced_by_pairs(self.kernel_rows, pressure, sources, targets)
-            if out is None:
-                return found
-            out[:] = found
-            return out
+            out[:] = displaced_by_pairs(self.kernel_rows, pressure, sources, targets)
+        else:
+            self._transform(pressure, sources, targets, precision, out)
+        return out
+
+    def _transform(
+        self,
+        pressure: Real,
+        sources: GridNodes,
+        targets: GridNodes | None,
+        precision: Precision,
+        result: Real,
+    ) -> None:
+        """Convolve by Fourier transforms, as :meth:`displacement` does.
+
+        Rows without pressure are not transformed, nor are rows without targets. Two real rows make
+        one complex row. Rows are transformed first, then columns block by block (separate, pad,
+        transform, multiply, transform back, crop, join), then rows back.
+        """
+        mx, my = self.periods
         modes, real_modes = self._buffer(precision)
-        rows_out = np.arange(nx) if targets is None else targets.rows
-        if out is None:
-            out = np.empty((nx, ny) if targets is None else targets.indices.size)
-        result = out
+        rows_out = np.arange(self.shape[0]) if targets is None else targets.rows
 
         def transform_rows(first: int, last: int) -> None:
             loops.scatter_pairs(pressure, sources.starts, sources.columns, first, last, real_modes)
@@ -147,7 +158,6 @@ class Convolution:
         fft.share_out_blocks(transform_rows, pairs, pairs_at_a_time)
         fft.share_out_blocks(convolve_columns, my // 2 + 1, modes_at_a_time)
         fft.share_out_blocks(transform_rows_back, pairs_out, pairs_at_a_time)
-        return result
 
 
 def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:

@@ -50,13 +50,25 @@ class GridNodes:
         starts = np.append(edges[rows], indices.size)
         return cls(indices, rows, starts, (indices % shape[1]).astype(np.int32), shape)
 
+    @property
+    def listed(self) -> tuple[Indices, NDArray[np.int32], Indices]:
+        """Starts, columns and rows, for compiled loops."""
+        return self.starts, self.columns, self.rows
+
+    @property
+    def place_of_rows(self) -> Indices:
+        """Where in `rows` each row of the grid is; -1 where it holds no node."""
+        place = np.full(self.shape[0], -1)
+        place[self.rows] = np.arange(self.rows.size)
+        return place
+
     def rows_of(self, nodes: int) -> int:
         """Return how many of the rows hold so many nodes, about."""
         return 1 + nodes * self.rows.size // max(1, self.indices.size)
 
     @cached_property
-    def runs(self) -> tuple[NDArray[np.int32], Indices]:
-        """Runs of neighbouring nodes in a row, and where those of each row begin.
+    def runs(self) -> tuple[Indices, NDArray[np.int32]]:
+        """Where the runs of neighbouring nodes of each row begin, and the runs.
 
         For each run: its first node, the node after its last one, and the columns that it takes,
         rounded up to eight.
@@ -64,7 +76,7 @@ class GridNodes:
         runs = np.empty((self.indices.size, 3), dtype=np.int32)
         first_run = np.empty(self.rows.size + 1, dtype=np.intp)
         find_runs(self.starts, self.columns, _APART, runs, first_run)
-        return runs[: first_run[-1]].copy(), first_run
+        return first_run, runs[: first_run[-1]].copy()
 
 
 class Operator(Protocol):

@@ -35,25 +35,14 @@ def displaced_by_pairs(
         Where the pressure acts, and where the displacement is wanted.
     """
     nx, ny = sources.shape
-    place = np.full(nx, -1)
-    place[sources.rows] = np.arange(sources.rows.size)
+    loaded = sources.starts, sources.columns, sources.place_of_rows
     parts = np.zeros((-(-nx // _ROWS_AT_A_TIME), targets.indices.size))
 
     def add(first: int, last: int) -> None:
         table = np.empty((last - first, ny))
         kernel_rows(first, table)
-        _add_pairs(
-            table,
-            first,
-            pressure,
-            place,
-            sources.starts,
-            sources.columns,
-            targets.rows,
-            targets.starts,
-            targets.columns,
-            parts[first // _ROWS_AT_A_TIME],
-        )
+        part = parts[first // _ROWS_AT_A_TIME]
+        _add_pairs(table, first, pressure, loaded, targets.listed, part)
 
     fft.share_out_blocks(add, nx, _ROWS_AT_A_TIME)
     return parts.sum(axis=0)
@@ -64,15 +53,17 @@ def _add_pairs(
     table: Floats,
     first: int,
     pressure: Floats,
-    place: Integers,
-    source_starts: Integers,
-    source_columns: Integers,
-    target_rows: Integers,
-    target_starts: Integers,
-    target_columns: Integers,
+    sources: tuple[Integers, Integers, Integers],
+    targets: tuple[Integers, Integers, Integers],
     result: Floats,
 ) -> None:
-    """Add what pressures displace at some distances of rows; `place` is where a row's begin."""
+    """Add what pressures displace at some distances of rows.
+
+    Sources are given by starts, columns and the places of all rows; targets by starts, columns and
+    rows.
+    """
+    source_starts, source_columns, place = sources
+    target_starts, target_columns, target_rows = targets
     for k in range(target_rows.size):
         for distance in range(first, first + table.shape[0]):
             kernel = table[distance - first]

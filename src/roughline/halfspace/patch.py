@@ -8,6 +8,7 @@ from roughline.computing.arrays import Real
 from roughline.halfspace.contact_set import merged
 from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse, preconditioner
+from roughline.halfspace.restricted import RestrictedOperator
 
 
 class Patch:
@@ -27,7 +28,7 @@ class Patch:
 
     def __init__(
         self,
-        operator: Operator,
+        operator: Operator | RestrictedOperator,
         inverse: ApproximateInverse,
         nodes: GridNodes,
         watched: GridNodes | None = None,

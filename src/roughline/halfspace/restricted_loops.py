@@ -39,17 +39,21 @@ def find_runs(
     first_run[starts.size - 1] = count
 
 
+Nodes = tuple[Integers, Integers, Integers]
+"""Where each row begins in the list of nodes, their columns, and the rows that hold any."""
+
+Margins = tuple[int, int]
+"""Cells of the margin of a grid along x and y."""
+
+
 @compiled
 def spread_along_rows(
     values: Floats,
-    starts: Integers,
-    columns: Integers,
-    rows: Integers,
+    nodes: Nodes,
     weights: Floats,
-    margins: tuple[int, int],
-    first: int,
-    last: int,
+    block: tuple[int, int],
     grid: Floats,
+    margins: Margins,
     lines: Floats,
 ) -> None:
     """Write the values of some rows to the grid, and spread them over the coarse columns.
@@ -57,22 +61,23 @@ def spread_along_rows(
     Parameters
     ----------
     values : ndarray
-        Values of all rows, one row after the other.
-    starts, columns, rows : ndarray of int
-        Where each row begins in `values`; column of each value; row of the grid.
+        Values of all nodes, one row after the other.
+    nodes : tuple
+        The nodes.
     weights : ndarray, shape (ratio, 4)
         Weights of the four coarse columns around a column, by its place between two of them.
-    margins : tuple of int
-        Of the grid.
-    first, last : int
-        The rows to do.
+    block : tuple of int
+        The first of the rows to do, and the row after the last one.
     grid : ndarray
         With a margin, and zero elsewhere.
+    margins : tuple of int
+        Its margins.
     lines : ndarray, shape (rows, coarse columns)
         Overwritten with the spread rows.
     """
+    starts, columns, rows = nodes
     ratio = weights.shape[0]
-    for k in range(first, last):
+    for k in range(block[0], block[1]):
         places, line = grid[rows[k] + margins[0]], lines[k]
         line[:] = 0
         for i in range(starts[k], starts[k + 1]):
@@ -83,10 +88,9 @@ def spread_along_rows(
 
 
 @compiled
-def clear_grid(
-    starts: Integers, columns: Integers, rows: Integers, margins: tuple[int, int], grid: Floats
-) -> None:
+def clear_grid(nodes: Nodes, grid: Floats, margins: Margins) -> None:
     """Set to zero what :func:`spread_along_rows` wrote to the grid."""
+    starts, columns, rows = nodes
     for k in range(rows.size):
         places = grid[rows[k] + margins[0]]
         for i in range(starts[k], starts[k + 1]):
@@ -127,17 +131,12 @@ def spread_across_rows(
 @compiled
 def add_near_and_far(
     grid: Floats,
-    margins: tuple[int, int],
-    taps: Floats,
-    reach: Integers,
+    margins: Margins,
+    near: tuple[Floats, Integers],
     coarse: Floats,
     weights: tuple[Floats, Floats],
-    rows: Integers,
-    columns: Integers,
-    first_run: Integers,
-    runs: Integers,
-    first: int,
-    last: int,
+    nodes: tuple[Integers, Integers, Integers, Integers],
+    block: tuple[int, int],
     result: Floats,
 ) -> None:
     """Add what near values and what the coarse grid displace, at each node of some rows.
@@ -148,55 +147,69 @@ def add_near_and_far(
         Values on the grid with its margins, zero elsewhere.
     margins : tuple of int
         Of the grid.
-    taps : ndarray, shape (2 radius + 1, 2 radius + 8)
-        The near part of the kernel, by the distance in cells, followed by zeros.
-    reach : ndarray of int, shape (2 radius + 1,)
-        Columns to which each row of the near part reaches, to both sides.
+    near : tuple of ndarray
+        The near part of the kernel by the distance in cells, each row followed by seven zeros; and
+        columns to which each row of it reaches, to both sides.
     coarse : ndarray, shape (coarse rows, coarse columns)
         The far part.
     weights : tuple of ndarray, shape (ratio, 4)
         Weights of the four coarse rows around a row, and of the columns around a column.
-    rows, columns : ndarray of int
-        Rows that hold nodes; column of each node.
-    first_run, runs : ndarray of int
-        As :func:`find_runs` lists them.
-    first, last : int
-        The rows to do.
+    nodes : tuple of ndarray
+        Rows that hold nodes, the column of each node, where the runs of each row begin, and the
+        runs as :func:`find_runs` lists them.
+    block : tuple of int
+        The first of the rows to do, and the row after the last one.
     result : ndarray, shape (nodes,)
         Overwritten where the nodes of these rows are.
     """
-    weights_x, weights_y = weights
-    ratio_x, ratio_y = weights_x.shape[0], weights_y.shape[0]
-    radius_x, radius_y = taps.shape[0] // 2, (taps.shape[1] - 8) // 2
-    flat, width = grid.reshape(-1), grid.shape[1]
+    rows, columns, first_run, runs = nodes
+    ratio, radius = weights[1].shape[0], near[0].shape[0] // 2
     far = np.empty(coarse.shape[1], dtype=np.float32)
     sums = np.empty(grid.shape[1], dtype=np.float32)
-    for k in range(first, last):
-        above, part = rows[k] // ratio_x, rows[k] % ratio_x
-        c0, c1, c2, c3 = coarse[above], coarse[above + 1], coarse[above + 2], coarse[above + 3]
-        w0, w1, w2, w3 = weights_x[part]
-        for j in range(far.size):
-            far[j] = w0 * c0[j] + w1 * c1[j] + w2 * c2[j] + w3 * c3[j]
+    flat, width = grid.reshape(-1), grid.shape[1]
+    for k in range(block[0], block[1]):
+        _interpolate_row(coarse, weights[0], rows[k], far)
+        above = (rows[k] + margins[0] - radius) * width
         for run in range(first_run[k], first_run[k + 1]):
             begin, end, length = runs[run]
             start = columns[begin]
-            total = sums[:length]
-            total[:] = 0
-            for di in range(2 * radius_x + 1):
-                groups = (2 * reach[di] + 8) // 8  # of eight taps
-                at = (rows[k] + margins[0] - radius_x + di) * width + start + margins[1] - reach[di]
-                line, tap = flat[at : at + 8 * groups + length], taps[di, radius_y - reach[di] :]
-                for g in range(0, 8 * groups, 8):
-                    t0, t1, t2, t3 = tap[g], tap[g + 1], tap[g + 2], tap[g + 3]
-                    t4, t5, t6, t7 = tap[g + 4], tap[g + 5], tap[g + 6], tap[g + 7]
-                    p = line[g:]
-                    for j in range(length):  # summed in pairs, which need not wait for each other
-                        total[j] += (
-                            (t0 * p[j] + t1 * p[j + 1]) + (t2 * p[j + 2] + t3 * p[j + 3])
-                        ) + ((t4 * p[j + 4] + t5 * p[j + 5]) + (t6 * p[j + 6] + t7 * p[j + 7]))
+            _sum_near(flat[above + start :], width, margins[1], near, sums[:length])
             for i in range(begin, end):
-                column, part = columns[i] // ratio_y, columns[i] % ratio_y
-                value = total[columns[i] - start]
+                column, part = columns[i] // ratio, columns[i] % ratio
+                value = sums[columns[i] - start]
                 for a in range(4):
-                    value += weights_y[part, a] * far[column + a]
+                    value += weights[1][part, a] * far[column + a]
                 result[i] = value
+
+
+@compiled
+def _interpolate_row(coarse: Floats, weights: Floats, row: int, far: Floats) -> None:
+    """Interpolate between coarse rows, for all coarse columns."""
+    ratio = weights.shape[0]
+    above, part = row // ratio, row % ratio
+    c0, c1, c2, c3 = coarse[above], coarse[above + 1], coarse[above + 2], coarse[above + 3]
+    w0, w1, w2, w3 = weights[part]
+    for j in range(far.size):
+        far[j] = w0 * c0[j] + w1 * c1[j] + w2 * c2[j] + w3 * c3[j]
+
+
+@compiled
+def _sum_near(
+    flat: Floats, width: int, margin: int, near: tuple[Floats, Integers], sums: Floats
+) -> None:
+    """Sum the near part over a run, from the first row that it reaches on."""
+    taps, reach = near
+    across = (taps.shape[1] - 8) // 2
+    sums[:] = 0
+    for di in range(taps.shape[0]):
+        groups = (2 * reach[di] + 8) // 8  # of eight taps
+        at = di * width + margin - reach[di]
+        line, tap = flat[at : at + 8 * groups + sums.size], taps[di, across - reach[di] :]
+        for g in range(0, 8 * groups, 8):
+            t0, t1, t2, t3 = tap[g], tap[g + 1], tap[g + 2], tap[g + 3]
+            t4, t5, t6, t7 = tap[g + 4], tap[g + 5], tap[g + 6], tap[g + 7]
+            p = line[g:]
+            for j in range(sums.size):  # summed in pairs, which need not wait for each other
+                sums[j] += ((t0 * p[j] + t1 * p[j + 1]) + (t2 * p[j + 2] + t3 * p[j + 3])) + (
+                    (t4 * p[j + 4] + t5 * p[j + 5]) + (t6 * p[j + 6] + t7 * p[j + 7])
+                )
