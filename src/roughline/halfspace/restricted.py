@@ -188,7 +188,7 @@ class RestrictedOperators:
 
 
 def _ratios(operator: Operator) -> list[tuple[float, tuple[int, int]]]:
-    """List possible coarse cells, about square, and the part of the grid up to which each serves."""
+    """List possible coarse cells, about square, and up to which part of the grid they serve."""
     possible: list[tuple[float, tuple[int, int]]] = []
     if min(operator.shape) < _FEWEST_POINTS:
         return []
