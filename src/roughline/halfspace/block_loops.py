@@ -102,7 +102,7 @@ def apply_stencil(
         Flat, zero but at the nodes, with margins wider than the stencil by ROUNDING.
     at : Layout
         Where the nodes lie.
-    stencil : tuple of ndarray, shape (1 + 4 n,)
+    stencil : tuple of ndarray, shape (1 + 6 n,)
         Flat offsets and coefficients, the central one first.
     even : tuple of ndarray, shape of the lattice of blocks
         The means over blocks, and one over the nodes of each block.
@@ -123,12 +123,15 @@ def apply_stencil(
                 total, here, tap = sums[:length], grid[place:], taps[0]
                 for j in range(length):
                     total[j] = tap * here[j]
-                for m in range(1, offsets.size, 4):
-                    t0, t1, t2, t3 = taps[m], taps[m + 1], taps[m + 2], taps[m + 3]
+                for m in range(1, offsets.size, 6):
+                    t0, t1, t2 = taps[m], taps[m + 1], taps[m + 2]
+                    t3, t4, t5 = taps[m + 3], taps[m + 4], taps[m + 5]
                     g0, g1 = grid[place + offsets[m] :], grid[place + offsets[m + 1] :]
                     g2, g3 = grid[place + offsets[m + 2] :], grid[place + offsets[m + 3] :]
+                    g4, g5 = grid[place + offsets[m + 4] :], grid[place + offsets[m + 5] :]
                     for j in range(length):
-                        total[j] += t0 * g0[j] + t1 * g1[j] + t2 * g2[j] + t3 * g3[j]
+                        total[j] += t0 * g0[j] + t1 * g1[j] + t2 * g2[j]
+                        total[j] += t3 * g3[j] + t4 * g4[j] + t5 * g5[j]
                 for i in range(begin, end):
                     value = total[at.columns[i] - start]
                     result[i] = value

@@ -56,29 +56,34 @@ def invert_groups(
         Overwritten at these groups: the energy of unit pressure on their nodes.
     """
     count, energy = blocks
+    counts, energies, even = np.empty(_BLOCKS), np.empty(_BLOCKS), np.empty(_BLOCKS)
     near = np.zeros((GROUP, GROUP))
     near[: kernel.shape[0], : kernel.shape[1]] = kernel[:GROUP, :GROUP]
-    counts, energies = np.empty(_BLOCKS), np.empty(_BLOCKS)
     for g in range(first, last):
         x, y = groups[g] // group_energy.shape[1], groups[g] % group_energy.shape[1]
         gather_group(count, x, y, counts)
         gather_group(energy, x, y, energies)
-        matrix = inverses[g]
+        matrix, total = inverses[g], 0.0
         for i in range(_BLOCKS):
             for j in range(_BLOCKS):
-                distance = abs(i // GROUP - j // GROUP), abs(i % GROUP - j % GROUP)
-                matrix[i, j] = counts[i] * counts[j] * near[distance]
+                kernel_here = near[abs(i // GROUP - j // GROUP), abs(i % GROUP - j % GROUP)]
+                matrix[i, j] = counts[i] * counts[j] * kernel_here
             matrix[i, i] = RIDGE * max(matrix[i, i], energies[i])
-        group_energy[x, y] = matrix.sum()
-        invert_occupied(matrix, counts)
-        even = np.zeros(_BLOCKS)
-        for j in range(_BLOCKS):
-            even += matrix[j] * counts[j]
+            for j in range(_BLOCKS):
+                total += matrix[i, j]
+        group_energy[x, y] = total
+        invert_occupied(matrix, counts, even)
+        even[:] = 0
+        for i in range(_BLOCKS):
+            for j in range(_BLOCKS):
+                even[j] += matrix[i, j] * counts[i]
         total = 0.0
-        for j in range(_BLOCKS):
-            total += even[j] * counts[j]
-        for j in range(_BLOCKS):
-            matrix[j] -= even[j] / total * even
+        for i in range(_BLOCKS):
+            total += even[i] * counts[i]
+        share = np.divide(1.0, total)
+        for i in range(_BLOCKS):
+            for j in range(_BLOCKS):
+                matrix[i, j] -= share * even[i] * even[j]
 
 
 @compiled
@@ -92,24 +97,27 @@ def gather_group(values: Real, x: int, y: int, gathered: Real) -> None:
 
 
 @compiled
-def invert_occupied(matrix: Real, counts: Real) -> None:
-    """Invert a positive definite matrix in place (Gauss-Jordan), where counts are not zero."""
+def invert_occupied(matrix: Real, counts: Real, pivot_row: Real) -> None:
+    """Invert a positive definite matrix in place (Gauss-Jordan), where counts are not zero.
+
+    The result is zero where they are. The last argument is memory for a row.
+    """
     for k in range(_BLOCKS):
-        pivot_row = matrix[k]
         if counts[k] == 0:
-            pivot_row[:] = 0
+            for j in range(_BLOCKS):
+                matrix[k, j] = 0.0
             continue
-        inverse = np.divide(1.0, pivot_row[k])
-        pivot_row[k] = 1.0
+        inverse = np.divide(1.0, matrix[k, k])
+        matrix[k, k] = 1.0
         for j in range(_BLOCKS):
-            pivot_row[j] *= inverse
+            pivot_row[j] = matrix[k, j] * inverse
         for i in range(_BLOCKS):
-            if i != k:
-                row = matrix[i]
-                factor = row[k]
-                row[k] = 0.0
-                for j in range(_BLOCKS):
-                    row[j] -= factor * pivot_row[j]
+            factor = matrix[i, k]
+            matrix[i, k] = 0.0
+            for j in range(_BLOCKS):
+                matrix[i, j] -= factor * pivot_row[j]
+        for j in range(_BLOCKS):
+            matrix[k, j] = pivot_row[j]
 
 
 @compiled
@@ -136,9 +144,8 @@ def solve_groups(
         gather_group(sums, x, y, gathered)
         details[:] = 0
         for i in range(_BLOCKS):
-            value, row = gathered[i], inverses[g, i]
             for j in range(_BLOCKS):
-                details[j] += value * row[j]
+                details[j] += gathered[i] * inverses[g, i, j]
         for i in range(min(GROUP, sums.shape[0] - GROUP * x)):
             for j in range(min(GROUP, sums.shape[1] - GROUP * y)):
                 pressure[GROUP * x + i, GROUP * y + j] = details[GROUP * i + j]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import sqrt
 
 import numpy as np
 
@@ -79,11 +80,7 @@ class Lattices:
         for kernel in kernels[:-1]:
             self._groups.append(_Groups(kernel, count, energy))
             count, energy = self._groups[-1].count, self._groups[-1].energy
-        self._occupied = np.flatnonzero(count)
-        self._scale = np.empty(self._occupied.size)
-        matrix = np.empty((self._occupied.size, self._occupied.size), dtype=np.float32)
-        loops.fill_matrix(kernels[-1], count, energy, self._occupied, matrix, self._scale)
-        self._factor = Cholesky(matrix)
+        self._coarsest = _Coarsest(kernels[-1], count, energy)
 
     def __call__(self, sums: Real) -> Real:
         """Return the pressure on the nodes of each block, from the sums of their residuals."""
@@ -91,14 +88,45 @@ class Lattices:
         for groups in self._groups:
             levels.append(groups.details(sums))
             sums = groups.sums(sums)
-        residual = sums.ravel()[self._occupied] * self._scale
-        unit = np.abs(residual).max() or 1.0  # single precision ends at 1e38 and 1e-38
-        pressure = np.zeros(sums.shape)
-        pressure.ravel()[self._occupied] = self._factor.solve(residual / unit) * (unit * self._scale)
+        pressure = self._coarsest(sums)
         for details in reversed(levels):
             loops.add_groups(pressure, details)
             pressure = details
         return pressure
+
+
+class _Coarsest:
+    """The equations of all blocks of the coarsest lattice, solved in single precision.
+
+    Residuals that are the same on all nodes are taken by themselves, in double precision: they are
+    many orders larger than the others where the total of the pressures is fixed.
+    """
+
+    def __init__(self, kernel: Real, count: Real, energy: Real) -> None:
+        self._shape = count.shape
+        self._occupied = np.flatnonzero(count)
+        self._count = count.ravel()[self._occupied]
+        self._scale = np.empty(self._occupied.size)
+        matrix = np.empty((self._occupied.size, self._occupied.size), dtype=np.float32)
+        loops.fill_matrix(kernel, count, energy, self._occupied, matrix, self._scale)
+        self._factor = Cholesky(matrix)
+        self._per_node = 1 / self._count.sum()
+        self._even = self._solve(self._count)
+
+    def __call__(self, sums: Real) -> Real:
+        """Return the pressure on the nodes of each block, from the sums of their residuals."""
+        residual = sums.ravel()[self._occupied]
+        mean = residual.sum() * self._per_node
+        residual -= mean * self._count
+        pressure = np.zeros(self._shape)
+        pressure.ravel()[self._occupied] = mean * self._even + self._solve(residual)
+        return pressure
+
+    def _solve(self, sums: Real) -> Real:
+        """Solve the equations, scaled to the room that single precision has."""
+        residual = sums * self._scale
+        unit = sqrt(residual @ residual) or 1.0
+        return self._factor.solve(residual / unit) * unit * self._scale
 
 
 class _Groups:

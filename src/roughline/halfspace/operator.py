@@ -132,6 +132,8 @@ class Operator(Protocol):
 
 def unit_in_single(values: Real) -> float:
     """Return in which unit values have room in single precision; 1 unless all are very small."""
+    if values.size and abs(values[0]) >= _SMALL_IN_SINGLE:  # no need to look at the others
+        return 1.0
     largest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
     return largest if 0 < largest < _SMALL_IN_SINGLE else 1.0
 

@@ -110,14 +110,15 @@ class ApproximateInverse:
         """Which block along a row of blocks each column of the grid belongs to."""
         return (np.arange(self.operator.shape[1]) // self.block_sides[1]).astype(np.int32)
 
-    def stencil_in(self, width: int) -> tuple[Integers, Single]:
-        """Return flat offsets and coefficients of the stencil in a grid of so many columns.
+    @cached_property
+    def stencil(self) -> tuple[Integers, Single]:
+        """Offsets of the stencil in the restricted operators' flat grid, and its coefficients.
 
-        The central one comes first, and idle ones fill up the last four.
+        The central one comes first, and idle ones fill up the last six.
         """
-        places = self.offsets @ np.array([width, 1])
+        places = self.offsets @ np.array([self.restricted.grid.values.shape[1], 1])
         order = np.argsort(abs(places))
-        idle = np.zeros(-(order.size - 1) % 4)
+        idle = np.zeros(-(order.size - 1) % 6)
         return (
             np.append(places[order], idle.astype(places.dtype)),
             np.append(self.taps[order], idle).astype(np.float32),
@@ -192,8 +193,8 @@ class _Multilevel:
             grid.margins[0] * width + grid.margins[1],
             width,
         )
-        self._grid = grid.values.ravel()
-        self._stencil = inverse.stencil_in(width)
+        self._grid = grid.values.reshape(-1)
+        self._stencil = inverse.stencil
         nodes_of_band = nodes.indices.size / kernel.shape[0]
         self._bands_at_a_time = max(1, int(_NODES_AT_A_TIME / nodes_of_band))
         count = np.empty(kernel.shape)
@@ -206,7 +207,11 @@ class _Multilevel:
 
     def _share_out(self, work: Callable[[int, int], None]) -> None:
         """Do some work on all bands."""
-        fft.share_out_blocks(work, self._at.bands.size - 1, self._bands_at_a_time)
+        bands = self._at.bands.size - 1
+        if self._bands_at_a_time >= bands:
+            work(0, bands)
+        else:
+            fft.share_out_blocks(work, bands, self._bands_at_a_time)
 
     def __call__(self, residual: Real) -> Real:
         """Return the change of pressure that causes the displacement `residual`, about."""
