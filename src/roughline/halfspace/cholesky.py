@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg import blas, lapack
 
-from roughline.computing.arrays import Floats
+from roughline.computing.arrays import Floats, Real
 
 
 class Cholesky:
@@ -27,7 +27,9 @@ class Cholesky:
         if failed:
             raise np.linalg.LinAlgError("the matrix is not positive definite")
 
-    def solve(self, right: Floats) -> Floats:
-        """Return the solution of the equations."""
+    def solve(self, right: Real) -> Real:
+        """Return the solution of the equations, in the precision of the matrix."""
+        if not right.size:
+            return right
         half = self._solve(self._factor, right, lower=1)
         return self._solve(self._factor, half, lower=1, trans=1, overwrite_x=1)

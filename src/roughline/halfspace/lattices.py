@@ -126,7 +126,7 @@ class _Coarsest:
         """Solve the equations, scaled to the room that single precision has."""
         residual = sums * self._scale
         unit = sqrt(residual @ residual) or 1.0
-        return self._factor.solve(residual / unit) * unit * self._scale
+        return self._factor.solve(residual / unit) * (unit * self._scale)
 
 
 class _Groups:

@@ -9,6 +9,41 @@ from roughline.computing.compiled import compiled
 
 
 @compiled
+def list_rows(
+    indices: Integers, width: int, rows: Integers, starts: Integers, columns: Integers
+) -> int:
+    """List nodes of a grid row by row.
+
+    Parameters
+    ----------
+    indices : ndarray of int
+        Flat indices of the nodes, ascending.
+    width : int
+        Columns of the grid.
+    rows, starts : ndarray of int
+        Overwritten, as far as there are rows with nodes, with these rows and where they begin; one
+        more start follows.
+    columns : ndarray of int
+        Overwritten with the column of each node.
+
+    Returns
+    -------
+    int
+        The rows with nodes.
+    """
+    found, begin, end = 0, 0, 0
+    for i in range(indices.size):
+        if indices[i] >= end:
+            row = indices[i] // width
+            begin, end = row * width, (row + 1) * width
+            rows[found], starts[found] = row, i
+            found += 1
+        columns[i] = indices[i] - begin
+    starts[found] = indices.size
+    return found
+
+
+@compiled
 def scatter_pairs(
     values: Floats, starts: Integers, columns: Integers, first: int, last: int, pairs: Floats
 ) -> None:
