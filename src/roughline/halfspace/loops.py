@@ -9,6 +9,41 @@ from roughline.computing.compiled import compiled
 
 
 @compiled
+def list_rows(
+    indices: Integers, width: int, rows: Integers, starts: Integers, columns: Integers
+) -> int:
+    """List nodes of a grid row by row.
+
+    Parameters
+    ----------
+    indices : ndarray of int
+        Flat indices of the nodes, ascending.
+    width : int
+        Columns of the grid.
+    rows, starts : ndarray of int
+        Overwritten, as far as there are rows with nodes, with these rows and where they begin; one
+        more start follows.
+    columns : ndarray of int
+        Overwritten with the column of each node.
+
+    Returns
+    -------
+    int
+        The rows with nodes.
+    """
+    found, begin, end = 0, 0, 0
+    for i in range(indices.size):
+        if indices[i] >= end:
+            row = indices[i] // width
+            begin, end = row * width, (row + 1) * width
+            rows[found], starts[found] = row, i
+            found += 1
+        columns[i] = indices[i] - begin
+    starts[found] = indices.size
+    return found
+
+
+@compiled
 def scatter_pairs(
     values: Floats, starts: Integers, columns: Integers, first: int, last: int, pairs: Floats
 ) -> None:
@@ -164,61 +199,3 @@ def store_columns(columns: Floats, rows: Integers, first: int, pairs: Floats) ->
                 z[mirror, 1] = -a[j, 1]
                 z[first + j, 0] = a[j, 0]
                 z[first + j, 1] = a[j, 1]
-
-
-@compiled
-def sum_blocks(values: Floats, block: Integers, sums: Floats) -> None:
-    """Sum the values of the nodes of each block."""
-    sums[:] = 0
-    for i in range(values.size):
-        sums[block[i]] += values[i]
-
-
-@compiled
-def scatter_details(
-    values: Floats, block: Integers, means: Floats, places: Integers, grid: Floats
-) -> None:
-    """Write values without their means over blocks to their places in a flat grid."""
-    for i in range(places.size):
-        grid[places[i]] = values[i] - means[block[i]]
-
-
-@compiled
-def apply_stencil(
-    grid: Floats,
-    places: Integers,
-    offsets: Integers,
-    taps: Floats,
-    block: Integers,
-    result: Floats,
-    sums: Floats,
-) -> None:
-    """Apply a stencil at some places of a flat grid, and set these to zero again.
-
-    Parameters
-    ----------
-    grid : ndarray
-        With a margin as wide as the stencil, and zero but at the places.
-    places, block : ndarray of int, shape (nodes,)
-        Where each contact node lies in `grid`, and the block to which it belongs.
-    offsets, taps : ndarray, shape (taps,)
-        Flat offsets of the stencil and its coefficients.
-    result, sums : ndarray, shape (nodes,) and (blocks,)
-        Overwritten: the pressures and their sums over blocks.
-    """
-    sums[:] = 0
-    for i in range(places.size):
-        total = 0.0
-        for j in range(offsets.size):
-            total += taps[j] * grid[places[i] + offsets[j]]
-        result[i] = total
-        sums[block[i]] += total
-    for i in range(places.size):
-        grid[places[i]] = 0.0
-
-
-@compiled
-def add_blocks(values: Floats, block: Integers, result: Floats) -> None:
-    """Add to each node the value of its block."""
-    for i in range(block.size):
-        result[i] += values[block[i]]

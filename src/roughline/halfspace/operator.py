@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.loops import list_rows
 from roughline.halfspace.restricted_loops import find_runs
 
 Precision = Literal["float32", "float64"]
@@ -45,10 +46,11 @@ class GridNodes:
     @classmethod
     def of(cls, indices: Indices, shape: tuple[int, int]) -> GridNodes:
         """List the nodes with these ascending flat indices."""
-        edges = np.searchsorted(indices, np.arange(shape[0] + 1) * shape[1])
-        rows = np.flatnonzero(np.diff(edges))
-        starts = np.append(edges[rows], indices.size)
-        return cls(indices, rows, starts, (indices % shape[1]).astype(np.int32), shape)
+        most = min(shape[0], indices.size)
+        rows, starts = np.empty(most, dtype=np.intp), np.empty(most + 1, dtype=np.intp)
+        columns = np.empty(indices.size, dtype=np.int32)
+        found = list_rows(indices, shape[1], rows, starts, columns)
+        return cls(indices, rows[:found], starts[: found + 1], columns, shape)
 
     @property
     def listed(self) -> tuple[Indices, NDArray[np.int32], Indices]:
@@ -144,6 +146,8 @@ class Operator(Protocol):
 
 def unit_in_single(values: Real) -> float:
     """Return in which unit values have room in single precision; 1 unless all are very small."""
+    if values.size and abs(values[0]) >= _SMALL_IN_SINGLE:  # no need to look at the others
+        return 1.0
     largest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
     return largest if 0 < largest < _SMALL_IN_SINGLE else 1.0
 

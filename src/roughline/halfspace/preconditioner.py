@@ -20,18 +20,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
-from roughline.computing.arrays import Indices, Real, Single
-from roughline.halfspace import loops
+from roughline.computing import fft
+from roughline.computing.arrays import Indices, Integers, Real, Single
+from roughline.halfspace import block_loops as loops
+from roughline.halfspace.cholesky import Cholesky
 from roughline.halfspace.even_sums import Lags, even_sums
-from roughline.halfspace.lattices import (
-    Lattices,
-    kernels_on,
-    lags_for,
-    lattice_shapes,
-    set_diagonal,
-)
+from roughline.halfspace.lattice_loops import fill_direct
+from roughline.halfspace.lattices import Lattices, kernels_on, lags_for, lattice_shapes
 from roughline.halfspace.operator import GridNodes, Operator, unit_in_single
 from roughline.halfspace.restricted import NEAR, RestrictedOperators
 
@@ -39,7 +35,7 @@ _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 _STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
-_SINGLE_RIDGE = 1 + 1e-6  # factor on diagonals, against the rounding of single precision
+_NODES_AT_A_TIME = 2**15  # whose work takes a thread longer than to begin with it
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +102,26 @@ class ApproximateInverse:
             smallest,
             float(near[0, 0]) + raised,
             kernels_on(lattices, kernel + raised),
-            RestrictedOperators(operator, near, margins),
+            RestrictedOperators(operator, near, (margins[0], margins[1] + loops.ROUNDING)),
+        )
+
+    @cached_property
+    def block_of_column(self) -> Integers:
+        """Which block along a row of blocks each column of the grid belongs to."""
+        return (np.arange(self.operator.shape[1]) // self.block_sides[1]).astype(np.int32)
+
+    @cached_property
+    def stencil(self) -> tuple[Integers, Single]:
+        """Offsets of the stencil in the restricted operators' flat grid, and its coefficients.
+
+        The central one comes first, and idle ones fill up the last six.
+        """
+        places = self.offsets @ np.array([self.restricted.grid.values.shape[1], 1])
+        order = np.argsort(abs(places))
+        idle = np.zeros(-(order.size - 1) % 6)
+        return (
+            np.append(places[order], idle.astype(places.dtype)),
+            np.append(self.taps[order], idle).astype(np.float32),
         )
 
     @cached_property
@@ -156,53 +171,63 @@ def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> Preconditio
     if nodes.indices.size > _DIRECT:
         return _Multilevel(inverse, nodes)
     rows = np.repeat(nodes.rows, np.diff(nodes.starts))
-    columns = nodes.columns
-    matrix = inverse.kernel[
-        abs(rows[:, np.newaxis] - rows), abs(columns[:, np.newaxis] - columns)
-    ].astype(np.float64)
-    set_diagonal(matrix, matrix.diagonal() * _SINGLE_RIDGE)
-    factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
-    return lambda residual: cho_solve(factor, residual, check_finite=False)
+    matrix = np.empty((rows.size, rows.size))
+    fill_direct(inverse.kernel, rows, nodes.columns, matrix)
+    return Cholesky(matrix).solve
 
 
 class _Multilevel:
     """The approximate inverse on many contact nodes."""
 
     def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
-        grid, sides = inverse.restricted.grid, inverse.block_sides
-        rows = np.repeat(nodes.rows, np.diff(nodes.starts))
+        grid, sides, kernel = inverse.restricted.grid, inverse.block_sides, inverse.block_kernels[0]
         width = grid.values.shape[1]
-        self._taps = inverse.taps
-        self._offsets = inverse.offsets @ np.array([width, 1])
-        self._grid = grid.values.reshape(-1)
-        index: type[np.integer] = np.int32 if self._grid.size < 2**31 else np.int64
-        self._places = ((rows + grid.margins[0]) * width + nodes.columns + grid.margins[1]).astype(
-            index
+        bands = np.arange(kernel.shape[0] + 1) * sides[0]
+        self._at = loops.Layout(
+            np.searchsorted(nodes.rows, bands),
+            inverse.block_of_column,
+            nodes.rows,
+            nodes.starts,
+            nodes.columns,
+            *nodes.runs,
+            grid.margins[0] * width + grid.margins[1],
+            width,
         )
-        kernel = inverse.block_kernels[0]
-        self._lattice = kernel.shape
-        block = (rows // sides[0]) * self._lattice[1] + nodes.columns // sides[1]
-        self._block = block.astype(np.int32)
-        count = np.bincount(self._block, minlength=kernel.size).astype(np.float64)
+        self._grid = grid.values.reshape(-1)
+        self._stencil = inverse.stencil
+        nodes_of_band = nodes.indices.size / kernel.shape[0]
+        self._bands_at_a_time = max(1, int(_NODES_AT_A_TIME / nodes_of_band))
+        count = np.empty(kernel.shape)
+        self._share_out(lambda first, last: loops.count_nodes(self._at, first, last, count))
         self._per_node = 1 / np.maximum(count, 1.0)
         energy = count**2 * kernel[0, 0]
         # as if the nodes of a block lay at random in it
         energy += count * (1 - count / (sides[0] * sides[1])) * (inverse.diagonal - kernel[0, 0])
-        self._coarse = Lattices(
-            inverse.block_kernels, count.reshape(self._lattice), energy.reshape(self._lattice)
-        )
+        self._coarse = Lattices(inverse.block_kernels, count, energy)
+
+    def _share_out(self, work: Callable[[int, int], None]) -> None:
+        """Do some work on all bands."""
+        bands = self._at.bands.size - 1
+        if self._bands_at_a_time >= bands:
+            work(0, bands)
+        else:
+            fft.share_out_blocks(work, bands, self._bands_at_a_time)
 
     def __call__(self, residual: Real) -> Real:
         """Return the change of pressure that causes the displacement `residual`, about."""
         if (unit := unit_in_single(residual)) != 1:
             return unit * self(residual / unit)
-        result = np.empty_like(residual)
-        sums, sums_of_result = np.empty((2, self._per_node.size))
-        places, block, grid = self._places, self._block, self._grid
-        loops.sum_blocks(residual, block, sums)
-        loops.scatter_details(residual, block, sums * self._per_node, places, grid)
-        loops.apply_stencil(grid, places, self._offsets, self._taps, block, result, sums_of_result)
-        means = self._coarse(sums.reshape(self._lattice)).ravel()
-        means -= sums_of_result * self._per_node
-        loops.add_blocks(means, block, result)
+        at, grid, per_node = self._at, self._grid, self._per_node
+        sums, result = np.empty(per_node.shape), np.empty(residual.size)
+
+        def scatter(first: int, last: int) -> None:
+            loops.scatter_details(residual, at, per_node, first, last, sums, grid)
+
+        def apply(first: int, last: int) -> None:
+            loops.apply_stencil(grid, at, self._stencil, even, first, last, result)
+
+        self._share_out(scatter)
+        even = self._coarse(sums), per_node
+        self._share_out(apply)
+        self._share_out(lambda first, last: loops.clear_nodes(at, first, last, grid))
         return result
