@@ -73,6 +73,10 @@ class Convolution:
             self._buffers["float32"] = single, single.view(np.float32).reshape(*shape, 2)
         return self._buffers[precision]
 
+    def release_buffers(self) -> None:
+        """Give back the memory of the row transforms, until it is needed again."""
+        self._buffers.clear()
+
     def displacement(
         self,
         pressure: Real,

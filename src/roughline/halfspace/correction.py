@@ -96,7 +96,9 @@ def corrected(
     if near is None:
         return None
     there, start = near
+    problem.operator.release_buffers()  # the search needs the memory
     found = search(there, load, start, method)
+    there.approximate.far.release_buffers()
     contact_set = there.on_grid(ContactSet(found.nodes, found.pressure))
     return contact_set, found.convolutions
 

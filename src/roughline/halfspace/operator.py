@@ -101,6 +101,9 @@ class Operator(Protocol):
         The shape is (periods[0] // 2 + 1, periods[1] // 2 + 1). [length / pressure]
         """
 
+    def release_buffers(self) -> None:
+        """Give back the memory in which displacements are computed, until it is needed again."""
+
     def displacement(
         self,
         pressure: Real,

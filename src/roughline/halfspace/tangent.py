@@ -131,6 +131,8 @@ def tangent(
         return Tangent(np.inf, even, 0, converged=True)
     grid_nodes = problem.grid_nodes(nodes)
     restricted = problem.inverse.restricted.on(grid_nodes)
+    if restricted is not None:
+        operator.release_buffers()  # the first turn needs the memory
     patch = Patch(restricted or operator, problem.inverse, grid_nodes)
     start_pressure = _unit_force(elastic, cell_area, start, contact.pressure)
     pressure = start_pressure
@@ -158,11 +160,13 @@ def tangent(
         gained_before, gained = gained, gradients.gained * cell_area
         compliance -= gained
         part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
-        error = max(gradients.energy * cell_area, np.sqrt(part) * gained)
+        energy = gradients.energy * cell_area
+        del gradients  # the exact convolution needs the memory
+        error = max(energy, np.sqrt(part) * gained)
         converged = bool(exact and error <= accuracy * compliance)
         if converged:
             break
-        sound = part <= _SLOW and gradients.energy * cell_area <= aim
+        sound = part <= _SLOW and energy <= aim
         if exact and restricted is not None and not sound:
             restricted, patch = None, Patch(operator, problem.inverse, grid_nodes)
             pressure, gained = start_pressure, np.nan
