@@ -16,7 +16,7 @@ import numpy as np
 from roughline.halfspace.active_set import search
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.exchange import able_to_carry
-from roughline.halfspace.nearby import nearby
+from roughline.halfspace.nearby import NearbyProblem, nearby
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.trial import Trial
 
@@ -40,12 +40,13 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
     method : Method
         Tolerance, bound on the convolutions and precision.
     """
-    contact_set, gap = start, np.empty(problem.separation.shape)
+    contact_set = start
     precision, convolutions, steps, worst = method.steps, 0, 0, np.inf
     while True:
-        near_gap = gap if convolutions else problem.separation
-        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), near_gap)
+        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), problem.separation)
+        gap = np.empty(problem.separation.shape)
         trial = Trial.of(problem, load, contact_set, precision, gap, rescale=not convolutions)
+        contact_set = trial.contact_set
         convolutions += 1
         worst_before, worst = worst, trial.residuals.worst
         if precision == method.certificate and trial.certified(method.rtol):
@@ -54,7 +55,11 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         if left <= 1 or not worst < 0.5 * worst_before:
             break
         target = max(_GAIN * worst, _AIM * method.rtol)
-        found = corrected(problem, load, trial, Method(target, min(left - 1, _PRODUCTS), "float32"))
+        near = nearby(problem, trial)
+        del trial, gap  # the search needs the memory
+        rough = Method(target, min(left - 1, _PRODUCTS), "float32")
+        found = corrected(problem, load, near, rough)
+        del near
         if found is None:
             break
         contact_set, spent = found
@@ -65,12 +70,12 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
     rest = replace(method, max_iterations=left)
     if left == 1:  # no more than a certificate
         rest = replace(rest, precision=method.certificate)
-    contact = search(problem, load, trial.contact_set, rest)
+    contact = search(problem, load, contact_set, rest)
     return replace(contact, convolutions=contact.convolutions + convolutions)
 
 
 def corrected(
-    problem: Problem, load: Load, trial: Trial, method: Method
+    problem: Problem, load: Load, near: tuple[NearbyProblem, ContactSet] | None, method: Method
 ) -> tuple[ContactSet, int] | None:
     """Search near the contact of a trial with a restricted operator.
 
@@ -78,8 +83,8 @@ def corrected(
     ----------
     problem, load : Problem, Load
         The bodies, and what is prescribed.
-    trial : Trial
-        Where to start from, with the gap that the exact operator gives.
+    near : tuple of NearbyProblem and ContactSet, or None
+        The problem near the contact of a trial, as :func:`nearby` returns it.
     method : Method
         Tolerance, bound on the products and precision of the search.
 
@@ -92,7 +97,6 @@ def corrected(
 
     None where the exact operator is cheaper than a restricted one.
     """
-    near = nearby(problem, trial)
     if near is None:
         return None
     there, start = near
@@ -109,8 +113,10 @@ def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> 
     trial = Trial.of(
         problem, load, contact_set, method.steps, np.empty(problem.separation.shape), rescale=True
     )
-    found = corrected(problem, load, trial, method)
+    contact_set, near = trial.contact_set, nearby(problem, trial)
+    del trial
+    found = corrected(problem, load, near, method)
     if found is None:
-        contact = search(problem, load, trial.contact_set, method)
+        contact = search(problem, load, contact_set, method)
         return ContactSet(contact.nodes, contact.pressure)
     return found[0]

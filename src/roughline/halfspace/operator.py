@@ -61,7 +61,8 @@ class GridNodes:
         For each run: its first node, the node after its last one, and the columns that it takes,
         rounded up to eight.
         """
-        runs = np.empty((self.indices.size, 3), dtype=np.int32)
+        most = self.rows.size + int(np.count_nonzero(np.diff(self.columns) > _APART))
+        runs = np.empty((most, 3), dtype=np.int32)
         first_run = np.empty(self.rows.size + 1, dtype=np.intp)
         find_runs(self.starts, self.columns, _APART, runs, first_run)
         return runs[: first_run[-1]].copy(), first_run
