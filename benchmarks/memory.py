@@ -1,8 +1,8 @@
 """Measure the peak memory of presses beside its estimate, each in a process of its own.
 
 ``python benchmarks/memory.py 4096`` prints a row for three loads (``make memory``), and
-``python benchmarks/memory.py 4096 free 3`` one for a boundary and reduced forces. With ``table`` for
-the boundary, rows for light loads, saturation and nearly full contact follow each other.
+``python benchmarks/memory.py 4096 free 3`` one for a boundary and reduced forces. With ``table``
+for the boundary, rows for light loads, saturation and nearly full contact follow each other.
 """
 
 import resource
@@ -41,7 +41,8 @@ def print_row(n, boundary, force_bars):
     curve = rl.press(surface, E_star=1.0, forces=force_bars, periodic=periodic)
     wall = time.perf_counter() - start
     generation, held = ((each - interpreter) / n**2 for each in (generated, peak()))
-    share = expected_area_fraction(surface, 1.0, Loads("forces", np.array(force_bars)), None)
+    loads = Loads("forces", np.array(force_bars))
+    share = expected_area_fraction(surface, 1.0, loads, None, periodic=periodic)
     told = rl.estimate(surface.shape, len(force_bars), periodic=periodic, area_fraction=share)
     estimated = told.memory / n**2 + surface.heights.itemsize
     print(

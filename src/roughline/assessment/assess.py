@@ -150,7 +150,7 @@ def _expected_share(body: Surface, case: LoadCase) -> float | None:
     if case.n_loads is not None:
         return None
     loads = Loads("forces" if case.forces else "depths", np.array(case.forces or case.depths))
-    return expected_area_fraction(body, case.E_star, loads, case.hardness)
+    return expected_area_fraction(body, case.E_star, loads, case.hardness, periodic=case.periodic)
 
 
 def _solved_scan(body: Line, parts: Sequence[Topography], case: LoadCase) -> Solution:

@@ -16,9 +16,10 @@ from roughline.topography.body import Surface
 # watched beside it, which are many where both contact and gap are. [bytes per point]
 _BYTES = 36
 _BYTES_SMALL = 50  # up to so many points that rows are transformed all at once
-_BYTES_PERIODIC = 38
+_BYTES_PERIODIC = 29
 _BYTES_OF_CONTACT = 145
 _BYTES_OF_WATCHED = 75
+_BYTES_OF_WATCHED_PERIODIC = 115
 _SMALL = 1448**2  # points
 _SEVERAL = 1.15  # times as much of the contact where several loads follow each other
 _BYTES_OF_FIELDS = 34  # of one load
@@ -27,7 +28,7 @@ _BYTES_OF_DENTS = 30  # for each node in contact
 # Largest share in contact where it is not known: that at saturation, free and periodic.
 _SATURATED = 0.2
 _FULL = 1.0
-_SLOPE_FACTOR = 1.7  # Persson's theory has sqrt(2), and has too little in contact under small loads
+_SLOPE_FACTOR = 1.6  # Persson's theory has sqrt(2), and has too little in contact under small loads
 # A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
 # path. It does some 35, most of them in single precision and on a part of the rows.
 _CONVOLUTIONS = 20
@@ -139,27 +140,29 @@ def memory_for(
     if share is None:
         share = _FULL if periodic else _SATURATED
     bytes_ = _BYTES if points > _SMALL else _BYTES_SMALL
+    watched = _BYTES_OF_WATCHED
     if periodic:
-        bytes_ = _BYTES_PERIODIC
-    vectors = share * (_BYTES_OF_CONTACT + _BYTES_OF_WATCHED * (1 - share))
+        bytes_, watched = _BYTES_PERIODIC, _BYTES_OF_WATCHED_PERIODIC
+    vectors = share * (_BYTES_OF_CONTACT + watched * (1 - share))
     total = bytes_ + vectors * (_SEVERAL if several else 1.0)
     if yielding:
         total += _BYTES_OF_YIELD + _BYTES_OF_DENTS * share
-    return round(points * (total + _BYTES_OF_FIELDS * kept_fields))
+    return points * round(total + _BYTES_OF_FIELDS * kept_fields)
 
 
 def expected_area_fraction(
-    surface: Surface, E_star: float, loads: Loads, hardness: float | None
+    surface: Surface, E_star: float, loads: Loads, hardness: float | None, *, periodic: bool
 ) -> float:
     """Return about what share of a surface its loads bring into contact at most. [1]
 
     Forces do by Persson's theory, with a factor fitted to surfaces that were pressed; or they are
-    borne by the hardness. Depths do as far as heights reach.
+    borne by the hardness. Depths do as far as heights reach, which is half as far as they do on a
+    periodic half-space near full contact.
     """
     largest = float(loads.values.max())
     if loads.control == "depths":
         reached = np.count_nonzero(surface.heights > surface.heights.max() - largest)
-        return float(reached) / surface.heights.size
+        return min(1.0, (2.0 if periodic else 1.0) * float(reached) / surface.heights.size)
     slope, pressure = surface.rms_slope, largest / surface.area
     share = math.erf(_SLOPE_FACTOR * pressure / (E_star * slope)) if slope else 1.0
     return share if hardness is None else max(share, min(pressure / hardness, 1.0))

@@ -184,7 +184,8 @@ def _memory_for(
     most = memory(area_fraction=1.0)
     if fits_into_memory(most):
         return most
-    return memory(area_fraction=expected_area_fraction(surface, E_star, loads, hardness))
+    share = expected_area_fraction(surface, E_star, loads, hardness, periodic=periodic)
+    return memory(area_fraction=share)
 
 
 def _kept_loads(fields: bool | Sequence[int], count: int) -> frozenset[int]:
