@@ -145,9 +145,7 @@ def leave_gaps(field: Floats, separation: Floats, touch: float, approach: float)
 
 
 @compiled
-def load_columns(
-    pairs: Floats, rows: Integers, first: int, odd: int, columns: Floats
-) -> None:
+def load_columns(pairs: Floats, rows: Integers, first: int, odd: int, columns: Floats) -> None:
     """Separate two real rows from each complex one, for a block of modes, and pad with zeros.
 
     A = (Z(k) + Z(-k)*) / 2 and B = (Z(k) - Z(-k)*) / 2i are the spectra of the real and imaginary
@@ -221,9 +219,7 @@ def fold_rows(rows: Floats, weights: Floats, places: Integers, sums: Floats) -> 
 
 
 @compiled
-def store_columns(
-    columns: Floats, rows: Integers, first: int, odd: int, pairs: Floats
-) -> None:
+def store_columns(columns: Floats, rows: Integers, first: int, odd: int, pairs: Floats) -> None:
     """Join two real rows into each complex one: the inverse of load_columns, for some rows."""
     period = pairs.shape[1]
     for pair in range((rows.size + 1) // 2):
