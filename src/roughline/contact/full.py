@@ -115,7 +115,8 @@ def _results(
         solved = solve_path(problem, path, method)
         del problem  # the path knows when the untouched bodies need no memory
         dents: Indentation | None = None
-        for i, (contact, response) in enumerate(solved):
+        for i in range(len(path)):  # enumerate() would hold a contact while the next is solved
+            contact, response = next(solved)
             result = LoadResult.of(
                 contact, response, scaled, hardness, periodic=periodic, with_fields=i in with_fields
             )

@@ -39,7 +39,7 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     operator, separation = problem.operator, problem.separation
     if max(separation.shape) <= _COARSEST:
         return _rigid_guess(problem, load), 0.0
-    coarse_separation = _halved(separation)
+    coarse_separation = _halved(np.asarray(separation))
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(problem, load), 0.0
     shape, spacing = problem.half_space.coarser_grid(operator.shape, operator.spacing)
@@ -84,7 +84,7 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
     A force shifts the body to the depth at which one disc of as many nodes would carry it, with
     2 E* a (d - mean separation).
     """
-    separation, depth = problem.separation, load.depth
+    separation, depth = np.asarray(problem.separation), load.depth
     if depth is None:
         assert load.force is not None
         separations = np.sort(separation, axis=None)

@@ -21,7 +21,15 @@ _PAIRS = 1.5  # of nodes for each mode, up to which sums over pairs take less ti
 _MANY = 2**20  # ... where there are so many modes
 _SMALL = 2**16  # modes, which a thread transforms before another has begun
 _TABLE_AT_A_TIME = 2**16  # points
+_LARGE = 2**22  # points of the padded rows, from which on memory counts
 _LONG = 64  # points along a side, from which on it has as many periods to choose from
+
+
+MUCH = 2**28
+"""Bytes from which on memory that is not needed for a while is given back.
+
+Less is kept: to touch new memory for the first time can take longer than the work on it.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +66,15 @@ class Convolution:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
 
+    def _parts(self, precision: Precision) -> int:
+        """Return in how many parts modes along y are taken: all, or even ones, then odd ones.
+
+        Double precision needs no more memory than single precision so, where rows are padded.
+        """
+        padded = self.periods[1] != self.shape[1] and self.periods[1] % 2 == 0
+        large = self.shape[0] * self.periods[1] > _LARGE
+        return 2 if padded and large and precision == "float64" else 1
+
     @cached_property
     def _buffers(self) -> dict[Precision, tuple[Any, Any]]:
         """Memory of the row transforms, allocated on first use and then kept."""
@@ -66,18 +83,26 @@ class Convolution:
     def _buffer(self, precision: Precision) -> tuple[Any, Any]:
         """Complex rows, two rows of the grid in each, and the same memory as real numbers.
 
-        Single precision uses half of the memory of double precision once that is allocated.
+        Single precision uses the memory of double precision once that is allocated.
         """
         if precision not in self._buffers:
-            shape = ((self.shape[0] + 1) // 2, self.periods[1])
+            shape = (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision)
             if precision == "float64":
-                double = np.empty(shape, dtype=np.complex128)
-                self._buffers["float64"] = double, double.view(np.float64).reshape(*shape, 2)
-                single = double.reshape(-1).view(np.complex64)[: double.size].reshape(shape)
+                self._buffers.clear()  # single precision shares the memory from now on
+                modes: Any = np.empty(shape, dtype=np.complex128)
+            elif "float64" in self._buffers:
+                double = self._buffers["float64"][0].reshape(-1).view(np.complex64)
+                modes = double[: shape[0] * shape[1]].reshape(shape)
             else:
-                single = np.empty(shape, dtype=np.complex64)
-            self._buffers["float32"] = single, single.view(np.float32).reshape(*shape, 2)
+                modes = np.empty(shape, dtype=np.complex64)
+            real = modes.view(modes.real.dtype).reshape(*shape, 2)
+            self._buffers[precision] = modes, real
         return self._buffers[precision]
+
+    def release_buffers(self) -> None:
+        """Give back the memory of the row transforms, if it is much, until it is needed again."""
+        if sum(modes.nbytes for modes, _ in self._buffers.values()) > MUCH:
+            self._buffers.clear()
 
     def _pairs_are_few(self, sources: GridNodes, targets: GridNodes) -> bool:
         """Whether sums over pairs of nodes take less time than transforms."""
@@ -110,7 +135,8 @@ class Convolution:
             assert self.kernel_rows is not None
             out[:] = displaced_by_pairs(self.kernel_rows, pressure, sources, targets)
         else:
-            self._transform(pressure, sources, targets, precision, out)
+            for odd in range(self._parts(precision)):
+                self._transform(pressure, sources, targets, precision, out, odd)
         return out
 
     def _transform(
@@ -120,43 +146,58 @@ class Convolution:
         targets: GridNodes | None,
         precision: Precision,
         result: Real,
+        odd: int,
     ) -> None:
-        """Convolve by Fourier transforms, as :meth:`displacement` does.
+        """Write to `result` what all modes along y displace, or the even ones; add odd ones.
 
-        Rows without pressure are not transformed, nor are rows without targets. Two real rows make
-        one complex row. Rows are transformed first, then columns block by block (separate, pad,
-        transform, multiply, transform back, crop, join), then rows back.
+        Rows without pressure or targets are not transformed. Two real rows make one complex row.
+        Rows come first, then columns block by block (separate, pad, transform, multiply, transform
+        back, crop, join), then rows back. Of long padded rows, even modes are taken first: the
+        transform of half the period. Odd ones are that of the row turned by one mode.
         """
-        mx, my = self.periods
+        (nx, ny), (mx, my) = self.shape, self.periods
         modes, real_modes = self._buffer(precision)
-        rows_out = np.arange(self.shape[0]) if targets is None else targets.rows
+        spectrum = self.spectrum[:, odd :: self._parts(precision)]
+        rows_out = np.arange(nx) if targets is None else targets.rows
+        angles = 2 * np.pi / my * np.arange(ny if odd else 0)
+        turns = np.stack([np.cos(angles), np.sin(angles)], axis=1).astype(real_modes.dtype)
 
         def transform_rows(first: int, last: int) -> None:
-            loops.scatter_pairs(pressure, sources.starts, sources.columns, first, last, real_modes)
+            places = sources.starts, sources.columns
+            if odd:
+                loops.scatter_turned(pressure, *places, turns, first, last, real_modes)
+            else:
+                loops.scatter_pairs(pressure, *places, first, last, real_modes)
             fft.fft_rows(modes[first:last], forward=True)
 
         def convolve_columns(first: int, last: int) -> None:
             columns = np.empty((mx, last - first), dtype=modes.dtype)
             real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
-            loops.load_columns(real_modes, sources.rows, first, real_columns)
+            loops.load_columns(real_modes, sources.rows, first, odd, real_columns)
             fft.fft_columns(columns, forward=True)
-            loops.weigh_columns(real_columns, self.spectrum, first)
+            loops.weigh_columns(real_columns, spectrum, first)
             fft.fft_columns(columns, forward=False)
-            loops.store_columns(real_columns, rows_out, first, real_modes)
+            loops.store_columns(real_columns, rows_out, first, odd, real_modes)
 
         def transform_rows_back(first: int, last: int) -> None:
             fft.fft_rows(modes[first:last], forward=False)
-            if targets is None:
+            if targets is None and odd:
+                loops.add_turned_rows(real_modes, turns, first, last, result)
+            elif targets is None:
                 loops.gather_rows(real_modes, first, last, result)
+            elif odd:
+                places = targets.starts, targets.columns
+                loops.add_turned_pairs(real_modes, *places, turns, first, last, result)
             else:
-                loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
+                places = targets.starts, targets.columns
+                loops.gather_pairs(real_modes, *places, first, last, result)
 
         modes_at_a_time, pairs_at_a_time = _MODES_AT_A_TIME, _PAIRS_AT_A_TIME
         if mx * my <= _SMALL:
             modes_at_a_time = pairs_at_a_time = my
         pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
         fft.share_out_blocks(transform_rows, pairs, pairs_at_a_time)
-        fft.share_out_blocks(convolve_columns, my // 2 + 1, modes_at_a_time)
+        fft.share_out_blocks(convolve_columns, spectrum.shape[1], modes_at_a_time)
         fft.share_out_blocks(transform_rows_back, pairs_out, pairs_at_a_time)
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from roughline.halfspace.active_set import search
 from roughline.halfspace.contact_set import ContactSet
+from roughline.halfspace.convolution import MUCH
 from roughline.halfspace.exchange import able_to_carry
 from roughline.halfspace.nearby import NearbyProblem, nearby
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
@@ -42,13 +43,14 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
     method : Method
         Tolerance, bound on the convolutions and precision.
     """
-    contact_set, gap = start, np.empty(problem.separation.shape)
+    contact_set, gap = start, None
     spent, worst, precision = Spent(), np.inf, method.steps
     while True:
-        near_gap = gap if spent.convolutions else problem.separation
-        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), near_gap)
+        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), problem.separation)
+        gap = np.empty(problem.separation.shape) if gap is None else gap
         first = not spent.convolutions
         trial = Trial.of(problem, load, contact_set, precision, gap, rescale=first)
+        contact_set = trial.contact_set
         spent.convolutions += 1
         worst_before, worst = worst, trial.residuals.worst
         if precision == method.certificate and trial.certified(method.rtol):
@@ -57,15 +59,18 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         near = nearby(problem, trial)
         if near is None or left <= 1 or not worst < 0.5 * worst_before:
             break
-        there, start = near
+        del trial
+        if gap.nbytes > MUCH:
+            gap = None
+        problem.operator.release_buffers()
         bounded = replace(method, max_iterations=left)
-        contact_set = _refined(there, load, start, worst, bounded, spent)
+        contact_set = _refined(*near, load, worst, bounded, spent)
         precision = method.certificate
     left = max(1, method.max_iterations - spent.total)
     rest = replace(method, max_iterations=left)
     if left == 1:  # no more than a certificate
         rest = replace(rest, precision=method.certificate)
-    contact = search(problem, load, trial.contact_set, rest)
+    contact = search(problem, load, contact_set, rest)
     return replace(contact, convolutions=contact.convolutions + spent.convolutions)
 
 
@@ -92,8 +97,8 @@ class Spent:
 
 def _refined(
     near: NearbyProblem,
-    load: Load,
     start: ContactSet,
+    load: Load,
     worst: float,
     method: Method,
     spent: Spent,
@@ -104,10 +109,12 @@ def _refined(
 
     Parameters
     ----------
-    near, load : NearbyProblem, Load
-        The problem near the contact, and what is prescribed.
+    near : NearbyProblem
+        The problem near the contact.
     start : ContactSet
         Where to start from.
+    load : Load
+        What is prescribed.
     worst : float
         The largest residual there.
     method : Method
@@ -127,6 +134,7 @@ def _refined(
             return near.on_grid(start)
         precision = method.steps if expected > _SINGLE_ABOVE else method.certificate
         exact = near.recentred(start, precision)
+        near.operator.release_buffers()
         spent.convolutions += 1
         trial = exact.trial(load, start)
         worst_before, worst = worst, trial.residuals.worst
@@ -141,9 +149,11 @@ def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> 
     contact_set = able_to_carry(start, problem.fewest_nodes(load), problem.separation)
     gap = np.empty(problem.separation.shape)
     trial = Trial.of(problem, load, contact_set, method.steps, gap, rescale=True)
-    near = nearby(problem, trial)
+    contact_set, near = trial.contact_set, nearby(problem, trial)
+    del trial, gap
+    problem.operator.release_buffers()
     if near is None:
-        contact = search(problem, load, trial.contact_set, method)
+        contact = search(problem, load, contact_set, method)
         return ContactSet(contact.nodes, contact.pressure)
     there, start = near
     found = search(there, load, start, method)

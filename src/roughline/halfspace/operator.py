@@ -75,7 +75,8 @@ class GridNodes:
         For each run: its first node, the node after its last one, and the columns that it takes,
         rounded up to eight.
         """
-        runs = np.empty((self.indices.size, 3), dtype=np.int32)
+        most = self.rows.size + int(np.count_nonzero(np.diff(self.columns) > _APART))
+        runs = np.empty((most, 3), dtype=np.int32)
         first_run = np.empty(self.rows.size + 1, dtype=np.intp)
         find_runs(self.starts, self.columns, _APART, runs, first_run)
         return first_run, runs[: first_run[-1]].copy()
@@ -114,6 +115,9 @@ class Operator(Protocol):
 
         The shape is (periods[0] // 2 + 1, periods[1] // 2 + 1). [length / pressure]
         """
+
+    def release_buffers(self) -> None:
+        """Give back the memory in which displacements are computed, until it is needed again."""
 
     def displacement(
         self,

@@ -246,7 +246,7 @@ def apart(problem: Problem, load: Load, outcome: Outcome) -> Contact:
         nodes=np.empty(0, dtype=np.intp),
         pressure=none,
         plastic=np.empty(0, dtype=bool),
-        gap=problem.separation - depth,
+        gap=np.asarray(problem.separation) - depth,
         separation=problem.separation,
         residuals=Residuals(0.0, 0.0, 0.0, 0.0, 0.0),
         outcome=outcome,

@@ -34,7 +34,7 @@ _RADIUS = 2.25  # of the near part, in cells of the coarse grid
 _SIDES = 2, 4, 8  # cells along the side of a coarse cell, where these are square
 _REACH = int(_RADIUS * _SIDES[-1])  # of the near part, at most
 _SHARES = 0.6, 0.25, 0.025  # of the grid, up to which the coarse cells of each size serve best
-_FEWEST_POINTS = 160  # along the shorter side of the grid
+_FEWEST_POINTS = 64  # along the shorter side of the grid
 _ROUNDING = 8  # to which the lengths of runs, and rows of the near part, are rounded up
 _SUMS_AT_A_TIME = 2**21  # near sums, which take a thread longer than to begin with them
 

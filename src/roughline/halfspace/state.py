@@ -13,6 +13,7 @@ from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse
 from roughline.halfspace.restricted import RestrictedOperator
+from roughline.halfspace.separation import Separation
 
 
 class Outcome(enum.Enum):
@@ -34,7 +35,7 @@ class Problem:
         The half-space.
     inverse : ApproximateInverse
         Approximate inverse of its operator on the grid.
-    separation : ndarray, shape (nx, ny)
+    separation : ndarray or Separation, shape (nx, ny)
         Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
         until that is indented. [length]
     rms_height : float
@@ -46,7 +47,7 @@ class Problem:
 
     half_space: HalfSpace
     inverse: ApproximateInverse
-    separation: Real
+    separation: Real | Separation
     rms_height: float
     conditions: ContactConditions
 
@@ -158,7 +159,7 @@ class Contact:
         Which of them are at the hardness.
     gap : ndarray, shape (nx, ny)
         Gap on the whole grid. [length]
-    separation : ndarray, shape (nx, ny)
+    separation : ndarray or Separation, shape (nx, ny)
         Distance of the bodies at first touch, as this load leaves their surfaces: the problem's
         own array if it leaves them as they were. [length]
     residuals : Residuals
@@ -175,7 +176,7 @@ class Contact:
     pressure: Real
     plastic: Mask
     gap: Real
-    separation: Real
+    separation: Real | Separation
     residuals: Residuals
     outcome: Outcome
     convolutions: int

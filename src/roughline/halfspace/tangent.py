@@ -160,6 +160,8 @@ class _Solution:
         """
         operator, cell_area = problem.operator, problem.operator.cell_area
         restricted = problem.inverse.restricted.on(nodes)
+        if restricted is not None:
+            operator.release_buffers()  # the first turn needs the memory
         patch = Patch(restricted or operator, problem.inverse, nodes)
         pressure, gained, accuracy = start, np.nan, _ENERGY_MARGIN * method.rtol
         convolutions, converged, compliance = 0, False, np.nan
@@ -191,15 +193,13 @@ class _Solution:
             gained_before, gained = gained, gradients.gained * cell_area
             compliance -= gained
             part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
-            error = max(gradients.energy * cell_area, np.sqrt(part) * gained)
+            energy = gradients.energy * cell_area
+            del gradients  # the exact convolution needs the memory
+            error = max(energy, np.sqrt(part) * gained)
             converged = bool(exact and error <= accuracy * compliance)
             if converged:
                 break
-            if (
-                exact
-                and restricted is not None
-                and not (part <= _SLOW and gradients.energy * cell_area <= aim)
-            ):
+            if exact and restricted is not None and not (part <= _SLOW and energy <= aim):
                 restricted, patch = None, Patch(operator, problem.inverse, nodes)
                 pressure, gained = start, np.nan
         return cls(pressure, compliance, convolutions, converged)

@@ -13,6 +13,8 @@ from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.operator import Precision
 from roughline.halfspace.state import Contact, Load, Outcome, Problem
 
+_GAPS_AT_A_TIME = 2**18  # so many fit into a cache
+
 
 @dataclass(frozen=True, eq=False)
 class Trial:
@@ -91,9 +93,7 @@ class Trial:
         displacement = gap.flat[nodes]
         if approach is None:
             approach = _level(displacement + above, pressure, elastic)
-        loops.leave_gaps(
-            np.atleast_2d(gap), np.atleast_2d(problem.separation), problem.touch, approach
-        )
+        _leave_gaps(problem, gap, approach)
         held = nodes[~elastic]
         overlap = np.maximum(-gap.flat[held], 0.0)
         gap.flat[held] += overlap
@@ -117,7 +117,7 @@ class Trial:
         nodes, pressure = self.contact_set.nodes, self.contact_set.pressure
         plastic, separation = ~problem.conditions.elastic(pressure), problem.separation
         if self.overlap.any():
-            separation = separation.copy()
+            separation = np.array(separation)
             separation.flat[nodes[plastic]] += self.overlap
         return Contact(
             depth=problem.touch + self.approach,
@@ -131,6 +131,15 @@ class Trial:
             outcome=outcome,
             convolutions=convolutions,
         )
+
+
+def _leave_gaps(problem: Problem, displacement: Real, approach: float) -> None:
+    """Turn displacements into the gaps that they leave, some rows at a time."""
+    rows = 1 + _GAPS_AT_A_TIME * len(displacement) // displacement.size
+    for first in range(0, len(displacement), rows):
+        part = slice(first, first + rows)
+        separation = np.atleast_2d(problem.separation[part])
+        loops.leave_gaps(np.atleast_2d(displacement[part]), separation, problem.touch, approach)
 
 
 def _length_scale(
