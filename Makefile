@@ -4,9 +4,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 OUT ?= out/paper
 TEST_PROCESSES ?= 2
+PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations published architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -32,6 +33,10 @@ check: $(VENV)/installed
 
 benchmark: $(VENV)/installed
 	$(BIN)/python benchmarks/measure.py
+
+# Measures the other programs that this Python has; PEERS_PYTHON=... names that of another environment.
+peers: $(VENV)/installed
+	PYTHONPATH=src $(PEERS_PYTHON) benchmarks/peers.py
 
 memory: $(VENV)/installed
 	$(BIN)/python benchmarks/memory.py 4096

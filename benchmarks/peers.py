@@ -1,85 +1,198 @@
-"""Time one cold load in roughline and in the other programs that are installed.
+"""Time roughline and the other programs that are installed, and write docs/peers-table.md.
 
-``python benchmarks/peers.py 512``. All solve the free square, fractal down to the grid, H = 0.8, to
-1e-6, at about 2 % contact. The others return no stiffness; roughline's time includes it.
+``make peers`` runs all of it, in two or three hours on two cores. Rows are kept in a file beside
+the table as they are measured, and are not measured again until ``--fresh`` is given. The machine
+must do nothing else: threads that wait for each other lose most where a core is taken away.
 """
 
-import sys
-import time
-import warnings
+import argparse
+import json
+import os
+import platform
+from functools import partial
+from pathlib import Path
 
 import numpy as np
+import peer_table
+from measure import our_convolution, plain_convolution
+from peer_programs import (
+    ENGINES_OF_ASPHER,
+    WARM_UP,
+    entrants,
+    path_of_aspher,
+    path_of_roughline,
+    press_aspher,
+    program_of,
+    timed,
+    versions,
+)
 
-import roughline as rl
+from roughline.computing.cores import available_cores
 
-FORCE_BAR = 0.38
-
-
-def timed(name, press):
-    """Print a row: program, seconds, contact area."""
-    start = time.perf_counter()
-    area = press()
-    wall = time.perf_counter() - start
-    print(f"| {name} | {wall:.2f} s | {area:.3%} |", flush=True)
-    return wall
-
-
-def press_roughline(surface):
-    """Press with roughline; stiffness included."""
-    curve = rl.press(surface, E_star=1.0, forces=[FORCE_BAR])
-    return curve.area_fraction[0]
-
-
-def press_tamaas(surface):
-    """Press with Tamaas and its non-periodic operator."""
-    import tamaas as tm
-
-    n = surface.shape[0]
-    model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [n, n])
-    model.E, model.nu = 1.0, 0.0
-    tm.ModelFactory.registerNonPeriodic(model, "dcfft")
-    solver = tm.PolonskyKeerRey(model, np.array(surface.heights), 1e-6)
-    solver.setIntegralOperator("dcfft")
-    solver.setMaxIterations(100000)
-    solver.solve(FORCE_BAR)
-    return np.count_nonzero(np.array(model.traction) > 0) / n**2
+TABLE = Path(__file__).parents[1] / "docs" / "peers-table.md"
+SHORT = 2.0  # what takes less is run again, and never stopped for the sake of another engine [s]
+LARGE = 2048  # points along a side, from which only every k-th load of a path is solved by others
+KEY = ("kind", "n", "hurst", "force_bar", "n_loads", "load")
 
 
-def press_contact_mechanics(surface):
-    """Press with ContactMechanics and its free half-space."""
-    from ContactMechanics import FreeFFTElasticHalfSpace
-    from ContactMechanics.Factory import make_system
-    from SurfaceTopography import Topography
+class Rows:
+    """The measured rows, kept in a file of one line of JSON each."""
 
-    n = surface.shape[0]
-    system = make_system(
-        substrate=FreeFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0)),
-        surface=Topography(np.array(surface.heights), (1.0, 1.0)),
-    )
-    # rms height 1, so pentol is the same bound on gaps
-    result = system.minimize_proxy(external_force=FORCE_BAR, pentol=1e-6, maxiter=100000)
-    return np.count_nonzero(np.asarray(result.jac)[:n, :n] > 0) / n**2
+    def __init__(self, table, *, fresh, disturbed):
+        self.table, self.file = table, table.with_suffix(".jsonl")
+        if fresh:
+            self.file.unlink(missing_ok=True)
+        text = self.file.read_text() if self.file.exists() else ""
+        self.rows = {self.key(row): row for row in map(json.loads, text.splitlines())}
+        if disturbed:
+            self.rows = {key: row for key, row in self.rows.items() if not was_disturbed(row)}
+
+    @staticmethod
+    def key(row):
+        """Return what tells a row from the others."""
+        return tuple(row.get(name) for name in KEY)
+
+    def measure(self, function, **key):
+        """Return the row of this key; when there is none, measure it and write the table anew."""
+        if self.key(key) not in self.rows:
+            text = json.dumps({**key, **function()}, ensure_ascii=False)
+            with self.file.open("a") as file:
+                file.write(text + "\n")
+            print(text[:240], flush=True)
+            self.rows[self.key(key)] = json.loads(text)
+            self.table.write_text(peer_table.table(self.rows.values()))
+        return self.rows[self.key(key)]
+
+
+def was_disturbed(row):
+    """Whether other work had more than a tenth of the cores while the programs of a row ran."""
+    runs = peer_table.ended(row)
+    return bool(runs) and peer_table.part_of_others(runs) > 0.1
+
+
+def machine(cores):
+    """Describe the machine and the programs on it."""
+    info = Path("/proc/cpuinfo")
+    lines = (line.partition(":") for line in info.read_text().splitlines()) if info.exists() else ()
+    facts = {name.strip(): value.strip() for name, _, value in lines}
+    flags = facts.get("flags", "").split()
+    units = [unit for unit in ("avx2", "avx512f") if unit in flags]
+    return {
+        "processor": facts.get("model name", platform.processor() or platform.machine()),
+        "cores": cores,
+        "vectors": " and ".join(units) or "vector units unknown",
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "programs": versions(),
+    }
+
+
+def convolution(n):
+    """Time a plain convolution, and ours in double and in single precision. [s]"""
+    double, single = (our_convolution(n, precision) for precision in ("float64", "float32"))
+    return {"plain": plain_convolution(n), "double": double, "single": single}
+
+
+def race(presses, n, hurst, limit, repeats):
+    """Run all in turns, those that are short again; return the runs of each.
+
+    A program's engine is stopped once it has taken longer than another of its engines.
+    """
+    runs, fastest = {label: [] for label in presses}, {}
+    for turn in range(repeats):
+        for label, press in presses.items():
+            if turn and not runs[label][0].get("seconds", SHORT) < SHORT:
+                continue
+            program = program_of(label)
+            patience = min(limit, max(SHORT, fastest.get(program, limit)))
+            run = timed(press, n, hurst, None if program == "roughline" else patience)
+            runs[label].append(run)
+            if run.get("converged"):
+                fastest[program] = min(run["seconds"], fastest.get(program, limit))
+    return {"runs": runs}
+
+
+def cold_loads(rows, wanted):
+    """Time cold loads of all programs."""
+    programs = versions()
+    for n in wanted.sizes:
+        slow = () if n in wanted.slow_sizes else ("Tamaas", "ContactMechanics")
+        taking_part = [program for program in programs if program not in slow]
+        for hurst in wanted.hurst:
+            for force in wanted.forces:
+                presses = entrants(taking_part, force)
+                measure = partial(race, presses, n, hurst, wanted.limit, wanted.repeats)
+                rows.measure(measure, kind="cold", n=n, hurst=hurst, force_bar=force)
+
+
+def path(n, hurst, n_loads, limit):
+    """Time a path of roughline, and ASPHER's warm loads of the same forces."""
+    plain = plain_convolution(n)
+    runs = {"roughline": [timed(partial(path_of_roughline, n_loads=n_loads), n, hurst, None)]}
+    if "ASPHER" in versions():
+        press = partial(path_of_aspher, forces=runs["roughline"][0]["forces"])
+        runs["ASPHER, FFT"] = [timed(press, n, hurst, limit)]
+    return {"plain": plain, "runs": runs}
+
+
+def paths(rows, wanted):
+    """Time paths of roughline, and ASPHER's cold loads along them."""
+    for n in wanted.sizes:
+        for hurst in wanted.path_hurst:
+            key = {"n": n, "hurst": hurst, "n_loads": wanted.loads}
+            measure = partial(path, n, hurst, wanted.loads, wanted.limit)
+            (ours,) = rows.measure(measure, kind="path", **key)["runs"]["roughline"]
+            if "ASPHER" not in versions():
+                continue
+            every = wanted.every if n >= LARGE else 1
+            engines = list(ENGINES_OF_ASPHER)
+            # from the middle of the first k loads, rather a lighter one
+            for load in range((every - 1) // 2, wanted.loads, every):
+                presses = {
+                    f"ASPHER, {engine}": partial(
+                        press_aspher, force=ours["forces"][load], engine=engine
+                    )
+                    for engine in engines
+                }
+                measure = partial(race, presses, n, hurst, wanted.limit, 1)
+                row = rows.measure(measure, kind="load", load=load, **key)
+                # the engine that won begins at the next load, and others are stopped sooner
+                winner = peer_table.best(row, "ASPHER")[0].partition(", ")[2]
+                engines.sort(key=lambda engine, winner=winner: engine != winner)
 
 
 def main():
-    """Print a table for one size."""
-    warnings.simplefilter("ignore")
-    n = int(sys.argv[1])
-    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0)
-    press_roughline(spectrum.surface(512, 7))  # compiles
-    surface = spectrum.surface(n, 7)
-    print(f"| {n}² | one load | contact |\n|---|---|---|")
-    ours = timed("roughline, with stiffness", lambda: press_roughline(surface))
-    for name, press in (
-        ("ContactMechanics", press_contact_mechanics),
-        ("Tamaas, dcfft", press_tamaas),
-    ):
-        try:
-            wall = timed(name, lambda press=press: press(surface))
-        except ImportError:
-            print(f"| {name} | not installed | |")
-        else:
-            print(f"| ... over roughline | {wall / ours:.0f} | |", flush=True)
+    """Measure the rows that are not there yet, and write the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    add = parser.add_argument
+    add("--sizes", type=int, nargs="+", default=[512, 1024, 2048], help="points along a side")
+    add("--hurst", type=float, nargs="+", default=[0.8, 0.2], help="of the cold loads")
+    add("--forces", type=float, nargs="+", default=[0.03, 0.1, 0.4, 1.2], help="F / (E* h L)")
+    add("--path-hurst", type=float, nargs="*", default=[0.2, 0.5, 0.8], help="of the paths")
+    add("--loads", type=int, default=20, help="loads of a path")
+    add("--every", type=int, default=4, help=f"solve every k-th of them by ASPHER from {LARGE}² on")
+    add("--slow-sizes", type=int, nargs="*", default=[512], help="of Tamaas and ContactMechanics")
+    add("--repeats", type=int, default=3, help=f"runs of what takes less than {SHORT:.0f} s")
+    add("--limit", type=float, default=600.0, help="seconds after which a run is stopped")
+    add("--table", type=Path, default=TABLE)
+    add("--fresh", action="store_true", help="forget the rows measured before")
+    add("--disturbed", action="store_true", help="measure rows again that other work disturbed")
+    wanted = parser.parse_args()
+    if min(wanted.sizes) <= WARM_UP:
+        parser.error(f"sizes begin above {WARM_UP}, the grid that warms up")
+    cores = available_cores()
+    for library in ("OMP", "OPENBLAS", "MKL"):  # of the processes that are timed
+        os.environ[f"{library}_NUM_THREADS"] = str(cores)
+    rows = Rows(wanted.table, fresh=wanted.fresh, disturbed=wanted.disturbed)
+    here = machine(cores)
+    before = rows.measure(lambda: here, kind="machine")
+    if before != {"kind": "machine", **here}:
+        raise SystemExit(f"{rows.file} is of another machine or other programs: give --fresh")
+    for n in wanted.sizes:
+        rows.measure(partial(convolution, n), kind="convolution", n=n)
+    cold_loads(rows, wanted)
+    paths(rows, wanted)
+    wanted.table.write_text(peer_table.table(rows.rows.values()))
 
 
 if __name__ == "__main__":

@@ -29,6 +29,16 @@ def topographies() -> Path:
 
 
 @pytest.fixture
+def nothing_kept():
+    """Press without what presses before have kept, and keep nothing for those that follow."""
+    from roughline.halfspace import lending  # compiled loops load slowly, so only here
+
+    lending._kept.clear()
+    yield
+    lending._kept.clear()
+
+
+@pytest.fixture
 def rough(tmp_path):
     """A surface of 64 x 64 points of which all are known."""
     surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)

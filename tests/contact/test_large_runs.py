@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+from functools import partial
 
 import numpy as np
 import pytest
@@ -10,6 +11,8 @@ import roughline as rl
 from roughline.computing import fft, memory
 from roughline.computing.cores import available_cores
 from roughline.contact.curve import Curve
+from roughline.contact.estimates import expected_area_fraction
+from roughline.contact.loads import Loads
 
 FRACTAL = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(64, 1)
 
@@ -20,19 +23,55 @@ def cut_out(surface: rl.Surface) -> rl.Surface:
 
 
 def test_an_estimate_grows_with_points_loads_and_fields():
-    small, large = rl.estimate((512, 512), 20), rl.estimate((2048, 2048), 20)
+    small, large = rl.estimate((2048, 2048), 20), rl.estimate((8192, 8192), 20)
     assert large.memory == 16 * small.memory
     assert large.seconds > 8 * small.seconds
-    assert rl.estimate((512, 512), 20, fields=True).memory > 3 * small.memory
-    assert rl.estimate((512, 512), 20, yielding=True).memory > 1.3 * small.memory
-    assert str(large).startswith("about 0.4 GB and ")
+    assert rl.estimate((2048, 2048), 20, fields=True).memory > 3 * small.memory
+    assert rl.estimate((2048, 2048), 20, yielding=True).memory > 1.3 * small.memory
+    assert str(large).startswith("about 5.6 GB and ")
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_an_estimate_grows_with_the_contact(periodic):
+    told = [
+        rl.estimate((2048, 2048), 1, periodic=periodic, area_fraction=share).memory
+        for share in (0.0, 0.01, 0.2, 0.5, 0.9, 1.0)
+    ]
+    assert (np.diff(told) > 0).all()
+    assert told[-1] > 3 * told[0]
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+@pytest.mark.parametrize("force_bar", [0.03, 1.0, 10.0, 100.0])
+def test_the_contact_that_loads_bring_about_is_foreseen(periodic, force_bar):
+    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(256, 1)
+    curve = rl.press(surface, E_star=1.0, forces=[force_bar], periodic=periodic)
+    loads = Loads("forces", np.array([force_bar]))
+    share = partial(expected_area_fraction, surface, 1.0, periodic=periodic)
+    expected = share(loads, None)
+    assert abs(expected - curve.area_fraction[0]) < 0.12
+    by_depth = Loads("depths", curve.depth)
+    assert share(by_depth, None) > 0.8 * curve.area_fraction[0]
+    assert share(loads, hardness=force_bar) == 1.0
+
+
+def test_light_loads_are_pressed_where_heavy_ones_have_no_memory(monkeypatch):
+    surface, loads = FRACTAL, {"light": [0.01], "heavy": [300.0]}
+    points = surface.heights.size
+    available = 120 * points
+    monkeypatch.setattr(
+        memory.psutil, "virtual_memory", lambda: type("M", (), {"available": available})
+    )
+    assert rl.press(surface, E_star=1.0, forces=loads["light"]).converged.all()
+    with pytest.raises(rl.InputError, match="pressing 64 x 64 points needs about"):
+        rl.press(surface, E_star=1.0, forces=loads["heavy"])
 
 
 def test_a_grid_too_large_for_memory_is_refused_before_the_work(monkeypatch):
     monkeypatch.setattr(memory.psutil, "virtual_memory", lambda: type("M", (), {"available": 5e5}))
     surface = rl.Surface(np.random.default_rng(0).normal(size=(128, 128)), (1.0, 1.0))
     message = (
-        "pressing 128 x 128 points needs about 0.00157 GB of memory, and 0.0005 GB is free: "
+        "pressing 128 x 128 points needs about 0.000852 GB of memory, and 0.0005 GB is free: "
         "take a smaller piece"
     )
     with pytest.raises(rl.InputError, match=message):

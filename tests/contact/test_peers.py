@@ -57,6 +57,33 @@ def test_contact_mechanics_finds_the_same_contact(surface, periodic):
         assert curve.depth[i] == pytest.approx(depth, rel=1e-5)
 
 
+@pytest.mark.parametrize(
+    "engine",
+    [
+        {"active_set": True},
+        {"active_set": True, "precond_engine": "fft"},
+        {"backend": "fft", "precond_engine": "fft"},
+        {"backend": "fft", "precond_engine": "fft", "precision": "float_then_double"},
+    ],
+)
+def test_aspher_finds_the_same_contact(surface, engine):
+    aspher = pytest.importorskip("aspher")
+    curve = rl.press(surface, E_star=1.0, forces=FORCES, fields=True)
+    gap = (surface.heights.max() - surface.heights).ravel()
+    for i, force in enumerate(FORCES):
+        result = aspher.solve_nested(
+            grid_size=N, gap=gap, p_nominal=force, tol=1e-9, coarsest=16, **engine
+        )
+        assert result.converged
+        assert result.contact_area == curve.area_fraction[i]
+        assert result.mean_pressure == pytest.approx(force, rel=1e-12)
+        pressure = np.reshape(result.pressure, (N, N))
+        fields = curve.fields[i]
+        # interpolated interactions of distant points are off by some millionths
+        assert np.abs(fields.pressure - pressure).max() <= 5e-5 * pressure.max()
+        assert curve.depth[i] == pytest.approx(result.approach, rel=1e-5)
+
+
 # hardness and mean pressure over the rms slope: a third of the contact is elastic, and a twelfth
 YIELDING = [(0.3, 0.05), (0.1, 0.03)]
 

@@ -10,6 +10,8 @@ from roughline.halfspace import convolution, exchange
 from roughline.halfspace.convolution import Convolution
 from roughline.halfspace.kernel import love
 
+pytestmark = pytest.mark.usefixtures("nothing_kept")  # a sound kernel, or a damaged one
+
 SURFACE = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(24, 3)
 FORCES = [0.05, 0.5, 3.0]
 

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from roughline.halfspace.active_set import solve
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import (
     UnilateralContact,
@@ -12,8 +11,10 @@ from roughline.halfspace.conditions import (
     residuals,
     violations,
 )
+from roughline.halfspace.correction import solve
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.kernel import love
+from roughline.halfspace.preconditioner import ApproximateInverse
 from roughline.halfspace.state import Load, Method, Problem
 from roughline.halfspace.tangent import response
 
@@ -100,10 +101,8 @@ def test_the_stiffness_on_loading_is_that_of_the_elastic_nodes_and_on_unloading_
     n, method = 12, Method(rtol=1e-6, max_iterations=100)
     x, y = np.indices((n, n)) - (n - 1) / 2
     half_space = HalfSpace(1.0)
-    operator = half_space.operator((n, n), (1.0, 1.0))
-    problem = Problem.of(
-        half_space, operator, (x**2 + y**2) / 20, 1.0, YieldingContact(hardness=0.1)
-    )
+    inverse = ApproximateInverse.of(half_space.operator((n, n), (1.0, 1.0)))
+    problem = Problem(half_space, inverse, (x**2 + y**2) / 20, 1.0, YieldingContact(hardness=0.1))
     load = Load(depth=1.0)
     contact = solve(problem, load, first_guess(problem, load)[0], method)
     assert 0 < contact.plastic.sum() < contact.nodes.size

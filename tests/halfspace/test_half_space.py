@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.halfspace import convolution
 from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import displacement_field
+from roughline.halfspace.operator import GridNodes, displacement_field
 
 ROUNDING = 1e-13
 
@@ -43,24 +44,41 @@ def test_only_the_periodic_operator_counts_displacements_from_their_mean():
 
 def test_a_coarser_grid_covers_the_same_surface():
     for periodic in (False, True):
-        half_space = HalfSpace(1.0, periodic)
-        coarse = half_space.coarser_operator(half_space.operator((8, 6), SPACING))
-        assert coarse.shape == (4, 3)
-        assert coarse.spacing == pytest.approx((0.6, 1.4))
+        shape, spacing = HalfSpace(1.0, periodic).coarser_grid((8, 6), SPACING)
+        assert shape == (4, 3)
+        assert spacing == pytest.approx((0.6, 1.4))
 
 
 def test_on_odd_sides_periods_stay_and_free_cells_double():
-    shapes = {}
+    spacings = {}
     for periodic in (False, True):
-        half_space = HalfSpace(1.0, periodic)
-        coarse = half_space.coarser_operator(half_space.operator((9, 1), SPACING))
-        assert coarse.shape == (5, 1)
-        shapes[periodic] = coarse.spacing
-    assert shapes[False] == pytest.approx((0.6, 0.7))
-    assert shapes[True] == pytest.approx((9 * 0.3 / 5, 0.7))
+        shape, spacings[periodic] = HalfSpace(1.0, periodic).coarser_grid((9, 1), SPACING)
+        assert shape == (5, 1)
+    assert spacings[False] == pytest.approx((0.6, 0.7))
+    assert spacings[True] == pytest.approx((9 * 0.3 / 5, 0.7))
 
 
 @pytest.mark.parametrize("E_star", [0.0, -1.0, np.inf, np.nan])
 def test_a_modulus_that_is_none_is_refused(E_star):
     with pytest.raises(rl.InputError, match="a positive, finite contact modulus is needed"):
         HalfSpace(E_star)
+
+
+@pytest.mark.parametrize(("shape", "spacing"), [((40, 57), (1.0, 1.0)), ((64, 30), (1.0, 2.7))])
+def test_sums_over_pairs_are_those_of_the_transforms(monkeypatch, shape, spacing):
+    rng = np.random.default_rng(5)
+    operator = HalfSpace(E_star=2.0).operator(shape, spacing)
+    points = shape[0] * shape[1]
+    sources, targets = (
+        GridNodes.of(np.sort(rng.choice(points, n, replace=False)), shape) for n in (300, 200)
+    )
+    pressure = rng.random(300)
+    transformed = operator.displacement(pressure, sources, targets)
+    monkeypatch.setattr(convolution, "_MANY", 0)
+    monkeypatch.setattr(convolution, "_PAIRS", np.inf)
+    summed = operator.displacement(pressure, sources, targets)
+    assert (summed != transformed).any()
+    np.testing.assert_allclose(summed, transformed, rtol=1e-13)
+    out = np.empty(200)
+    assert operator.displacement(pressure, sources, targets, out=out) is out
+    np.testing.assert_array_equal(out, summed)

@@ -1,14 +1,16 @@
 """The half-space's kernel and convolution against high precision and dense matrices."""
 
+from math import cos, pi, sin
+
 import mpmath
 import numpy as np
 import pytest
 
 from roughline.halfspace import convolution
-from roughline.halfspace.kernel import love
+from roughline.halfspace.kernel import love, love_rows
 from roughline.halfspace.operator import GridNodes, displacement_field
 
-KERNEL = 3e-14  # relative; the elongated cells are the worst
+KERNEL = 4e-15  # relative
 
 
 def love_to_50_digits(x, y, dx, dy):
@@ -25,9 +27,16 @@ def love_to_50_digits(x, y, dx, dy):
         return float((total + corner(left, bottom)) / mpmath.pi)
 
 
-@pytest.mark.parametrize(
-    ("dx", "dy"), [(1.0, 1.0), (1.0, 0.1), (0.1, 1.0), (1e-9, 3e-9), (1e6, 2e6)]
+cells = pytest.mark.parametrize(
+    ("dx", "dy"),
+    [
+        *((1.0, 1.0), (1.0, 0.7), (1.0, 0.1), (0.1, 1.0), (1e-9, 3e-9), (1e6, 2e6)),
+        *((1.0, 0.01), (1.0, 0.001), (0.001, 1.0)),
+    ],
 )
+
+
+@cells
 def test_the_kernel_is_exact_from_0_to_16384_cells(dx, dy):
     rng = np.random.default_rng(0)
     near = [(i, j) for i in range(8) for j in range(8)]
@@ -36,6 +45,29 @@ def test_the_kernel_is_exact_from_0_to_16384_cells(dx, dy):
     for i, j in [*near, *far, *edges]:
         expected = love_to_50_digits(i * dx, j * dy, dx, dy)
         assert love(i * dx, j * dy, dx, dy) == pytest.approx(expected, rel=KERNEL)
+
+
+@cells
+def test_the_kernel_is_exact_where_its_formulas_meet(dx, dy):
+    """At the distances, in shorter and in longer sides, where one formula follows another."""
+    rng, short, long = np.random.default_rng(1), min(dx, dy), max(dx, dy)
+    for side, distances in ((short, (2.4, 2.5, 2.6)), (long, (0.5, 15.9, 16.0, 16.1))):
+        for distance in side * np.repeat(distances, 20):
+            angle = rng.uniform(0, pi / 2)
+            ends = [(dx / 2, dy / 2), (0.0, 0.0)]  # seen from the cell's corner and its centre
+            for x, y in ends:
+                x, y = x + distance * cos(angle), y + distance * sin(angle)
+                for i, j in ((x, y), (round(x / dx) * dx, round(y / dy) * dy)):
+                    expected = love_to_50_digits(i, j, dx, dy)
+                    assert love(i, j, dx, dy) == pytest.approx(expected, rel=KERNEL)
+
+
+@cells
+def test_a_table_holds_the_kernel(dx, dy):
+    table = np.full((60, 70), np.nan)
+    love_rows(3, dx, dy, 0.5, table)
+    expected = 0.5 * love(dx * np.arange(3, 63)[:, np.newaxis], dy * np.arange(70), dx, dy)
+    assert table == pytest.approx(expected, rel=1e-15)
 
 
 def test_the_kernel_is_even_and_swaps_with_its_axes():
@@ -82,6 +114,14 @@ def test_the_periodic_operator_is_the_fourier_sum(shape):
     assert abs(found.mean()) < 1e-13 * np.abs(found).max()
 
 
+@pytest.mark.parametrize("n", [64, 65, 97, 128, 1023])
+def test_long_periods_can_be_halved_three_times(n):
+    operator = convolution.free((n, 1), (1.0, 1.0), 1.0)
+    assert operator.periods[0] % 8 == 0
+    assert 2 * n <= operator.periods[0] < 2 * n + 16
+
+
 def test_the_spectrum_is_positive():
-    for shape, spacing in (((32, 32), (1.0, 1.0)), ((17, 40), (1.0, 0.1))):
+    shapes = ((32, 32), (1.0, 1.0)), ((17, 40), (1.0, 0.1)), ((90, 130), (1.0, 0.001))
+    for shape, spacing in shapes:
         assert convolution.free(shape, spacing, 1.0).spectrum.min() > 0

@@ -35,7 +35,8 @@ from roughline.assessment.variants import (
 )
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
-from roughline.contact.estimates import estimate, memory_for
+from roughline.contact.estimates import estimate, expected_area_fraction, memory_for
+from roughline.contact.loads import Loads
 from roughline.engineering.intervals import Intervals
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
@@ -119,19 +120,22 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
     """Refuse what does not fit into memory, and tell what a large run will cost."""
     if not isinstance(body, Surface):
         return
+    large = body.heights.size >= _LARGE
+    share = _expected_share(body, case) if large else None
     yielding = case.hardness is not None
     twice = _needs_larger_surface(question, body) and not case.periodic
     if twice:
         refuse_beyond_memory(
-            memory_for(body.shape, True, 0, yielding=yielding),
+            memory_for(body.shape, True, 0, yielding=yielding, area_fraction=share),
             f"pressing {body.shape[0]} x {body.shape[1]} points periodically, for the "
             "interface alone,",
             "take a smaller piece or every other point, or E_star= instead of materials",
         )
-    if announce is not None and (body.heights.size >= _LARGE or case.count >= _MANY):
-        cost = str(estimate(body.shape, case.count, periodic=case.periodic, yielding=yielding))
+    if announce is not None and (large or case.count >= _MANY):
+        cost_of = partial(estimate, body.shape, case.count, yielding=yielding, area_fraction=share)
+        cost = str(cost_of(periodic=case.periodic))
         if twice:
-            interface = estimate(body.shape, case.count, periodic=True, yielding=yielding)
+            interface = cost_of(periodic=True)
             cost += f", then {interface} for the interface"
         if more := repeats(question, body):
             cost += (
@@ -139,6 +143,14 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
                 "and for the scatter of the hardness"
             )
         announce(f"{body.shape[0]} x {body.shape[1]} points, {case.count} loads: {cost}")
+
+
+def _expected_share(body: Surface, case: LoadCase) -> float | None:
+    """Return about what share comes into contact at most; None for spaced loads."""
+    if case.n_loads is not None:
+        return None
+    loads = Loads("forces" if case.forces else "depths", np.array(case.forces or case.depths))
+    return expected_area_fraction(body, case.E_star, loads, case.hardness, periodic=case.periodic)
 
 
 def _solved_scan(body: Line, parts: Sequence[Topography], case: LoadCase) -> Solution:

@@ -26,6 +26,7 @@ _LINE_BYTES = 60  # per point of a line, to generate and to press it
 _BYTES_PER_CASE = 500  # in the process that runs the campaign, which lists all cases
 _BLOCK = 4096  # of a file system [bytes]
 _FILES_OF_METADATA = 30  # of an ensemble
+_SATURATED = 3.0  # reduced force, up to which some of a free surface is in contact
 _WORKER_BYTES = 300_000_000  # of the interpreter and its libraries
 
 
@@ -96,7 +97,8 @@ def memory_of(ensemble: Ensemble) -> int:
         return _WORKER_BYTES + _LINE_BYTES * ensemble.n
     shape = (ensemble.n, ensemble.n)
     periodic, yielding = ensemble.boundary == "periodic", ensemble.hardness_bar is not None
-    pressing = estimates.memory_for(shape, periodic, 0, yielding=yielding)
+    share = 1.0 if max(ensemble.force_bars) > _SATURATED else None
+    pressing = estimates.memory_for(shape, periodic, 0, yielding=yielding, area_fraction=share)
     heights = 8 * ensemble.n**2
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
 

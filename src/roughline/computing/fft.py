@@ -20,6 +20,8 @@ from roughline.errors import InputError
 
 _threads = available_cores()
 
+_LINES_AT_A_TIME = 64  # so many columns fit into a core's cache
+
 
 def set_threads(count: int) -> None:
     """Use `count` threads for the work of this process from now on.
@@ -60,6 +62,14 @@ def share_out(work: Callable[[int], None], count: int) -> None:
         other.result()
 
 
+def share_out_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:
+    """Call ``work(first, last)`` for blocks of 0 ... count - 1, shared out over the threads.
+
+    The blocks are the same whatever the number of threads.
+    """
+    share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
+
+
 @cache
 def _pool(workers: int) -> ThreadPoolExecutor:
     return ThreadPoolExecutor(workers, thread_name_prefix="roughline")
@@ -69,9 +79,9 @@ if hasattr(os, "register_at_fork"):  # a forked process has none of its parent's
     os.register_at_fork(after_in_child=_pool.cache_clear)
 
 
-def good_size(n: int) -> int:
-    """Return the smallest even length of at least `n` that transforms fast."""
-    return 2 * ducc0.fft.good_size((n + 1) // 2)
+def good_size(n: int, factor: int = 2) -> int:
+    """Return the smallest multiple of a factor, at least `n`, that transforms fast."""
+    return factor * ducc0.fft.good_size(-(-n // factor))
 
 
 def fft_rows(rows: ComplexFloats, *, forward: bool) -> None:
@@ -86,7 +96,13 @@ def fft_columns(columns: ComplexFloats, *, forward: bool) -> None:
 
 def cosine_spectrum(quarter: Real) -> None:
     """Turn an even, periodic array, given as its quarter, into its spectrum in place (DCT-I)."""
-    ducc0.fft.dct(quarter, type=1, out=quarter, nthreads=1)
+
+    def transform(lines: Real, axis: int) -> None:
+        ducc0.fft.dct(lines, axes=(axis,), type=1, out=lines, nthreads=1)
+
+    nx, ny = quarter.shape
+    share_out_blocks(lambda a, b: transform(quarter[a:b], 1), nx, _LINES_AT_A_TIME)
+    share_out_blocks(lambda a, b: transform(quarter[:, a:b], 0), ny, _LINES_AT_A_TIME)
 
 
 def analyse(values: Real) -> Complex:

@@ -9,6 +9,11 @@ from roughline.errors import InputError
 _USABLE = 0.95  # of the memory that is free
 
 
+def fits_into_memory(needed: int) -> bool:
+    """Return whether so many bytes of memory are free."""
+    return needed <= _USABLE * psutil.virtual_memory().available
+
+
 def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
     """Refuse work that needs more memory than is free.
 
@@ -25,7 +30,7 @@ def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
         If that is more than is free.
     """
     free = psutil.virtual_memory().available
-    if needed > _USABLE * free:
+    if not fits_into_memory(needed):
         raise InputError(
             f"{what} needs about {needed / 1e9:.3g} GB of memory, and {free / 1e9:.3g} GB is free: "
             f"{advice}"

@@ -8,16 +8,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Most memory that a path of loads held at any time, and the fields of one load, as measured (see
-# docs/speed.md). Periodic surfaces were pressed nearly to full contact, where all nodes have
-# vectors; free ones up to saturation. Near full contact these take a quarter more.
-# [bytes per point]
-_BYTES = 96
-_BYTES_PERIODIC = 170
-_BYTES_OF_FIELDS = 34
-# More where half of a surface is indented, as by the last of spaced loads; a free surface that is
-# all but flattened takes 75 more than that.
-_BYTES_OF_YIELD = 80
+from roughline.contact.loads import Loads
+from roughline.topography.body import Surface
+
+# Most memory that a path of loads held at any time beside the surface, as measured (see
+# docs/speed.md): on grids without contact; of the contact, for each of its nodes; and of the nodes
+# watched beside it, which are many where both contact and gap are. [bytes per point]
+_BYTES = 36
+_BYTES_SMALL = 50  # up to so many points that rows are transformed all at once
+_BYTES_PERIODIC = 29
+_BYTES_OF_CONTACT = 145
+_BYTES_OF_WATCHED = 75
+_BYTES_OF_WATCHED_PERIODIC = 115
+_SMALL = 1448**2  # points
+_SEVERAL = 1.15  # times as much of the contact where several loads follow each other
+_BYTES_OF_FIELDS = 34  # of one load
+_BYTES_OF_YIELD = 25
+_BYTES_OF_DENTS = 30  # for each node in contact
+# Largest share in contact where it is not known: that at saturation, free and periodic.
+_SATURATED = 0.2
+_FULL = 1.0
+_SLOPE_FACTOR = 1.6  # Persson's theory has sqrt(2), and has too little in contact under small loads
 # A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
 # path. It does some 35, most of them in single precision and on a part of the rows.
 _CONVOLUTIONS = 20
@@ -51,6 +62,7 @@ def estimate(
     periodic: bool = False,
     fields: bool = False,
     yielding: bool = False,
+    area_fraction: float | None = None,
 ) -> Estimate:
     """Estimate what pressing a surface with the full model will cost.
 
@@ -68,6 +80,10 @@ def estimate(
         Whether the fields of every load are kept.
     yielding : bool, optional
         Whether the surface is pressed with a hardness, which takes more memory.
+    area_fraction : float, optional
+        Largest share of the surface that will be in contact, from 0 to 1; nodes in contact take
+        most of the memory where there are many. Default: up to saturation of a free surface (0.2),
+        all of a periodic one. [1]
 
     Returns
     -------
@@ -88,19 +104,68 @@ def estimate(
         probes.append(time.perf_counter() - start)
     points = shape[0] * shape[1]
     growth = points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
-    return Estimate(
-        memory_for(shape, periodic, n_loads if fields else 0, yielding=yielding),
-        n_loads * (_SECONDS_AT_LEAST + _CONVOLUTIONS * growth * min(probes)),
+    memory = memory_for(
+        shape,
+        periodic,
+        n_loads if fields else 0,
+        yielding=yielding,
+        several=n_loads > 1,
+        area_fraction=area_fraction,
     )
+    return Estimate(memory, n_loads * (_SECONDS_AT_LEAST + _CONVOLUTIONS * growth * min(probes)))
 
 
 def memory_for(
-    shape: tuple[int, int], periodic: bool, kept_fields: int, *, yielding: bool = False
+    shape: tuple[int, int],
+    periodic: bool,
+    kept_fields: int,
+    *,
+    yielding: bool = False,
+    several: bool = True,
+    area_fraction: float | None = None,
 ) -> int:
-    """Return the memory that pressing a surface takes, beside the surface. [bytes]"""
-    bytes_ = _BYTES_PERIODIC if periodic else _BYTES
-    bytes_ += _BYTES_OF_YIELD if yielding else 0
-    return shape[0] * shape[1] * (bytes_ + _BYTES_OF_FIELDS * kept_fields)
+    """Return the memory that pressing a surface takes, beside the surface. [bytes]
+
+    Parameters
+    ----------
+    shape, periodic, yielding, area_fraction
+        As for :func:`estimate`.
+    kept_fields : int
+        Number of loads whose fields are kept.
+    several : bool
+        Whether there is more than one load.
+    """
+    points = shape[0] * shape[1]
+    share = area_fraction
+    if share is None:
+        share = _FULL if periodic else _SATURATED
+    bytes_ = _BYTES if points > _SMALL else _BYTES_SMALL
+    watched = _BYTES_OF_WATCHED
+    if periodic:
+        bytes_, watched = _BYTES_PERIODIC, _BYTES_OF_WATCHED_PERIODIC
+    vectors = share * (_BYTES_OF_CONTACT + watched * (1 - share))
+    total = bytes_ + vectors * (_SEVERAL if several else 1.0)
+    if yielding:
+        total += _BYTES_OF_YIELD + _BYTES_OF_DENTS * share
+    return points * round(total + _BYTES_OF_FIELDS * kept_fields)
+
+
+def expected_area_fraction(
+    surface: Surface, E_star: float, loads: Loads, hardness: float | None, *, periodic: bool
+) -> float:
+    """Return about what share of a surface its loads bring into contact at most. [1]
+
+    Forces do by Persson's theory, with a factor fitted to surfaces that were pressed; or they are
+    borne by the hardness. Depths do as far as heights reach, which is half as far as they do on a
+    periodic half-space near full contact.
+    """
+    largest = float(loads.values.max())
+    if loads.control == "depths":
+        reached = np.count_nonzero(surface.heights > surface.heights.max() - largest)
+        return min(1.0, (2.0 if periodic else 1.0) * float(reached) / surface.heights.size)
+    slope, pressure = surface.rms_slope, largest / surface.area
+    share = math.erf(_SLOPE_FACTOR * pressure / (E_star * slope)) if slope else 1.0
+    return share if hardness is None else max(share, min(pressure / hardness, 1.0))
 
 
 def _duration(seconds: float) -> str:

@@ -18,7 +18,9 @@ from roughline.contact.scaled_surface import ScaledSurface
 from roughline.errors import Interrupted
 from roughline.halfspace.conditions import ContactConditions, UnilateralContact, YieldingContact
 from roughline.halfspace.half_space import HalfSpace
+from roughline.halfspace.lending import lent
 from roughline.halfspace.path import solve_path
+from roughline.halfspace.preconditioner import ApproximateInverse
 from roughline.halfspace.state import Load, Method, Problem
 from roughline.topography.body import Surface
 from roughline.topography.preparation import tilt_warnings
@@ -108,28 +110,36 @@ def _results(
     half_space = HalfSpace(E_star, periodic).scaled(scaled.E_star, scaled.length)
     unit = scaled.force if loads.control == "forces" else scaled.height
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
-    solved = solve_path(_problem(half_space, scaled, hardness), path, method)
-    dents: Indentation | None = None
-    for i, (contact, response) in enumerate(solved):
-        result = LoadResult.of(
-            contact, response, scaled, hardness, periodic=periodic, with_fields=i in with_fields
-        )
-        if dents is not None and result.dents is not None and result.dents.equals(dents):
-            result = replace(result, dents=dents)  # one memory for all loads that add none
-        dents = result.dents
-        del contact, response  # so that the next load finds their memory free
-        yield result
+    with lent(half_space, surface.shape, scaled.spacing) as inverse:
+        problem = _problem(half_space, inverse, scaled, hardness)
+        solved = solve_path(problem, path, method)
+        del problem  # the path knows when the untouched bodies need no memory
+        dents: Indentation | None = None
+        for i in range(len(path)):  # enumerate() would hold a contact while the next is solved
+            contact, response = next(solved)
+            result = LoadResult.of(
+                contact, response, scaled, hardness, periodic=periodic, with_fields=i in with_fields
+            )
+            if dents is not None and result.dents is not None and result.dents.equals(dents):
+                result = replace(result, dents=dents)  # one memory for all loads that add none
+            dents = result.dents
+            del contact, response  # so that the next load finds their memory free
+            yield result
 
 
-def _problem(half_space: HalfSpace, scaled: ScaledSurface, hardness: float | None) -> Problem:
+def _problem(
+    half_space: HalfSpace,
+    inverse: ApproximateInverse,
+    scaled: ScaledSurface,
+    hardness: float | None,
+) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
-    operator = half_space.operator(scaled.surface.shape, scaled.spacing)
     conditions: ContactConditions = UnilateralContact()
     if hardness is not None:
         conditions = YieldingContact(hardness / scaled.pressure)
-    return Problem.of(
+    return Problem(
         half_space,
-        operator,
+        inverse,
         scaled.separation(),
         scaled.surface.rms_height / scaled.height,
         conditions,

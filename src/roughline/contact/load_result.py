@@ -142,7 +142,7 @@ def _elastic_energy(contact: Contact) -> float:
 
 def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:
     """Return where the surface is lower than it was untouched."""
-    lower = scaled.separation()
+    lower = np.asarray(scaled.separation())
     np.subtract(contact.separation, lower, out=lower)
     nodes = np.flatnonzero(lower)
     return Indentation(nodes, lower.flat[nodes] * scaled.height) if nodes.size else None

@@ -9,11 +9,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughline.computing.memory import refuse_beyond_memory
+from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
 from roughline.contact.curve import Curve, Status
-from roughline.contact.estimates import memory_for
+from roughline.contact.estimates import expected_area_fraction, memory_for
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
-from roughline.contact.loads import GivenLoads, surface_loads
+from roughline.contact.loads import GivenLoads, Loads, surface_loads
 from roughline.contact.reduced import press_line
 from roughline.errors import ConvergenceError, InputError, Interrupted
 from roughline.topography.body import Body, Line, Surface
@@ -131,7 +131,7 @@ def press(
     )
     kept = _kept_loads(fields, loads.values.size)
     refuse_beyond_memory(
-        memory_for(body.shape, periodic, len(kept), yielding=hardness is not None),
+        _memory_for(body, E_star, loads, hardness, periodic, len(kept)),
         f"pressing {body.shape[0]} x {body.shape[1]} points"
         + (f" and keeping the fields of {len(kept)} loads" if kept else ""),
         "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
@@ -162,6 +162,30 @@ def press(
     if throw and not curve.converged.all():
         raise ConvergenceError(_failure_message(curve), curve)
     return curve
+
+
+def _memory_for(
+    surface: Surface,
+    E_star: float,
+    loads: Loads,
+    hardness: float | None,
+    periodic: bool,
+    kept_fields: int,
+) -> int:
+    """Return the memory that the loads take; full contact is supposed where that fits."""
+    memory = partial(
+        memory_for,
+        surface.shape,
+        periodic,
+        kept_fields,
+        yielding=hardness is not None,
+        several=loads.values.size > 1,
+    )
+    most = memory(area_fraction=1.0)
+    if fits_into_memory(most):
+        return most
+    share = expected_area_fraction(surface, E_star, loads, hardness, periodic=periodic)
+    return memory(area_fraction=share)
 
 
 def _kept_loads(fields: bool | Sequence[int], count: int) -> frozenset[int]:

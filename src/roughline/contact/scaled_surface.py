@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.contact.loads import Loads
+from roughline.halfspace.separation import Separation
 from roughline.topography.body import Surface
 
 
@@ -47,15 +47,10 @@ class ScaledSurface:
         length = float(np.sqrt(dx) * np.sqrt(dy))
         return cls(surface, height, length, E_star, (dx / length, dy / length))
 
-    def separation(self) -> Real:
-        """Return the distance of the bodies at first touch over `height`. [1]
-
-        It is computed each time, so that the memory of a path does not hold it.
-        """
+    def separation(self) -> Separation:
+        """Return the distance of the bodies at first touch over `height`. [1]"""
         heights = self.surface.heights
-        separation = np.subtract(heights.max(), heights, order="C")
-        separation /= self.height
-        return separation
+        return Separation(heights, heights.max(), self.height)
 
     @property
     def force(self) -> float:

@@ -37,7 +37,7 @@ from roughline.halfspace.stopping import StoppingRule
 from roughline.halfspace.trial import Trial
 
 
-def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
+def search(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
     """Find the contact set and the pressures under one load.
 
     Parameters

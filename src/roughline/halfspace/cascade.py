@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.halfspace.active_set import solve
 from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.operator import GridNodes
+from roughline.halfspace.correction import guessed
+from roughline.halfspace.lending import lent
 from roughline.halfspace.state import Load, Method, Problem
 
-_COARSEST = 256  # points along the longer side of the grid that starts from the rigid shift
+_COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
 _ROUGH = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
 def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     """Guess which nodes come into contact, and the pressures on them.
 
-    The coarse grid sees the mean separation of two by two nodes. Its pressures, the same on all
-    four, leave gaps on the finer grid, which one step of relaxation turns into pressures.
+    The coarse grid sees the mean separation of two by two nodes, and its pressures are the same on
+    all four.
 
     Parameters
     ----------
@@ -37,44 +39,37 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     operator, separation = problem.operator, problem.separation
     if max(separation.shape) <= _COARSEST:
         return _rigid_guess(problem, load), 0.0
-    coarse_separation = _halved(separation)
+    coarse_separation = _halved(np.asarray(separation))
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(problem, load), 0.0
-    coarse = Problem.of(
-        problem.half_space,
-        problem.half_space.coarser_operator(operator),
-        coarse_separation,
-        problem.rms_height,
-        problem.conditions,
-    )
-    contact = solve(coarse, load, first_guess(coarse, load)[0], _ROUGH)
+    shape, spacing = problem.half_space.coarser_grid(operator.shape, operator.spacing)
+    with lent(problem.half_space, shape, spacing) as inverse:
+        coarse = replace(problem, inverse=inverse, separation=coarse_separation)
+        contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
+    del coarse, inverse
     largest = float(contact.pressure.max())
-    pressure = np.zeros(coarse_separation.shape)
+    pressure = np.zeros(shape)
     pressure.flat[contact.nodes] = contact.pressure
     for axis, n in enumerate(separation.shape):
         # at the end of an odd side one node takes the force of two
-        share = coarse.operator.spacing[axis] / operator.spacing[axis] / _widths(n, axis)
+        share = spacing[axis] / operator.spacing[axis] / _widths(n, axis)
         pressure = np.repeat(pressure * share, min(n, 2), axis=axis).take(range(n), axis=axis)
-    loaded = np.flatnonzero(pressure)
-    sources = GridNodes.of(loaded, operator.shape)
-    gap = operator.displacement(pressure.flat[loaded], sources, None, "float32")
-    gap += separation
-    gap -= contact.depth
-    gap /= problem.inverse.diagonal
-    pressure -= gap
-    del gap
     pressure = problem.conditions.projected(pressure)
     nodes = np.flatnonzero(pressure > 0)
     if nodes.size:
         return ContactSet(nodes, pressure.flat[nodes]), largest
-    return ContactSet(loaded, np.ones(loaded.size)), largest
+    return _rigid_guess(problem, load), 0.0
 
 
 def _halved(field: Real) -> Real:
     """Means over two by two nodes; fewer at the end of an odd side."""
     for axis, n in enumerate(field.shape):
-        field = np.add.reduceat(field, np.arange(0, n, 2), axis=axis) / _widths(n, axis)
-    return field
+        along = np.moveaxis(field, axis, 0)
+        halves = along[::2].copy()
+        halves[: n // 2] += along[1::2]
+        halves[: n // 2] /= 2
+        field = np.moveaxis(halves, 0, axis)
+    return np.ascontiguousarray(field)
 
 
 def _widths(n: int, axis: int) -> Real:
@@ -89,7 +84,7 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
     A force shifts the body to the depth at which one disc of as many nodes would carry it, with
     2 E* a (d - mean separation).
     """
-    separation, depth = problem.separation, load.depth
+    separation, depth = np.asarray(problem.separation), load.depth
     if depth is None:
         assert load.force is not None
         separations = np.sort(separation, axis=None)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,13 +9,27 @@ from typing import Any
 import numpy as np
 
 from roughline.computing import fft
-from roughline.computing.arrays import Real, Single
+from roughline.computing.arrays import Real
 from roughline.halfspace import loops
-from roughline.halfspace.kernel import love
+from roughline.halfspace.kernel import love_rows
 from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
+from roughline.halfspace.pair_sums import KernelRows, displaced_by_pairs
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
+_PAIRS = 1.5  # of nodes for each mode, up to which sums over pairs take less time ...
+_MANY = 2**20  # ... where there are so many modes
+_SMALL = 2**16  # modes, which a thread transforms before another has begun
+_TABLE_AT_A_TIME = 2**16  # points
+_LARGE = 2**22  # points of the padded rows, from which on memory counts
+_LONG = 64  # points along a side, from which on it has as many periods to choose from
+
+
+MUCH = 2**28
+"""Bytes from which on memory that is not needed for a while is given back.
+
+Less is kept: to touch new memory for the first time can take longer than the work on it.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +50,8 @@ class Convolution:
         quarter of it is stored. [length / pressure]
     zero_mean : bool
         Whether displacements count from their mean, so that even pressure displaces nothing.
+    kernel_rows : callable, optional
+        Fills rows of the table of displacements under unit pressure, by the distance in cells.
     """
 
     shape: tuple[int, int]
@@ -44,15 +59,21 @@ class Convolution:
     periods: tuple[int, int]
     spectrum: Real
     zero_mean: bool
+    kernel_rows: KernelRows | None = None
 
     @property
     def cell_area(self) -> float:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
 
-    @cached_property
-    def _spectrum_float32(self) -> Single:
-        return self.spectrum.astype(np.float32)
+    def _parts(self, precision: Precision) -> int:
+        """Return in how many parts modes along y are taken: all, or even ones, then odd ones.
+
+        Double precision needs no more memory than single precision so, where rows are padded.
+        """
+        padded = self.periods[1] != self.shape[1] and self.periods[1] % 2 == 0
+        large = self.shape[0] * self.periods[1] > _LARGE
+        return 2 if padded and large and precision == "float64" else 1
 
     @cached_property
     def _buffers(self) -> dict[Precision, tuple[Any, Any]]:
@@ -62,18 +83,32 @@ class Convolution:
     def _buffer(self, precision: Precision) -> tuple[Any, Any]:
         """Complex rows, two rows of the grid in each, and the same memory as real numbers.
 
-        Single precision uses half of the memory of double precision once that is allocated.
+        Single precision uses the memory of double precision once that is allocated.
         """
         if precision not in self._buffers:
-            shape = ((self.shape[0] + 1) // 2, self.periods[1])
+            shape = (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision)
             if precision == "float64":
-                double = np.empty(shape, dtype=np.complex128)
-                self._buffers["float64"] = double, double.view(np.float64).reshape(*shape, 2)
-                single = double.reshape(-1).view(np.complex64)[: double.size].reshape(shape)
+                self._buffers.clear()  # single precision shares the memory from now on
+                modes: Any = np.empty(shape, dtype=np.complex128)
+            elif "float64" in self._buffers:
+                double = self._buffers["float64"][0].reshape(-1).view(np.complex64)
+                modes = double[: shape[0] * shape[1]].reshape(shape)
             else:
-                single = np.empty(shape, dtype=np.complex64)
-            self._buffers["float32"] = single, single.view(np.float32).reshape(*shape, 2)
+                modes = np.empty(shape, dtype=np.complex64)
+            real = modes.view(modes.real.dtype).reshape(*shape, 2)
+            self._buffers[precision] = modes, real
         return self._buffers[precision]
+
+    def release_buffers(self) -> None:
+        """Give back the memory of the row transforms, if it is much, until it is needed again."""
+        if sum(modes.nbytes for modes, _ in self._buffers.values()) > MUCH:
+            self._buffers.clear()
+
+    def _pairs_are_few(self, sources: GridNodes, targets: GridNodes) -> bool:
+        """Whether sums over pairs of nodes take less time than transforms."""
+        modes = self.periods[0] * self.periods[1]
+        pairs = sources.indices.size * targets.indices.size
+        return self.kernel_rows is not None and modes >= _MANY and pairs <= _PAIRS * modes
 
     def displacement(
         self,
@@ -85,9 +120,7 @@ class Convolution:
     ) -> Real:
         """Return the displacement of some nodes, or of all, under the pressure on some nodes.
 
-        Rows without pressure are not transformed, nor are rows without targets. Two real rows make
-        one complex row. Rows are transformed first, then columns block by block (separate, pad,
-        transform, multiply, transform back, crop, join), then rows back.
+        Pairs of few nodes are summed over; other displacements are transformed.
 
         Parameters and result are those of
         :meth:`roughline.halfspace.operator.Operator.displacement`.
@@ -96,42 +129,76 @@ class Convolution:
             result = self.displacement(pressure / unit, sources, targets, precision, out)
             result *= unit
             return result
-        (nx, ny), (mx, my) = self.shape, self.periods
-        spectrum = self._spectrum_float32 if precision == "float32" else self.spectrum
-        modes, real_modes = self._buffer(precision)
-        rows_out = np.arange(nx) if targets is None else targets.rows
         if out is None:
-            out = np.empty((nx, ny) if targets is None else targets.indices.size)
-        result = out
+            out = np.empty(self.shape if targets is None else targets.indices.size)
+        if targets is not None and self._pairs_are_few(sources, targets):
+            assert self.kernel_rows is not None
+            out[:] = displaced_by_pairs(self.kernel_rows, pressure, sources, targets)
+        else:
+            for odd in range(self._parts(precision)):
+                self._transform(pressure, sources, targets, precision, out, odd)
+        return out
+
+    def _transform(
+        self,
+        pressure: Real,
+        sources: GridNodes,
+        targets: GridNodes | None,
+        precision: Precision,
+        result: Real,
+        odd: int,
+    ) -> None:
+        """Write to `result` what all modes along y displace, or the even ones; add odd ones.
+
+        Rows without pressure or targets are not transformed. Two real rows make one complex row.
+        Rows come first, then columns block by block (separate, pad, transform, multiply, transform
+        back, crop, join), then rows back. Of long padded rows, even modes are taken first: the
+        transform of half the period. Odd ones are that of the row turned by one mode.
+        """
+        (nx, ny), (mx, my) = self.shape, self.periods
+        modes, real_modes = self._buffer(precision)
+        spectrum = self.spectrum[:, odd :: self._parts(precision)]
+        rows_out = np.arange(nx) if targets is None else targets.rows
+        angles = 2 * np.pi / my * np.arange(ny if odd else 0)
+        turns = np.stack([np.cos(angles), np.sin(angles)], axis=1).astype(real_modes.dtype)
 
         def transform_rows(first: int, last: int) -> None:
-            loops.scatter_pairs(pressure, sources.starts, sources.columns, first, last, real_modes)
+            places = sources.starts, sources.columns
+            if odd:
+                loops.scatter_turned(pressure, *places, turns, first, last, real_modes)
+            else:
+                loops.scatter_pairs(pressure, *places, first, last, real_modes)
             fft.fft_rows(modes[first:last], forward=True)
 
         def convolve_columns(first: int, last: int) -> None:
             columns = np.empty((mx, last - first), dtype=modes.dtype)
             real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
-            loops.load_columns(real_modes, sources.rows, first, real_columns)
+            loops.load_columns(real_modes, sources.rows, first, odd, real_columns)
             fft.fft_columns(columns, forward=True)
             loops.weigh_columns(real_columns, spectrum, first)
             fft.fft_columns(columns, forward=False)
-            loops.store_columns(real_columns, rows_out, first, real_modes)
+            loops.store_columns(real_columns, rows_out, first, odd, real_modes)
 
         def transform_rows_back(first: int, last: int) -> None:
             fft.fft_rows(modes[first:last], forward=False)
-            if targets is None:
+            if targets is None and odd:
+                loops.add_turned_rows(real_modes, turns, first, last, result)
+            elif targets is None:
                 loops.gather_rows(real_modes, first, last, result)
+            elif odd:
+                places = targets.starts, targets.columns
+                loops.add_turned_pairs(real_modes, *places, turns, first, last, result)
             else:
-                loops.gather_pairs(real_modes, targets.starts, targets.columns, first, last, result)
+                places = targets.starts, targets.columns
+                loops.gather_pairs(real_modes, *places, first, last, result)
 
-        _in_blocks(transform_rows, (sources.rows.size + 1) // 2, _PAIRS_AT_A_TIME)
-        _in_blocks(convolve_columns, my // 2 + 1, _MODES_AT_A_TIME)
-        _in_blocks(transform_rows_back, (rows_out.size + 1) // 2, _PAIRS_AT_A_TIME)
-        return result
-
-
-def _in_blocks(work: Callable[[int, int], None], count: int, size: int) -> None:
-    fft.share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
+        modes_at_a_time, pairs_at_a_time = _MODES_AT_A_TIME, _PAIRS_AT_A_TIME
+        if mx * my <= _SMALL:
+            modes_at_a_time = pairs_at_a_time = my
+        pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
+        fft.share_out_blocks(transform_rows, pairs, pairs_at_a_time)
+        fft.share_out_blocks(convolve_columns, spectrum.shape[1], modes_at_a_time)
+        fft.share_out_blocks(transform_rows_back, pairs_out, pairs_at_a_time)
 
 
 def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:
@@ -149,19 +216,28 @@ def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) ->
     E_star : float
         Contact modulus E*. [pressure]
     """
-    mx, my = fft.good_size(2 * shape[0]), fft.good_size(2 * shape[1])
-    dx, dy = spacing
+    mx, my = _padded(shape[0]), _padded(shape[1])
     spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
-    offsets_y = dy * np.arange(my // 2 + 1)
 
     def fill(first: int, last: int) -> None:
-        offsets_x = dx * np.arange(first, last)[:, np.newaxis]
-        spectrum[first:last] = love(offsets_x, offsets_y, dx, dy)
+        love_rows(first, *spacing, 1 / E_star / (mx * my), spectrum[first:last])
 
-    _in_blocks(fill, len(spectrum), max(1, 2**16 // len(offsets_y)))
+    rows, columns = spectrum.shape
+    fft.share_out_blocks(fill, rows, max(1, _TABLE_AT_A_TIME // columns))
     fft.cosine_spectrum(spectrum)
-    spectrum /= E_star * mx * my
-    return Convolution(shape, spacing, (mx, my), spectrum, zero_mean=False)
+    return Convolution(
+        shape,
+        spacing,
+        (mx, my),
+        spectrum,
+        zero_mean=False,
+        kernel_rows=lambda first, rows: love_rows(first, *spacing, 1 / E_star, rows),
+    )
+
+
+def _padded(n: int) -> int:
+    """Return a period of at least twice a side; a long one can be halved three times."""
+    return fft.good_size(2 * n, 8 if n >= _LONG else 2)
 
 
 def periodic(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:

@@ -8,6 +8,7 @@ References
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.conditions import Violations
 from roughline.halfspace.contact_set import ContactSet
+from roughline.halfspace.separation import Separation
 from roughline.halfspace.state import Problem
 
 # After more rounds than this without a new minimum of wrong nodes, the equations are solved to the
@@ -96,7 +98,7 @@ def exchanged(
     return contact_set.without(wrong.pulling).joined_by(watched[wrong.overlapping])
 
 
-def able_to_carry(contact_set: ContactSet, fewest: int, gap: Real) -> ContactSet:
+def able_to_carry(contact_set: ContactSet, fewest: int, gap: Real | Separation) -> ContactSet:
     """Return a contact set, joined by the nodes of smallest gap if it has fewer than are needed.
 
     Parameters
@@ -108,10 +110,10 @@ def able_to_carry(contact_set: ContactSet, fewest: int, gap: Real) -> ContactSet
     gap : ndarray, shape (nx, ny)
         Gap on the whole grid, from any datum. [length]
     """
-    lacking = min(fewest, gap.size) - contact_set.nodes.size
+    lacking = min(fewest, math.prod(gap.shape)) - contact_set.nodes.size
     if lacking <= 0:
         return contact_set
-    gaps = gap.flatten()
+    gaps = np.array(gap).ravel()
     gaps[contact_set.nodes] = np.inf
     return contact_set.joined_by(np.sort(np.argpartition(gaps, lacking - 1)[:lacking]))
 

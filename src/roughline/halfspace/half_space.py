@@ -60,14 +60,21 @@ class HalfSpace:
         make = convolution.periodic if self.periodic else convolution.free
         return make(shape, spacing, self.E_star)
 
-    def coarser_operator(self, operator: Operator) -> Operator:
-        """Return the same map on half as many points a side, rounded up.
+    def coarser_grid(
+        self, shape: tuple[int, int], spacing: tuple[float, float]
+    ) -> tuple[tuple[int, int], tuple[float, float]]:
+        """Return shape and spacing of a grid with half as many points a side, rounded up.
 
         A free grid takes cells of double size, of which the last may reach beyond an odd side. A
         periodic grid keeps its sides, which are its periods.
+
+        Parameters
+        ----------
+        shape, spacing
+            Those of the finer grid, as for :meth:`operator`.
         """
-        (nx, ny), (dx, dy) = operator.shape, operator.spacing
+        (nx, ny), (dx, dy) = shape, spacing
         mx, my = -(-nx // 2), -(-ny // 2)
         if self.periodic:
-            return self.operator((mx, my), (dx * nx / mx, dy * ny / my))
-        return self.operator((mx, my), (dx * min(nx, 2), dy * min(ny, 2)))
+            return (mx, my), (dx * nx / mx, dy * ny / my)
+        return (mx, my), (dx * min(nx, 2), dy * min(ny, 2))

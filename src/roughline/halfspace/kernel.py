@@ -9,15 +9,22 @@ References
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Floats, Real
+from roughline.computing.compiled import compiled
 
-# Love's closed form loses digits with the distance (its four terms grow like r, their sum decays
-# like 1/r), quadrature of 1/r over the cell gains them: from each distance on, in cell sides, so
-# many Gauss points per direction leave a relative error of a few 1e-15.
-_GAUSS_FROM_DISTANCE = ((3.0, 8), (16.0, 5), (64.0, 3))
+# Love's closed form loses digits with the distance: its four terms grow like r, their sum decays
+# like 1/r. So it is used up to this distance from the cell, in its shorter sides. Beyond, the
+# integral along the longer side is exact and eight Gauss points across it are enough.
+_CLOSED_FORM = 2.5
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+# From this distance on, in longer sides, the multipoles up to 1/r^11 are all that counts.
+_FAR = 16.0
+_MULTIPOLES = 5  # beside the first
 
 
 def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> Real:
@@ -33,40 +40,140 @@ def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> Real:
     Returns
     -------
     ndarray
-        ``(1 / pi) * integral of 1/r over the cell``, accurate to about 1e-14. [length]
+        ``(1 / pi) * integral of 1/r over the cell``, accurate to about 1e-15. [length]
     """
-    x, y = np.broadcast_arrays(np.abs(x).astype(np.float64), np.abs(y).astype(np.float64))
-    distance = np.hypot(x, y) / max(dx, dy)
+    unit = max(dx, dy)
+    x, y = np.broadcast_arrays(
+        np.abs(x).astype(np.float64) / unit, np.abs(y).astype(np.float64) / unit
+    )
     result = np.empty(x.shape)
-    near = distance < _GAUSS_FROM_DISTANCE[0][0]
-    result[near] = _closed_form(x[near], y[near], dx, dy)
-    limits = [start for start, _ in _GAUSS_FROM_DISTANCE[1:]] + [np.inf]
-    for (start, points), end in zip(_GAUSS_FROM_DISTANCE, limits, strict=True):
-        ring = (distance >= start) & (distance < end)
-        result[ring] = _quadrature(x[ring], y[ring], dx, dy, points)
-    return result / np.pi
+    _fill_points(
+        x.ravel(), y.ravel(), dx / unit, dy / unit, _multipoles(dx, dy), result.reshape(-1)
+    )
+    return result * (unit / np.pi)
 
 
-def _closed_form(x: Real, y: Real, dx: float, dy: float) -> Real:
-    """Integrate 1/r over the cell as four corner terms, each odd in both offsets."""
+def love_rows(first: int, dx: float, dy: float, factor: float, rows: Real) -> None:
+    """Fill rows of a table with displacements by the offset in cells, times a factor.
+
+    Parameters
+    ----------
+    first : int
+        Offset along x of the first of the rows, in cells.
+    dx, dy : float
+        Sides of the loaded cell. [length]
+    factor : float
+        Factor on :func:`love`.
+    rows : ndarray
+        Overwritten.
+    """
+    unit = max(dx, dy)
+    _fill_rows(first, dx / unit, dy / unit, _multipoles(dx, dy), factor * unit / np.pi, rows)
+
+
+def _multipoles(dx: float, dy: float) -> Real:
+    """Return the mean over the cell of the terms of 1/r, with its longer side as the unit.
+
+    1/r seen from (u, v) in the cell is the sum over even l of ``rho^l P_l(cos g) / r^(l+1)``, where
+    ``rho cos g = u cos t + v sin t`` in the direction t; odd terms have no mean.
+
+    Returns
+    -------
+    ndarray, shape (_MULTIPOLES + 1, _MULTIPOLES + 1)
+        Row k holds the factor of ``1/r^(2k+1)`` as a polynomial in cos² t.
+    """
+    half_sides = dx / max(dx, dy) / 2, dy / max(dx, dy) / 2
+    moments = [
+        [half ** (2 * i) / (2 * i + 1) for i in range(_MULTIPOLES + 1)] for half in half_sides
+    ]
+    result = np.zeros((_MULTIPOLES + 1, _MULTIPOLES + 1))
+    for k in range(_MULTIPOLES + 1):
+        for m in range(k + 1):  # P_2k has the term (rho cos g)^(2k - 2m) rho^(2m)
+            legendre = (-1) ** m * math.comb(2 * k, m) * math.comb(4 * k - 2 * m, 2 * k) / 4**k
+            for i in range(k - m + 1):  # of the first factor (u cos t)^(2i) (v sin t)^(2k-2m-2i)
+                for j in range(m + 1):  # and of the second u^(2j) v^(2m-2j)
+                    term = legendre * math.comb(2 * (k - m), 2 * i) * math.comb(m, j)
+                    term *= moments[0][i + j] * moments[1][k - i - j]
+                    for n in range(k - m - i + 1):  # sin² = 1 - cos²
+                        result[k, i + n] += term * (-1) ** n * math.comb(k - m - i, n)
+    return result
+
+
+@compiled
+def _fill_points(
+    x: Floats, y: Floats, dx: float, dy: float, multipoles: Floats, out: Floats
+) -> None:
+    for i in range(out.size):
+        if x[i] ** 2 + y[i] ** 2 < _FAR**2:
+            out[i] = _near(x[i], y[i], dx, dy)
+        else:
+            out[i] = dx * dy * _series(_in_powers(x[i], multipoles), x[i], y[i])
+
+
+@compiled
+def _fill_rows(
+    first: int, dx: float, dy: float, multipoles: Floats, factor: float, rows: Floats
+) -> None:
+    for i in range(rows.shape[0]):
+        x, row = (first + i) * dx, rows[i]
+        near = math.ceil(math.sqrt(max(_FAR**2 - x**2, 0.0)) / dy)
+        for j in range(min(near, row.size)):
+            row[j] = factor * _near(x, j * dy, dx, dy)
+        powers, share = _in_powers(x, multipoles), factor * dx * dy
+        for j in range(near, row.size):
+            row[j] = share * _series(powers, x, j * dy)
+
+
+@compiled
+def _in_powers(x: float, multipoles: Floats) -> Floats:
+    """Return the multipoles at the offset x as a polynomial in 1/r², to be multiplied by 1/r."""
+    powers = np.zeros(2 * _MULTIPOLES + 1)
+    for k in range(_MULTIPOLES + 1):
+        power = 1.0
+        for i in range(k + 1):
+            powers[k + i] += multipoles[k, i] * power
+            power *= x * x
+    return powers
+
+
+@compiled
+def _series(powers: Floats, x: float, y: float) -> float:
+    """Return the mean of 1/r over a cell that is far."""
+    s = np.divide(1.0, x * x + y * y)
+    total = powers[2 * _MULTIPOLES]
+    for n in range(2 * _MULTIPOLES - 1, -1, -1):
+        total = total * s + powers[n]
+    return total * math.sqrt(s)
+
+
+@compiled
+def _near(x: float, y: float, dx: float, dy: float) -> float:
+    """Return the integral of 1/r over a cell that is near."""
+    if dx < dy:
+        x, y, dx, dy = y, x, dy, dx
     left, right = x - dx / 2, x + dx / 2
-    low, high = y - dy / 2, y + dy / 2
-    return _corner(right, high) - _corner(left, high) - _corner(right, low) + _corner(left, low)
+    if max(left, 0.0) ** 2 + y**2 < (_CLOSED_FORM * dy) ** 2:
+        low, high = y - dy / 2, y + dy / 2
+        return _corner(right, high) - _corner(left, high) - _corner(right, low) + _corner(left, low)
+    total = 0.0
+    for i in range(_NODES.size):
+        total += _WEIGHTS[i] * _line(left, right, y + _NODES[i] * dy / 2)
+    return total * dy / 2
 
 
-def _corner(x: Real, y: Real) -> Real:
+@compiled
+def _corner(x: float, y: float) -> float:
     """Integral of 1/r over the rectangle between the origin and (x, y), with the sign of x y."""
-    a, b = np.abs(x), np.abs(y)
-    positive = (a > 0) & (b > 0)
-    a, b = np.where(positive, a, 1.0), np.where(positive, b, 1.0)
-    area = np.sign(x) * np.sign(y)  # 0 on an edge, where the rectangle is empty
-    return area * (a * np.arcsinh(b / a) + b * np.arcsinh(a / b))
+    if x == 0 or y == 0:
+        return 0.0
+    a, b = abs(x), abs(y)
+    return math.copysign(1.0, x * y) * (a * math.asinh(b / a) + b * math.asinh(a / b))
 
 
-def _quadrature(x: Real, y: Real, dx: float, dy: float, points: int) -> Real:
-    nodes, weights = np.polynomial.legendre.leggauss(points)
-    total = np.zeros_like(x)
-    for node_x, weight_x in zip(nodes, weights, strict=True):
-        for node_y, weight_y in zip(nodes, weights, strict=True):
-            total += weight_x * weight_y / np.hypot(x + node_x * dx / 2, y + node_y * dy / 2)
-    return total * (dx * dy / 4)
+@compiled
+def _line(left: float, right: float, t: float) -> float:
+    """Integral of 1/r from left to right at the distance t: asinh(right / t) - asinh(left / t)."""
+    both = right * math.sqrt(t**2 + left**2) + abs(left) * math.sqrt(t**2 + right**2)
+    if left < 0:
+        return math.asinh(both / t**2)
+    return math.asinh((right - left) * (right + left) / both)

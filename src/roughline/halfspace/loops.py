@@ -2,8 +2,45 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
+
+
+@compiled
+def list_rows(
+    indices: Integers, width: int, rows: Integers, starts: Integers, columns: Integers
+) -> int:
+    """List nodes of a grid row by row.
+
+    Parameters
+    ----------
+    indices : ndarray of int
+        Flat indices of the nodes, ascending.
+    width : int
+        Columns of the grid.
+    rows, starts : ndarray of int
+        Overwritten, as far as there are rows with nodes, with these rows and where they begin; one
+        more start follows.
+    columns : ndarray of int
+        Overwritten with the column of each node.
+
+    Returns
+    -------
+    int
+        The rows with nodes.
+    """
+    found, begin, end = 0, 0, 0
+    for i in range(indices.size):
+        if indices[i] >= end:
+            row = indices[i] // width
+            begin, end = row * width, (row + 1) * width
+            rows[found], starts[found] = row, i
+            found += 1
+        columns[i] = indices[i] - begin
+    starts[found] = indices.size
+    return found
 
 
 @compiled
@@ -17,19 +54,54 @@ def scatter_pairs(
     values : ndarray
         Values of all rows, one row after the other.
     starts, columns : ndarray of int
-        Where each row begins in `values`; column of each value.
+        Where each row begins in `values`; column of each value, below twice the period.
     first, last : int
         The pairs to fill.
     pairs : ndarray, shape (pairs, period, 2)
-        Overwritten, zero where there are no values.
+        Overwritten, zero where there are no values. Values a period apart are added.
     """
+    period = pairs.shape[1]
     for pair in range(first, last):
         pairs[pair] = 0
         for part in range(2):
             row = 2 * pair + part
             if row + 1 < starts.size:
                 for i in range(starts[row], starts[row + 1]):
-                    pairs[pair, columns[i], part] = values[i]
+                    column = columns[i] if columns[i] < period else columns[i] - period
+                    pairs[pair, column, part] += values[i]
+
+
+@compiled
+def scatter_turned(
+    values: Floats,
+    starts: Integers,
+    columns: Integers,
+    turns: Floats,
+    first: int,
+    last: int,
+    pairs: Floats,
+) -> None:
+    """Write as scatter_pairs does, each value times the conjugate of its column's complex turn.
+
+    Parameters
+    ----------
+    turns : ndarray, shape (columns, 2)
+        Real and imaginary part.
+    values, starts, columns, first, last, pairs
+        As for scatter_pairs.
+    """
+    period = pairs.shape[1]
+    for pair in range(first, last):
+        z = pairs[pair]
+        z[:] = 0
+        for part in range(2):
+            row = 2 * pair + part
+            if row + 1 < starts.size:
+                for i in range(starts[row], starts[row + 1]):
+                    cosine, sine = turns[columns[i], 0], turns[columns[i], 1]
+                    column = columns[i] if columns[i] < period else columns[i] - period
+                    z[column, 0] += values[i] * (sine if part else cosine)
+                    z[column, 1] += values[i] * (cosine if part else -sine)
 
 
 @compiled
@@ -37,17 +109,55 @@ def gather_pairs(
     pairs: Floats, starts: Integers, columns: Integers, first: int, last: int, values: Floats
 ) -> None:
     """Read back the values that scatter_pairs wrote."""
+    period = pairs.shape[1]
     for row in range(2 * first, min(2 * last, starts.size - 1)):
         for i in range(starts[row], starts[row + 1]):
-            values[i] = pairs[row // 2, columns[i], row % 2]
+            column = columns[i] if columns[i] < period else columns[i] - period
+            values[i] = pairs[row // 2, column, row % 2]
+
+
+@compiled
+def add_turned_pairs(
+    pairs: Floats,
+    starts: Integers,
+    columns: Integers,
+    turns: Floats,
+    first: int,
+    last: int,
+    values: Floats,
+) -> None:
+    """Read back the values that scatter_turned wrote, and add them to others."""
+    period = pairs.shape[1]
+    for row in range(2 * first, min(2 * last, starts.size - 1)):
+        part = row % 2
+        for i in range(starts[row], starts[row + 1]):
+            cosine, sine = turns[columns[i], 0], turns[columns[i], 1]
+            column = columns[i] if columns[i] < period else columns[i] - period
+            z = pairs[row // 2, column]
+            values[i] += z[1] * cosine + z[0] * sine if part else z[0] * cosine - z[1] * sine
 
 
 @compiled
 def gather_rows(pairs: Floats, first: int, last: int, field: Floats) -> None:
     """Read back whole rows, cropped to the field."""
+    period = pairs.shape[1]
     for row in range(2 * first, min(2 * last, field.shape[0])):
         for column in range(field.shape[1]):
-            field[row, column] = pairs[row // 2, column, row % 2]
+            place = column if column < period else column - period
+            field[row, column] = pairs[row // 2, place, row % 2]
+
+
+@compiled
+def add_turned_rows(pairs: Floats, turns: Floats, first: int, last: int, field: Floats) -> None:
+    """Read back whole rows as add_turned_pairs does, and add them to the field."""
+    period = pairs.shape[1]
+    for row in range(2 * first, min(2 * last, field.shape[0])):
+        part = row % 2
+        for column in range(field.shape[1]):
+            cosine, sine = turns[column, 0], turns[column, 1]
+            z = pairs[row // 2, column if column < period else column - period]
+            value = z[1] * cosine + z[0] * sine if part else z[0] * cosine - z[1] * sine
+            field[row, column] += value
 
 
 @compiled
@@ -70,7 +180,7 @@ def leave_gaps(field: Floats, separation: Floats, touch: float, approach: float)
 
 
 @compiled
-def load_columns(pairs: Floats, rows: Integers, first: int, columns: Floats) -> None:
+def load_columns(pairs: Floats, rows: Integers, first: int, odd: int, columns: Floats) -> None:
     """Separate two real rows from each complex one, for a block of modes, and pad with zeros.
 
     A = (Z(k) + Z(-k)*) / 2 and B = (Z(k) - Z(-k)*) / 2i are the spectra of the real and imaginary
@@ -84,6 +194,9 @@ def load_columns(pairs: Floats, rows: Integers, first: int, columns: Floats) -> 
         Where in the columns each of the real rows belongs.
     first : int
         The mode of the block's first column.
+    odd : int
+        One if mode j stands for the wavenumber 2 j + 1, so that period - 1 - j is its opposite;
+        zero if that is period - j.
     columns : ndarray, shape (padded rows, modes, 2)
         Overwritten.
     """
@@ -94,31 +207,54 @@ def load_columns(pairs: Floats, rows: Integers, first: int, columns: Floats) -> 
         z = pairs[pair]
         a = columns[rows[2 * pair]]
         for j in range(columns.shape[1]):
-            mirror = period - first - j if first + j else 0
+            mirror = period - odd - first - j if first + j + odd else 0
             a[j, 0] = half * (z[first + j, 0] + z[mirror, 0])
             a[j, 1] = half * (z[first + j, 1] - z[mirror, 1])
         if 2 * pair + 1 < rows.size:
             b = columns[rows[2 * pair + 1]]
             for j in range(columns.shape[1]):
-                mirror = period - first - j if first + j else 0
+                mirror = period - odd - first - j if first + j + odd else 0
                 b[j, 0] = half * (z[first + j, 1] + z[mirror, 1])
                 b[j, 1] = half * (z[mirror, 0] - z[first + j, 0])
 
 
 @compiled
 def weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
-    """Multiply a block of modes by an even spectrum of which a quarter is given."""
-    period = columns.shape[0]
-    for i in range(period):
-        weights = quarter[min(i, period - i)]
-        row = columns[i]
-        for j in range(row.shape[0]):
-            row[j, 0] *= weights[first + j]
-            row[j, 1] *= weights[first + j]
+    """Multiply a block of modes by an even spectrum of which a quarter is given.
+
+    The spectrum is rounded to the precision of the modes.
+    """
+    period, modes = columns.shape[0], columns.shape[1]
+    for i in range(period // 2 + 1):
+        row, mirror = columns[i], columns[(period - i) % period]
+        is_its_own_mirror = 2 * i % period == 0
+        for j in range(modes):
+            weight = columns.dtype.type(quarter[i, first + j])
+            row[j, 0] *= weight
+            row[j, 1] *= weight
+            if not is_its_own_mirror:
+                mirror[j, 0] *= weight
+                mirror[j, 1] *= weight
 
 
 @compiled
-def store_columns(columns: Floats, rows: Integers, first: int, pairs: Floats) -> None:
+def invert(values: Floats, inverse: Floats) -> None:
+    """Divide one by each value that is positive; zero for others."""
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            inverse[i, j] = np.divide(1.0, values[i, j]) if values[i, j] > 0 else 0.0
+
+
+@compiled
+def fold_rows(rows: Floats, weights: Floats, places: Integers, sums: Floats) -> None:
+    """Add the weighted values of each row to the places of its sums."""
+    for i in range(rows.shape[0]):
+        for j in range(rows.shape[1]):
+            sums[i, places[j]] += weights[j] * rows[i, j]
+
+
+@compiled
+def store_columns(columns: Floats, rows: Integers, first: int, odd: int, pairs: Floats) -> None:
     """Join two real rows into each complex one: the inverse of load_columns, for some rows."""
     period = pairs.shape[1]
     for pair in range((rows.size + 1) // 2):
@@ -127,73 +263,15 @@ def store_columns(columns: Floats, rows: Integers, first: int, pairs: Floats) ->
         if 2 * pair + 1 < rows.size:
             b = columns[rows[2 * pair + 1]]
             for j in range(columns.shape[1]):
-                mirror = period - first - j if first + j else 0
+                mirror = period - odd - first - j if first + j + odd else 0
                 z[mirror, 0] = a[j, 0] + b[j, 1]
                 z[mirror, 1] = b[j, 0] - a[j, 1]
                 z[first + j, 0] = a[j, 0] - b[j, 1]
                 z[first + j, 1] = a[j, 1] + b[j, 0]
         else:
             for j in range(columns.shape[1]):
-                mirror = period - first - j if first + j else 0
+                mirror = period - odd - first - j if first + j + odd else 0
                 z[mirror, 0] = a[j, 0]
                 z[mirror, 1] = -a[j, 1]
                 z[first + j, 0] = a[j, 0]
                 z[first + j, 1] = a[j, 1]
-
-
-@compiled
-def sum_blocks(values: Floats, block: Integers, sums: Floats) -> None:
-    """Sum the values of the nodes of each block."""
-    sums[:] = 0
-    for i in range(values.size):
-        sums[block[i]] += values[i]
-
-
-@compiled
-def scatter_details(
-    values: Floats, block: Integers, means: Floats, places: Integers, grid: Floats
-) -> None:
-    """Write values without their means over blocks to their places in a flat grid."""
-    for i in range(places.size):
-        grid[places[i]] = values[i] - means[block[i]]
-
-
-@compiled
-def apply_stencil(
-    grid: Floats,
-    places: Integers,
-    offsets: Integers,
-    taps: Floats,
-    block: Integers,
-    result: Floats,
-    sums: Floats,
-) -> None:
-    """Apply a stencil at some places of a flat grid, and set these to zero again.
-
-    Parameters
-    ----------
-    grid : ndarray
-        With a margin as wide as the stencil, and zero but at the places.
-    places, block : ndarray of int, shape (nodes,)
-        Where each contact node lies in `grid`, and the block to which it belongs.
-    offsets, taps : ndarray, shape (taps,)
-        Flat offsets of the stencil and its coefficients.
-    result, sums : ndarray, shape (nodes,) and (blocks,)
-        Overwritten: the pressures and their sums over blocks.
-    """
-    sums[:] = 0
-    for i in range(places.size):
-        total = 0.0
-        for j in range(offsets.size):
-            total += taps[j] * grid[places[i] + offsets[j]]
-        result[i] = total
-        sums[block[i]] += total
-    for i in range(places.size):
-        grid[places[i]] = 0.0
-
-
-@compiled
-def add_blocks(values: Floats, block: Integers, result: Floats) -> None:
-    """Add to each node the value of its block."""
-    for i in range(block.size):
-        result[i] += values[block[i]]

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.loops import list_rows
+from roughline.halfspace.restricted_loops import find_runs
 
 Precision = Literal["float32", "float64"]
 
+_APART = 8  # columns between nodes that belong to one run, at most
 _SMALL_IN_SINGLE = 1e-20  # single precision ends at 1e-38, and transforms divide by their size
 
 
@@ -29,20 +33,53 @@ class GridNodes:
         Where each of these rows begins in `indices`.
     columns : ndarray of int32
         Column of each node.
+    shape : tuple of int
+        Points of the grid, (nx, ny).
     """
 
     indices: Indices
     rows: Indices
     starts: Indices
     columns: NDArray[np.int32]
+    shape: tuple[int, int]
 
     @classmethod
     def of(cls, indices: Indices, shape: tuple[int, int]) -> GridNodes:
         """List the nodes with these ascending flat indices."""
-        edges = np.searchsorted(indices, np.arange(shape[0] + 1) * shape[1])
-        rows = np.flatnonzero(np.diff(edges))
-        starts = np.append(edges[rows], indices.size)
-        return cls(indices, rows, starts, (indices % shape[1]).astype(np.int32))
+        most = min(shape[0], indices.size)
+        rows, starts = np.empty(most, dtype=np.intp), np.empty(most + 1, dtype=np.intp)
+        columns = np.empty(indices.size, dtype=np.int32)
+        found = list_rows(indices, shape[1], rows, starts, columns)
+        return cls(indices, rows[:found], starts[: found + 1], columns, shape)
+
+    @property
+    def listed(self) -> tuple[Indices, NDArray[np.int32], Indices]:
+        """Starts, columns and rows, for compiled loops."""
+        return self.starts, self.columns, self.rows
+
+    @property
+    def place_of_rows(self) -> Indices:
+        """Where in `rows` each row of the grid is; -1 where it holds no node."""
+        place = np.full(self.shape[0], -1)
+        place[self.rows] = np.arange(self.rows.size)
+        return place
+
+    def rows_of(self, nodes: int) -> int:
+        """Return how many of the rows hold so many nodes, about."""
+        return 1 + nodes * self.rows.size // max(1, self.indices.size)
+
+    @cached_property
+    def runs(self) -> tuple[Indices, NDArray[np.int32]]:
+        """Where the runs of neighbouring nodes of each row begin, and the runs.
+
+        For each run: its first node, the node after its last one, and the columns that it takes,
+        rounded up to eight.
+        """
+        most = self.rows.size + int(np.count_nonzero(np.diff(self.columns) > _APART))
+        runs = np.empty((most, 3), dtype=np.int32)
+        first_run = np.empty(self.rows.size + 1, dtype=np.intp)
+        find_runs(self.starts, self.columns, _APART, runs, first_run)
+        return first_run, runs[: first_run[-1]].copy()
 
 
 class Operator(Protocol):
@@ -79,6 +116,9 @@ class Operator(Protocol):
         The shape is (periods[0] // 2 + 1, periods[1] // 2 + 1). [length / pressure]
         """
 
+    def release_buffers(self) -> None:
+        """Give back the memory in which displacements are computed, until it is needed again."""
+
     def displacement(
         self,
         pressure: Real,
@@ -110,6 +150,8 @@ class Operator(Protocol):
 
 def unit_in_single(values: Real) -> float:
     """Return in which unit values have room in single precision; 1 unless all are very small."""
+    if values.size and abs(values[0]) >= _SMALL_IN_SINGLE:  # no need to look at the others
+        return 1.0
     largest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
     return largest if 0 < largest < _SMALL_IN_SINGLE else 1.0
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import Real
 from roughline.halfspace.contact_set import merged
 from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse, preconditioner
+from roughline.halfspace.restricted import RestrictedOperator
 
 
 class Patch:
@@ -19,27 +20,27 @@ class Patch:
         Displacement under pressures on the whole grid.
     inverse : ApproximateInverse
         Approximate inverse of the operator, for the preconditioner.
-    nodes : ndarray of int
-        Flat indices in the grid, ascending.
-    watched : ndarray of int, optional
+    nodes : GridNodes
+        The nodes.
+    watched : GridNodes, optional
         Other nodes whose displacement is computed as well.
     """
 
     def __init__(
         self,
-        operator: Operator,
+        operator: Operator | RestrictedOperator,
         inverse: ApproximateInverse,
-        nodes: Indices,
-        watched: Indices | None = None,
+        nodes: GridNodes,
+        watched: GridNodes | None = None,
     ) -> None:
         self._operator = operator
-        self._nodes = GridNodes.of(nodes, operator.shape)
-        self.precondition = preconditioner(inverse, self._nodes)
-        self._targets = self._nodes
-        if watched is not None and watched.size:
-            both, order = merged(nodes, watched)
-            self._targets = GridNodes.of(both, operator.shape)
-            self._in_patch = order < nodes.size
+        self._nodes = nodes
+        self.precondition = preconditioner(inverse, nodes)
+        self._targets = nodes
+        if watched is not None and watched.indices.size:
+            both, order = merged(nodes.indices, watched.indices)
+            self._targets = GridNodes.of(both, nodes.shape)
+            self._in_patch = order < nodes.indices.size
 
     def displacement(self, pressure: Real, precision: Precision) -> tuple[Real, Real]:
         """Displacement of the nodes, and of the watched ones, under pressures on the nodes."""
@@ -83,6 +84,9 @@ class ConjugateGradients:
         Displacement that is still missing. [length]
     energy : float
         Estimate of the energy norm of the error, squared. [pressure length]
+    gained : float
+        By how much the steps so far have lessened the energy norm of the error, squared.
+        [pressure length]
     steps : int
         Steps done; each takes one convolution.
 
@@ -113,6 +117,7 @@ class ConjugateGradients:
         self._ones = patch.precondition(np.ones_like(pressure)) if fixed_total else None
         self._direction = np.zeros_like(pressure)
         self.energy = np.inf
+        self.gained = 0.0
         self._project()
 
     def _project(self) -> None:
@@ -140,6 +145,7 @@ class ConjugateGradients:
         self.watched += length * watched
         self._residual -= length * response
         self.steps += 1
+        self.gained += length * self.energy
         # 4. Project and precondition what is left.
         self._project()
         return True

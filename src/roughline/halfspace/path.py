@@ -14,17 +14,13 @@ from itertools import zip_longest
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.active_set import solve
 from roughline.halfspace.cascade import first_guess
 from roughline.halfspace.conditions import Residuals, UnilateralContact
 from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.operator import GridNodes
+from roughline.halfspace.correction import solve
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.tangent import Response, Tangent, response
 
-# New contact relieves its surroundings, which the tangent does not take into account. Nodes that it
-# would overlap after this part of the rise are taken to come into contact.
-_PART_OF_RISE = 0.5
 # Where the force changes by more than this, over the force so far, coarser grids guess better than
 # the tangent.
 _LARGEST_CHANGE = 1.0
@@ -250,7 +246,7 @@ def apart(problem: Problem, load: Load, outcome: Outcome) -> Contact:
         nodes=np.empty(0, dtype=np.intp),
         pressure=none,
         plastic=np.empty(0, dtype=bool),
-        gap=problem.separation - depth,
+        gap=np.asarray(problem.separation) - depth,
         separation=problem.separation,
         residuals=Residuals(0.0, 0.0, 0.0, 0.0, 0.0),
         outcome=outcome,
@@ -268,15 +264,7 @@ def _change(contact: Contact, tangent: Tangent, load: Load) -> float:
 
 def _predicted(problem: Problem, change: float, contact: Contact, tangent: Tangent) -> ContactSet:
     """Follow the tangent to p + dF dp/dF, and find the nodes that are in contact then."""
-    operator = problem.operator
-    sources = GridNodes.of(contact.nodes, operator.shape)
-    gap = operator.displacement(tangent.pressure_per_force, sources, None, "float32")
-    gap -= 1 / tangent.stiffness
-    gap *= _PART_OF_RISE * change
-    gap += contact.gap
-    gap.flat[contact.nodes] = 0.0
-    overlapping = np.flatnonzero(gap < 0)
     pressure = contact.pressure + change * tangent.pressure_per_force
     pressure = problem.conditions.projected(pressure)
     loaded = pressure > 0
-    return ContactSet(contact.nodes[loaded], pressure[loaded]).joined_by(overlapping)
+    return ContactSet(contact.nodes[loaded], pressure[loaded])

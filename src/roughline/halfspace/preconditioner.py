@@ -15,24 +15,27 @@ References
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
-from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
-from roughline.halfspace import loops
-from roughline.halfspace.lattices import GROUP, Lattices, set_diagonal
+from roughline.computing import fft
+from roughline.computing.arrays import Indices, Integers, Real, Single
+from roughline.halfspace import block_loops as loops
+from roughline.halfspace.cholesky import Cholesky
+from roughline.halfspace.even_sums import Lags, even_sums
+from roughline.halfspace.lattice_loops import fill_direct
+from roughline.halfspace.lattices import Lattices, kernels_on, lags_for, lattice_shapes
 from roughline.halfspace.operator import GridNodes, Operator, unit_in_single
+from roughline.halfspace.restricted import NEAR, RestrictedOperators
 
 _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 _STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
-_COARSEST = 32  # blocks along a side of the lattice whose equations are solved directly
-_SINGLE_RIDGE = 1 + 1e-6  # factor on diagonals, against the rounding of single precision
+_NODES_AT_A_TIME = 2**15  # whose work takes a thread longer than to begin with it
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +52,6 @@ class ApproximateInverse:
         Coefficients of the stencil. All but the central one are negative, and together they weigh
         less than it, so the stencil cut to any set of nodes is positive definite.
         [pressure / length]
-    margins : tuple of int
-        Cells that the stencil reaches along x and y.
     block_sides : tuple of int
         Cells along the sides of the smallest blocks.
     diagonal : float
@@ -60,21 +61,22 @@ class ApproximateInverse:
         For each lattice, displacement of a node by the pressure on another, averaged over the
         blocks of the two, by the distance of these blocks. A positive definite function, as the
         kernel is. [length / pressure]
+    restricted : RestrictedOperators
+        Forms of the operator that cost what the contact costs.
     """
 
     operator: Operator
     offsets: Indices
     taps: Real
-    margins: tuple[int, int]
     block_sides: tuple[int, int]
     diagonal: float
     block_kernels: tuple[Real, ...]
+    restricted: RestrictedOperators
 
     @classmethod
     def of(cls, operator: Operator) -> ApproximateInverse:
         """Derive it from the operator's spectrum."""
         raised = _raised(operator)
-        diagonal = _even_sum(operator, operator.spectrum, [np.zeros(1)] * 2)[0, 0] + raised
         dx, dy = operator.spacing
         stretch = float(np.clip(np.sqrt(dy / dx), 1 / _STRETCH, _STRETCH))
         nx, ny = operator.shape
@@ -82,20 +84,45 @@ class ApproximateInverse:
             min(max(1, round(_BLOCK * stretch)), nx),
             min(max(1, round(_BLOCK / stretch)), ny),
         )
-        block_kernels = []
-        sides = smallest
-        while True:
-            lags = [
-                side * np.arange(-(-n // side))
-                for side, n in zip(sides, operator.shape, strict=True)
-            ]
-            block_kernels.append(_even_sum(operator, operator.spectrum, lags, sides) + raised)
-            if max(block_kernels[-1].shape) <= _COARSEST:
-                break
-            sides = GROUP * sides[0], GROUP * sides[1]
-        offsets, taps = _stencil(operator, stretch)
+        lattices = lattice_shapes((-(-nx // smallest[0]), -(-ny // smallest[1])))
+        offsets = _stencil_cells(operator, stretch)
         margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
-        return cls(operator, offsets, taps, margins, smallest, diagonal, tuple(block_kernels))
+        kernel, inverse, near = even_sums(
+            operator.spectrum,
+            operator.periods,
+            Lags(lags_for(lattices), smallest),
+            Lags((margins[0] + 1, margins[1] + 1)),
+            Lags(NEAR),
+        )
+        inverse /= float(operator.periods[0] * operator.periods[1]) ** 2
+        return cls(
+            operator,
+            offsets,
+            _stencil_taps(offsets, inverse),
+            smallest,
+            float(near[0, 0]) + raised,
+            kernels_on(lattices, kernel + raised),
+            RestrictedOperators(operator, near, (margins[0], margins[1] + loops.ROUNDING)),
+        )
+
+    @cached_property
+    def block_of_column(self) -> Integers:
+        """Which block along a row of blocks each column of the grid belongs to."""
+        return (np.arange(self.operator.shape[1]) // self.block_sides[1]).astype(np.int32)
+
+    @cached_property
+    def stencil(self) -> tuple[Integers, Single]:
+        """Offsets of the stencil in the restricted operators' flat grid, and its coefficients.
+
+        The central one comes first, and idle ones fill up the last six.
+        """
+        places = self.offsets @ np.array([self.restricted.grid.values.shape[1], 1])
+        order = np.argsort(abs(places))
+        idle = np.zeros(-(order.size - 1) % 6)
+        return (
+            np.append(places[order], idle.astype(places.dtype)),
+            np.append(self.taps[order], idle).astype(np.float32),
+        )
 
     @cached_property
     def kernel(self) -> Single:
@@ -104,13 +131,6 @@ class ApproximateInverse:
         kernel = self.operator.displacement(np.ones(1), corner, None, "float32")
         kernel += _raised(self.operator)
         return kernel.astype(np.float32)
-
-    @cached_property
-    def padded_grid(self) -> Single:
-        """Memory for values on the grid and on the stencil's margin; zero when not in use."""
-        nx, ny = self.operator.shape
-        points = (nx + 2 * self.margins[0]) * (ny + 2 * self.margins[1])
-        return np.zeros(points, dtype=np.float32)
 
 
 def _raised(operator: Operator) -> float:
@@ -121,50 +141,25 @@ def _raised(operator: Operator) -> float:
     return float(operator.spectrum.max()) if operator.zero_mean else 0.0
 
 
-def _stencil(operator: Operator, stretch: float) -> tuple[Indices, Real]:
-    """Return offsets and coefficients of the inverse convolution, cut short."""
-    scale = operator.periods[0] * operator.periods[1]
-    inverse = np.zeros_like(operator.spectrum)
-    np.divide(1 / scale**2, operator.spectrum, out=inverse, where=operator.spectrum > 0)
+def _stencil_cells(operator: Operator, stretch: float) -> Indices:
+    """Return the cells of the stencil, counted from its centre."""
     radii = _RADIUS * stretch, _RADIUS / stretch
     reach = [
         np.arange(-min(int(radius), (period - 1) // 2), min(int(radius), (period - 1) // 2) + 1)
         for radius, period in zip(radii, operator.periods, strict=True)
     ]
-    x, y = (lag.ravel() for lag in np.meshgrid(*reach, indexing="ij"))
+    x, y = (cells.ravel() for cells in np.meshgrid(*reach, indexing="ij"))
     within = (x / radii[0]) ** 2 + (y / radii[1]) ** 2 <= 1
-    offsets = np.stack([x[within], y[within]], axis=1)
-    lags = [np.arange(axis.max() + 1) for axis in reach]
-    taps = _even_sum(operator, inverse, lags)[abs(offsets[:, 0]), abs(offsets[:, 1])]
+    return np.stack([x[within], y[within]], axis=1)
+
+
+def _stencil_taps(offsets: Indices, inverse: Real) -> Real:
+    """Return the coefficients of the inverse convolution, cut short."""
+    taps = inverse[abs(offsets[:, 0]), abs(offsets[:, 1])]
     centre = (offsets == 0).all(axis=1)
     around = np.minimum(taps, 0.0)
     around *= min(1.0, 0.99 * taps[centre].item() / max(-around.sum(), 1e-300))
-    return offsets, np.where(centre, taps, around)
-
-
-def _even_sum(
-    operator: Operator,
-    quarter: Real,
-    lags: Sequence[Integers | Floats],
-    sides: Sequence[int] = (1, 1),
-) -> Real:
-    """Transform an even spectrum, given by its quarter, and only at the lags that are wanted.
-
-    With `sides`, the result is averaged over all pairs of cells of two blocks at these lags.
-    """
-    result = quarter
-    for axis, period in enumerate(operator.periods):
-        modes = np.arange(period // 2 + 1)
-        weights = np.full(modes.size, 2.0)
-        weights[0] = 1.0
-        if period % 2 == 0:
-            weights[-1] = 1.0
-        angle = np.pi / period * modes[1:]
-        weights[1:] *= (np.sin(sides[axis] * angle) / (sides[axis] * np.sin(angle))) ** 2
-        # modulo the period, the product and so the angle stay small and exact
-        cosines = weights * np.cos(2 * np.pi / period * (np.outer(lags[axis], modes) % period))
-        result = np.moveaxis(np.tensordot(cosines, result, axes=(1, axis)), 0, axis)
-    return result
+    return np.where(centre, taps, around)
 
 
 Preconditioner = Callable[[Real], Real]
@@ -176,51 +171,63 @@ def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> Preconditio
     if nodes.indices.size > _DIRECT:
         return _Multilevel(inverse, nodes)
     rows = np.repeat(nodes.rows, np.diff(nodes.starts))
-    columns = nodes.columns
-    matrix = inverse.kernel[
-        abs(rows[:, np.newaxis] - rows), abs(columns[:, np.newaxis] - columns)
-    ].astype(np.float64)
-    set_diagonal(matrix, matrix.diagonal() * _SINGLE_RIDGE)
-    factor = cho_factor(matrix, overwrite_a=True, check_finite=False)
-    return lambda residual: cho_solve(factor, residual, check_finite=False)
+    matrix = np.empty((rows.size, rows.size))
+    fill_direct(inverse.kernel, rows, nodes.columns, matrix)
+    return Cholesky(matrix).solve
 
 
 class _Multilevel:
     """The approximate inverse on many contact nodes."""
 
     def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
-        margins, sides = inverse.margins, inverse.block_sides
-        rows = np.repeat(nodes.rows, np.diff(nodes.starts))
-        width = inverse.operator.shape[1] + 2 * margins[1]
-        self._taps = inverse.taps
-        self._offsets = inverse.offsets @ np.array([width, 1])
-        self._grid = inverse.padded_grid
-        index: type[np.integer] = np.int32 if self._grid.size < 2**31 else np.int64
-        self._places = ((rows + margins[0]) * width + nodes.columns + margins[1]).astype(index)
-        kernel = inverse.block_kernels[0]
-        self._lattice = kernel.shape
-        block = (rows // sides[0]) * self._lattice[1] + nodes.columns // sides[1]
-        self._block = block.astype(np.int32)
-        count = np.bincount(self._block, minlength=kernel.size).astype(np.float64)
+        grid, sides, kernel = inverse.restricted.grid, inverse.block_sides, inverse.block_kernels[0]
+        width = grid.values.shape[1]
+        bands = np.arange(kernel.shape[0] + 1) * sides[0]
+        self._at = loops.Layout(
+            np.searchsorted(nodes.rows, bands),
+            inverse.block_of_column,
+            nodes.rows,
+            nodes.starts,
+            nodes.columns,
+            *nodes.runs,
+            grid.margins[0] * width + grid.margins[1],
+            width,
+        )
+        self._grid = grid.values.reshape(-1)
+        self._stencil = inverse.stencil
+        nodes_of_band = nodes.indices.size / kernel.shape[0]
+        self._bands_at_a_time = max(1, int(_NODES_AT_A_TIME / nodes_of_band))
+        count = np.empty(kernel.shape)
+        self._share_out(lambda first, last: loops.count_nodes(self._at, first, last, count))
         self._per_node = 1 / np.maximum(count, 1.0)
         energy = count**2 * kernel[0, 0]
         # as if the nodes of a block lay at random in it
         energy += count * (1 - count / (sides[0] * sides[1])) * (inverse.diagonal - kernel[0, 0])
-        self._coarse = Lattices(
-            inverse.block_kernels, count.reshape(self._lattice), energy.reshape(self._lattice)
-        )
+        self._coarse = Lattices(inverse.block_kernels, count, energy)
+
+    def _share_out(self, work: Callable[[int, int], None]) -> None:
+        """Do some work on all bands."""
+        bands = self._at.bands.size - 1
+        if self._bands_at_a_time >= bands:
+            work(0, bands)
+        else:
+            fft.share_out_blocks(work, bands, self._bands_at_a_time)
 
     def __call__(self, residual: Real) -> Real:
         """Return the change of pressure that causes the displacement `residual`, about."""
         if (unit := unit_in_single(residual)) != 1:
             return unit * self(residual / unit)
-        result = np.empty_like(residual)
-        sums, sums_of_result = np.empty((2, self._per_node.size))
-        places, block, grid = self._places, self._block, self._grid
-        loops.sum_blocks(residual, block, sums)
-        loops.scatter_details(residual, block, sums * self._per_node, places, grid)
-        loops.apply_stencil(grid, places, self._offsets, self._taps, block, result, sums_of_result)
-        means = self._coarse(sums.reshape(self._lattice)).ravel()
-        means -= sums_of_result * self._per_node
-        loops.add_blocks(means, block, result)
+        at, grid, per_node = self._at, self._grid, self._per_node
+        sums, result = np.empty(per_node.shape), np.empty(residual.size)
+
+        def scatter(first: int, last: int) -> None:
+            loops.scatter_details(residual, at, per_node, first, last, sums, grid)
+
+        def apply(first: int, last: int) -> None:
+            loops.apply_stencil(grid, at, self._stencil, even, first, last, result)
+
+        self._share_out(scatter)
+        even = self._coarse(sums), per_node
+        self._share_out(apply)
+        self._share_out(lambda first, last: loops.clear_nodes(at, first, last, grid))
         return result

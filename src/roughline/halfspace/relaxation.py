@@ -145,7 +145,12 @@ class _Equations:
         gaps = np.concatenate([trial.gap.flat[watched], trial.gap.flat[held] - trial.overlap])
         fixed_total = load.force is not None
         gradients = ConjugateGradients(
-            Patch(problem.operator, problem.inverse, nodes[elastic], followed),
+            Patch(
+                problem.steps,
+                problem.inverse,
+                problem.grid_nodes(nodes[elastic]),
+                problem.grid_nodes(followed),
+            ),
             pressure[elastic],
             -trial.gap.flat[nodes[elastic]] - (trial.approach if fixed_total else 0.0),
             gaps[order] + trial.approach,

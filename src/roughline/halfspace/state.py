@@ -10,8 +10,10 @@ from typing import Literal
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.conditions import ContactConditions, Residuals
 from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import Operator, Precision
+from roughline.halfspace.operator import GridNodes, Operator, Precision
 from roughline.halfspace.preconditioner import ApproximateInverse
+from roughline.halfspace.restricted import RestrictedOperator
+from roughline.halfspace.separation import Separation
 
 
 class Outcome(enum.Enum):
@@ -31,11 +33,9 @@ class Problem:
     ----------
     half_space : HalfSpace
         The half-space.
-    operator : Operator
-        Its displacements under pressures on the grid.
     inverse : ApproximateInverse
-        Approximate inverse of the operator.
-    separation : ndarray, shape (nx, ny)
+        Approximate inverse of its operator on the grid.
+    separation : ndarray or Separation, shape (nx, ny)
         Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
         until that is indented. [length]
     rms_height : float
@@ -46,29 +46,33 @@ class Problem:
     """
 
     half_space: HalfSpace
-    operator: Operator
     inverse: ApproximateInverse
-    separation: Real
+    separation: Real | Separation
     rms_height: float
     conditions: ContactConditions
 
-    @classmethod
-    def of(
-        cls,
-        half_space: HalfSpace,
-        operator: Operator,
-        separation: Real,
-        rms_height: float,
-        conditions: ContactConditions,
-    ) -> Problem:
-        """Put a rough body over a half-space; the operator is one that the half-space made."""
-        inverse = ApproximateInverse.of(operator)
-        return cls(half_space, operator, inverse, separation, rms_height, conditions)
+    @property
+    def operator(self) -> Operator:
+        """The half-space's displacements under pressures on the grid."""
+        return self.inverse.operator
 
     @cached_property
     def touch(self) -> float:
         """Depth at which the surfaces touch, as they are now. [length]"""
         return float(self.separation.min())
+
+    @property
+    def steps(self) -> Operator | RestrictedOperator:
+        """What the steps of conjugate gradients take for the operator."""
+        return self.operator
+
+    def grid_nodes(self, nodes: Indices) -> GridNodes:
+        """Return nodes of the problem as nodes of the grid."""
+        return GridNodes.of(nodes, self.operator.shape)
+
+    def displacement(self, pressure: Real, nodes: Indices, precision: Precision, out: Real) -> Real:
+        """Return the displacement wherever there is a separation, under the pressure on nodes."""
+        return self.operator.displacement(pressure, self.grid_nodes(nodes), None, precision, out)
 
     def fewest_nodes(self, load: Load) -> int:
         """Return how many nodes a load needs, so that one of them is below the hardness."""
@@ -155,7 +159,7 @@ class Contact:
         Which of them are at the hardness.
     gap : ndarray, shape (nx, ny)
         Gap on the whole grid. [length]
-    separation : ndarray, shape (nx, ny)
+    separation : ndarray or Separation, shape (nx, ny)
         Distance of the bodies at first touch, as this load leaves their surfaces: the problem's
         own array if it leaves them as they were. [length]
     residuals : Residuals
@@ -172,7 +176,7 @@ class Contact:
     pressure: Real
     plastic: Mask
     gap: Real
-    separation: Real
+    separation: Real | Separation
     residuals: Residuals
     outcome: Outcome
     convolutions: int

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
+from roughline.halfspace.operator import GridNodes
 from roughline.halfspace.patch import ConjugateGradients, Patch
 from roughline.halfspace.state import Contact, Method, Problem
 
@@ -19,7 +20,9 @@ from roughline.halfspace.state import Contact, Method, Problem
 # error, and the bound on it is this part of the tolerance on residuals.
 _ENERGY_MARGIN = 0.01
 _STEPS = 300  # after which the energy form is computed afresh
-_ROUNDS = 6  # of so many steps, at most
+_ROUGHLY = 3e-8  # energy of the error, over the compliance, that an approximate operator leaves
+_SLOW = 0.01  # where a turn of a restricted operator gains more of the turn before, it is given up
+_TURNS = 8  # of so many steps, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,30 +130,79 @@ def tangent(
     if operator.zero_mean and nodes.size == contact.gap.size:  # full contact is rigid
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
-    patch = Patch(operator, problem.inverse, nodes)
     pressure = _unit_force(elastic, cell_area, start, contact.pressure)
-    convolutions, accuracy = 0, _ENERGY_MARGIN * method.rtol
-    for _ in range(_ROUNDS):
-        displacement, watched = patch.displacement(pressure, method.certificate)
-        compliance = float(pressure @ displacement) * cell_area
-        gradients = ConjugateGradients(
-            patch, pressure, -displacement, watched, fixed_total=True, precision=method.steps
-        )
-        convolutions += 1
-        # compliance counts forces, energies of errors count pressures
-        converged = gradients.energy * cell_area <= accuracy * compliance
-        if converged:
-            break
-        while gradients.energy * cell_area > 0.1 * accuracy * compliance and (
-            gradients.steps < _STEPS and gradients.advance()
-        ):
-            pass
-        pressure = gradients.pressure
-        convolutions += gradients.steps
+    solved = _Solution.of(problem, problem.grid_nodes(nodes), pressure, method)
     pressure_per_force = np.zeros(contact.nodes.size)
-    pressure_per_force[elastic] = pressure
-    stiffness = 1 / compliance if compliance > 0 else np.nan
-    return Tangent(stiffness, pressure_per_force, convolutions, converged and compliance > 0)
+    pressure_per_force[elastic] = solved.pressure
+    positive = solved.compliance > 0
+    stiffness = 1 / solved.compliance if positive else np.nan
+    return Tangent(
+        stiffness, pressure_per_force, solved.convolutions, solved.converged and positive
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Solution:
+    """Pressures of unit force that displace all nodes alike, and what their search has taken."""
+
+    pressure: Real
+    compliance: float
+    convolutions: int
+    converged: bool
+
+    @classmethod
+    def of(cls, problem: Problem, nodes: GridNodes, start: Real, method: Method) -> _Solution:
+        """Solve for the pressures in turns, the first with a restricted operator where it serves.
+
+        In each turn, steps lessen the compliance from what the pressures so far have, as the exact
+        operator tells. Steps of a restricted operator err by a part of what they gain, which shows
+        in the gain of the next turn.
+        """
+        operator, cell_area = problem.operator, problem.operator.cell_area
+        restricted = problem.inverse.restricted.on(nodes)
+        if restricted is not None:
+            operator.release_buffers()  # the first turn needs the memory
+        patch = Patch(restricted or operator, problem.inverse, nodes)
+        pressure, gained, accuracy = start, np.nan, _ENERGY_MARGIN * method.rtol
+        convolutions, converged, compliance = 0, False, np.nan
+        for turn in range(_TURNS):
+            # 1. The compliance of the pressures so far.
+            if turn == 0 and restricted is not None:
+                exact, displacement = False, restricted.displacement(pressure, nodes, nodes)
+            else:
+                exact = True
+                displacement = operator.displacement(pressure, nodes, nodes, method.certificate)
+            compliance = float(pressure @ displacement) * cell_area
+            # 2. Steps that lessen it; it counts forces, energies of errors count pressures.
+            gradients = ConjugateGradients(
+                patch,
+                pressure.copy(),
+                -displacement,
+                displacement[:0],
+                fixed_total=True,
+                precision=method.steps,
+            )
+            aim = (0.1 * accuracy if exact else _ROUGHLY) * compliance
+            while gradients.energy * cell_area > aim and (
+                gradients.steps < _STEPS and gradients.advance()
+            ):
+                pass
+            pressure = gradients.pressure
+            convolutions += exact + (gradients.steps if restricted is None else 0)
+            # 3. By how much they have, and the part of that by which they err.
+            gained_before, gained = gained, gradients.gained * cell_area
+            compliance -= gained
+            part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
+            energy = gradients.energy * cell_area
+            del gradients  # the exact convolution needs the memory
+            error = max(energy, np.sqrt(part) * gained)
+            converged = bool(exact and error <= accuracy * compliance)
+            if converged:
+                break
+            if exact and restricted is not None and not (part <= _SLOW and energy <= aim):
+                restricted, patch = None, Patch(operator, problem.inverse, nodes)
+                pressure, gained = start, np.nan
+        return cls(pressure, compliance, convolutions, converged)
 
 
 def _unit_force(elastic: Mask, cell_area: float, start: Real | None, pressure: Real) -> Real:

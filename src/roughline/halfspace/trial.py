@@ -10,8 +10,10 @@ from roughline.computing.arrays import Mask, Real
 from roughline.halfspace import loops
 from roughline.halfspace.conditions import Residuals, residuals
 from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.operator import GridNodes, Precision
+from roughline.halfspace.operator import Precision
 from roughline.halfspace.state import Contact, Load, Outcome, Problem
+
+_GAPS_AT_A_TIME = 2**18  # so many fit into a cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +79,7 @@ class Trial:
         else:
             pressure = conditions.with_total(pressure, load.force / cell_area)
         elastic = conditions.elastic(pressure)
-        sources = GridNodes.of(nodes, operator.shape)
-        gap = operator.displacement(pressure, sources, None, precision, out=out)
+        gap = problem.displacement(pressure, nodes, precision, out)
         # dents put touch deep: from there on, differences of lengths lose least to rounding
         above = problem.separation.flat[nodes] - problem.touch
         approach = None if load.depth is None else load.depth - problem.touch
@@ -92,7 +93,7 @@ class Trial:
         displacement = gap.flat[nodes]
         if approach is None:
             approach = _level(displacement + above, pressure, elastic)
-        loops.leave_gaps(gap, problem.separation, problem.touch, approach)
+        _leave_gaps(problem, gap, approach)
         held = nodes[~elastic]
         overlap = np.maximum(-gap.flat[held], 0.0)
         gap.flat[held] += overlap
@@ -103,12 +104,20 @@ class Trial:
             ContactSet(nodes, pressure), approach, force, gap, overlap, length_scale, violated
         )
 
+    def certified(self, rtol: float) -> bool:
+        """Whether the residuals are within a tolerance, and no node overlaps that was left out.
+
+        Approaches of which rounding hides such gaps certify nothing.
+        """
+        resolved = np.spacing(abs(self.approach)) <= rtol * self.length_scale
+        return bool(resolved and self.residuals.worst <= rtol and not self.residuals.penetration)
+
     def contact(self, problem: Problem, outcome: Outcome, convolutions: int) -> Contact:
         """Return the trial as the contact with which a search ended."""
         nodes, pressure = self.contact_set.nodes, self.contact_set.pressure
         plastic, separation = ~problem.conditions.elastic(pressure), problem.separation
         if self.overlap.any():
-            separation = separation.copy()
+            separation = np.array(separation)
             separation.flat[nodes[plastic]] += self.overlap
         return Contact(
             depth=problem.touch + self.approach,
@@ -122,6 +131,15 @@ class Trial:
             outcome=outcome,
             convolutions=convolutions,
         )
+
+
+def _leave_gaps(problem: Problem, displacement: Real, approach: float) -> None:
+    """Turn displacements into the gaps that they leave, some rows at a time."""
+    rows = 1 + _GAPS_AT_A_TIME * len(displacement) // displacement.size
+    for first in range(0, len(displacement), rows):
+        part = slice(first, first + rows)
+        separation = np.atleast_2d(problem.separation[part])
+        loops.leave_gaps(np.atleast_2d(displacement[part]), separation, problem.touch, approach)
 
 
 def _length_scale(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -103,7 +104,7 @@ class Surface:
         """sqrt(A_0), the length L of the paper's eqs. 1 and 2. [length]"""
         return float(np.sqrt(self.sizes[0]) * np.sqrt(self.sizes[1]))
 
-    @property
+    @cached_property
     def rms_height(self) -> float:
         """Root-mean-square deviation from the mean height. [length]"""
         return rms_deviation(self.heights)

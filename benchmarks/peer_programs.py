@@ -1,0 +1,219 @@
+"""Loads in roughline and in other programs, each solved in a process of its own.
+
+All press the free square, fractal down to the grid, of rms height 1 and E* = 1. Forces are then
+mean pressures. A function that presses takes a surface and returns what it found as a dictionary.
+"""
+
+import importlib.metadata
+import multiprocessing
+import time
+import warnings
+from functools import partial
+
+import numpy as np
+import psutil
+
+import roughline as rl
+from roughline.computing.cores import available_cores
+
+TOLERANCE = 1e-6
+SEED = 7
+WARM_UP = 128  # points along a side; no timed grid has as few
+MOST_ITERATIONS = 100_000
+SPAWN = multiprocessing.get_context("spawn")
+
+# The interpolation of order 6 is the default of its H² product. Order 5 is faster, but the contact
+# area is off by more than 1e-4.
+ENGINES_OF_ASPHER = {
+    "H²": {"active_set": True},
+    "H², Fourier": {"active_set": True, "precond_engine": "fft"},
+    "FFT": {"backend": "fft", "precond_engine": "fft"},
+    "FFT, single first": {
+        "backend": "fft",
+        "precond_engine": "fft",
+        "precision": "float_then_double",
+    },
+}
+PACKAGES = {"ASPHER": "aspher", "Tamaas": "tamaas", "ContactMechanics": "ContactMechanics"}
+
+
+def press_roughline(surface, force):
+    """Press with roughline; the stiffness is included."""
+    curve = rl.press(surface, E_star=1.0, forces=[force], rtol=TOLERANCE)
+    return {
+        "area": float(curve.area_fraction[0]),
+        "force": float(curve.force[0]),
+        "depth": float(curve.depth[0]),
+        "converged": True,  # it raises otherwise
+    }
+
+
+def path_of_roughline(surface, n_loads):
+    """Press from first touch to saturation with roughline; every stiffness is included."""
+    curve = rl.press(surface, E_star=1.0, n_loads=n_loads, rtol=TOLERANCE)
+    return {
+        "areas": curve.area_fraction.tolist(),
+        "forces": curve.force.tolist(),
+        "convolutions": curve.convolutions.tolist(),
+        "converged": True,
+    }
+
+
+def press_aspher(surface, force, engine):
+    """Press with ASPHER from coarse to fine grids."""
+    import aspher
+
+    n, heights = surface.shape[0], surface.heights
+    result = aspher.solve_nested(
+        grid_size=n,
+        gap=(heights.max() - heights).ravel(),
+        p_nominal=force,
+        E_star=1.0,
+        tol=TOLERANCE,
+        max_iter=MOST_ITERATIONS,
+        **ENGINES_OF_ASPHER[engine],
+    )
+    return {
+        "area": result.contact_area,
+        "force": result.mean_pressure,
+        "depth": result.approach,
+        "converged": result.converged,
+    }
+
+
+def path_of_aspher(surface, forces):
+    """Press with ASPHER's FFT, each load from the pressures of the load before."""
+    import aspher
+
+    gap = (surface.heights.max() - surface.heights).ravel()
+    solver = aspher.ContactSolver(grid_size=surface.shape[0], E_star=1.0, backend="fft")
+    pressure, results = None, []
+    for force in forces:
+        result = solver.solve(
+            gap,
+            p_nominal=force,
+            tol=TOLERANCE,
+            max_iter=MOST_ITERATIONS,
+            precond="fourier-fft",
+            p_init=pressure,
+        )
+        pressure = result.pressure
+        results.append(result)
+    return {
+        "areas": [result.contact_area for result in results],
+        "converged": all(result.converged for result in results),
+    }
+
+
+def press_tamaas(surface, force):
+    """Press with Tamaas and its operator that is not periodic."""
+    import tamaas as tm
+
+    tm.set_log_level(tm.LogLevel.error)
+    n = surface.shape[0]
+    model = tm.Model(tm.model_type.basic_2d, [1.0, 1.0], [n, n])
+    model.E, model.nu = 1.0, 0.0
+    tm.ModelFactory.registerNonPeriodic(model, "dcfft")
+    solver = tm.PolonskyKeerRey(model, np.array(surface.heights), TOLERANCE)
+    solver.setIntegralOperator("dcfft")
+    solver.setMaxIterations(MOST_ITERATIONS)
+    error = solver.solve(force)
+    pressure = np.array(model.traction)
+    return {
+        "area": float(np.mean(pressure > 0)),
+        "force": float(pressure.mean()),
+        "converged": bool(error <= TOLERANCE),
+    }
+
+
+def press_contact_mechanics(surface, force):
+    """Press with ContactMechanics and its free half-space."""
+    from ContactMechanics import FreeFFTElasticHalfSpace
+    from ContactMechanics.Factory import make_system
+    from SurfaceTopography import Topography
+
+    n = surface.shape[0]
+    system = make_system(
+        substrate=FreeFFTElasticHalfSpace((n, n), 1.0, (1.0, 1.0)),
+        surface=Topography(np.array(surface.heights), (1.0, 1.0)),
+    )
+    # the rms height is 1, so pentol is the same bound on gaps
+    result = system.minimize_proxy(external_force=force, pentol=TOLERANCE, maxiter=MOST_ITERATIONS)
+    forces = np.asarray(result.jac)[:n, :n]
+    return {
+        "area": float(np.mean(forces > 0)),
+        "force": float(forces.sum()),
+        "converged": bool(result.success),
+    }
+
+
+def versions():
+    """Return the versions of the programs that are installed."""
+    found = {"roughline": rl.__version__}
+    for program, package in PACKAGES.items():
+        try:
+            found[program] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            continue
+    return found
+
+
+def entrants(programs, force):
+    """Return what presses one load, for each program and each of its engines."""
+    presses = {"roughline": partial(press_roughline, force=force)}
+    for engine in ENGINES_OF_ASPHER:
+        presses[f"ASPHER, {engine}"] = partial(press_aspher, force=force, engine=engine)
+    presses["Tamaas"] = partial(press_tamaas, force=force)
+    presses["ContactMechanics"] = partial(press_contact_mechanics, force=force)
+    return {label: press for label, press in presses.items() if program_of(label) in programs}
+
+
+def program_of(label):
+    """Return the program of an entrant, whose label may name an engine after it."""
+    return label.partition(", ")[0]
+
+
+def timed(press, n, hurst, limit):
+    """Press in a process of its own, and stop it after so many seconds.
+
+    The process has pressed a smaller grid before: what must be compiled is compiled, and neither
+    tables nor memory of the timed grid are there. What comes back has "seconds" when it ended, and
+    "others", the part of them in which other work had the cores; "stopped_after" when it was
+    stopped; and "failed" when it raised or died.
+    """
+    receiver, sender = SPAWN.Pipe(duplex=False)
+    process = SPAWN.Process(target=answer, args=(sender, press, n, hurst))
+    process.start()
+    sender.close()
+    try:
+        receiver.recv()  # it begins
+        if receiver.poll(limit):
+            return receiver.recv()
+        return {"stopped_after": limit}
+    except EOFError:
+        return {"failed": True}
+    finally:
+        process.kill()
+        process.join()
+
+
+def answer(sender, press, n, hurst):
+    """Press a small surface and then the timed one; tell when the latter begins and how it ends."""
+    warnings.simplefilter("ignore")
+    spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0)
+    press(spectrum.surface(WARM_UP, SEED))
+    surface = spectrum.surface(n, SEED)
+    sender.send("begins")
+    start, own, all_work = time.perf_counter(), time.process_time(), busy_seconds()
+    found = press(surface)
+    seconds = time.perf_counter() - start
+    others = max(0.0, busy_seconds() - all_work - (time.process_time() - own))
+    sender.send({"seconds": seconds, "others": others / available_cores(), **found})
+
+
+def busy_seconds():
+    """Return how long the cores of this machine have worked, or were taken by its host. [s]"""
+    times = psutil.cpu_times()._asdict()
+    return sum(
+        times.get(name, 0.0) for name in ("user", "nice", "system", "irq", "softirq", "steal")
+    )

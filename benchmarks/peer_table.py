@@ -1,0 +1,254 @@
+"""The table of roughline beside other programs, made of measured rows."""
+
+from peer_programs import program_of
+
+PEERS = ("ASPHER", "Tamaas", "ContactMechanics")
+SAME_AREA = 1e-4  # relative
+
+INTRODUCTION = """\
+All press the same surfaces, free and fractal down to the grid, and are asked for 1e-6, each in its
+own measure. Only roughline's times include a stiffness, with every load. Every timing is a
+process of its own that has pressed another grid, of 128² points, before: what must be compiled is
+compiled, thread pools run, and neither tables, plans of transforms nor memory of the timed grid are
+there. All may use as many threads. Programs take turns; the best of the runs counts, and what takes
+2 s or more runs once.
+
+ASPHER counts with the best of its engines in double precision at that load: an H² product that
+touches the candidate contact only, and FFT. "Fourier" is the former with the preconditioner that
+the latter has here, over the whole grid; "single first" finds the contact in single precision and
+ends in double precision, as roughline does. An engine that takes longer than 2 s and longer than
+another has taken is stopped.
+
+Ratios are the other program's time over roughline's: below one, roughline is slower. A dash
+stands where a program was not run; Tamaas and ContactMechanics press the smaller grids only.
+"""
+
+
+def table(rows):
+    """Return the page of all measured rows."""
+    sections = (head, convolutions, cold_loads, contact_areas, paths)
+    return "\n".join(section for write in sections if (section := write(rows)))
+
+
+def of_kind(rows, kind):
+    """Return the rows of a kind, by grid, then H, then load."""
+    found = [row for row in rows if row["kind"] == kind]
+    order = ("n", "hurst", "force_bar", "load")
+    return sorted(found, key=lambda row: [row.get(name, 0) for name in order])
+
+
+def lines(*columns):
+    """Return the head of a table."""
+    return [f"| {' | '.join(columns)} |", "|---" * len(columns) + "|"]
+
+
+def line(cells):
+    """Return a row of a table."""
+    return f"| {' | '.join(cells)} |"
+
+
+def page(parts):
+    """Return lines as text."""
+    return "\n".join(parts) + "\n"
+
+
+def head(rows):
+    """Name the machine and the programs."""
+    (machine,) = of_kind(rows, "machine")
+    programs = ", ".join(f"{name} {version}" for name, version in machine["programs"].items())
+    return page(
+        [
+            "# Beside other programs, measured\n",
+            f"Written by `make peers`: {programs}; {machine['processor']}, {machine['cores']} "
+            f"cores, {machine['vectors']}; Python {machine['python']}, NumPy {machine['numpy']}.\n",
+            INTRODUCTION,
+            other_work(rows),
+        ]
+    )
+
+
+def ended(row):
+    """Return the runs of a row that were not stopped."""
+    return [run for runs in row.get("runs", {}).values() for run in runs if "seconds" in run]
+
+
+def part_of_others(runs):
+    """Return the part of the cores that other work had while programs ran."""
+    return sum(run["others"] for run in runs) / sum(run["seconds"] for run in runs)
+
+
+def other_work(rows):
+    """Say how much of the cores other work had."""
+    found = [runs for row in rows if (runs := ended(row))]
+    if not found:
+        return ""
+    total = part_of_others([run for runs in found for run in runs])
+    most = max(part_of_others(runs) for runs in found)
+    return (
+        f"While they ran, other work had {total:.0%} of the cores, and at most {most:.0%} "
+        "during the runs of one row."
+    )
+
+
+def convolutions(rows):
+    """Tabulate convolutions."""
+    found = of_kind(rows, "convolution")
+    if not found:
+        return ""
+    parts = ["## One convolution\n"]
+    parts += lines("grid", "plain, zero-padded", "roughline, double", "single")
+    for row in found:
+        times = (f"{row[name] * 1e3:.1f} ms" for name in ("plain", "double", "single"))
+        parts.append(line([f"{row['n']}²", *times]))
+    return page(parts)
+
+
+def best(row, program):
+    """Return the label of a program's fastest run and this run, or one that says why none is."""
+    runs = [
+        (label, run)
+        for label, runs in row["runs"].items()
+        if program_of(label) == program
+        for run in runs
+    ]
+    certain = [each for each in runs if each[1].get("converged")]
+    if certain:
+        return min(certain, key=lambda each: each[1]["seconds"])
+    return max(runs, key=lambda each: each[1].get("stopped_after", 0), default=("", {}))
+
+
+def duration(run):
+    """Return the time of a run as text, or why there is none."""
+    if run.get("converged"):
+        return f"{run['seconds']:.2f} s"
+    if "seconds" in run:
+        return f"{run['seconds']:.2f} s, not converged"
+    if "stopped_after" in run:
+        return f"> {run['stopped_after']:.3g} s"
+    return "failed" if run else "–"
+
+
+def ratio(theirs, ours, at_least=False):
+    """Return how many times as long another program takes, as text."""
+    if theirs is None:
+        return "–"
+    value = theirs / ours
+    text = f"{'> ' if at_least else ''}{value:.2f}"
+    return f"**{text}, roughline is slower**" if value < 1 and not at_least else text
+
+
+def peers_in(rows):
+    """Return the programs beside ours that any row holds."""
+    labels = {program_of(label) for row in rows for label in row["runs"]}
+    return [program for program in PEERS if program in labels]
+
+
+def cold_loads(rows):
+    """Tabulate the times of cold loads."""
+    found = of_kind(rows, "cold")
+    if not found:
+        return ""
+    peers = peers_in(found)
+    columns = [column for peer in peers for column in (peer, "over roughline")]
+    parts = ["## One cold load\n", *lines("grid", "H", "F̄", "contact", "roughline", *columns)]
+    for row in found:
+        _, ours = best(row, "roughline")
+        cells = [f"{row['n']}²", f"{row['hurst']}", f"{row['force_bar']}"]
+        cells += [f"{ours['area']:.2%}", duration(ours)]
+        for peer in peers:
+            label, run = best(row, peer)
+            engine = label.partition(", ")[2]
+            time = run["seconds"] if run.get("converged") else run.get("stopped_after")
+            cells.append(duration(run) + (f" ({engine})" if engine and "seconds" in run else ""))
+            cells.append(ratio(time, ours["seconds"], "stopped_after" in run))
+        parts.append(line(cells))
+    return page(parts)
+
+
+def contact_areas(rows):
+    """Tabulate the contact areas of the same loads."""
+    found = of_kind(rows, "cold")
+    if not found:
+        return ""
+    peers = peers_in(found)
+    parts = ["## Contact areas of these loads\n", *lines("grid", "H", "F̄", "roughline", *peers)]
+    furthest = 0.0
+    for row in found:
+        _, ours = best(row, "roughline")
+        areas = [best(row, peer)[1].get("area") for peer in peers]
+        forces = [best(row, peer)[1].get("force", row["force_bar"]) for peer in peers]
+        furthest = max([furthest, *(abs(force / row["force_bar"] - 1) for force in forces)])
+        cells = [f"{row['n']}²", f"{row['hurst']}", f"{row['force_bar']}", f"{ours['area']:.4%}"]
+        for area in areas:
+            far = area is not None and abs(area / ours["area"] - 1) > SAME_AREA
+            cells.append("–" if area is None else f"{area:.4%}{', differs' if far else ''}")
+        parts.append(line(cells))
+    parts.append(
+        f"\nAreas that differ by more than {SAME_AREA:.0e} of themselves are marked. "
+        f"Mean pressures are met to {furthest:.0e}."
+    )
+    return page(parts)
+
+
+def paths(rows):
+    """Tabulate paths of loads beside cold solutions of the same loads."""
+    found = of_kind(rows, "path")
+    if not found:
+        return ""
+    parts = [
+        "## A path of loads from first touch to saturation\n",
+        "Times are seconds a load, each run once. ASPHER's cold loads are those of roughline's "
+        "path, each with the best of its engines; of some paths only every k-th is solved, as the "
+        "table says, and one that is stopped counts with the time until then. Its warm loads start "
+        "from the pressures of the load before, with its FFT.\n",
+        *lines(
+            "grid", "H", "contact", "roughline", "plain convolutions", "own convolutions",
+            "ASPHER, cold", "over roughline", "its loads", "ASPHER, warm", "over roughline",
+        ),
+    ]  # fmt: skip
+    for row in found:
+        _, ours = best(row, "roughline")
+        n_loads = row["n_loads"]
+        each = ours["seconds"] / n_loads
+        cells = [
+            f"{row['n']}²",
+            f"{row['hurst']}",
+            f"{100 * ours['areas'][0]:.2g}% to {100 * ours['areas'][-1]:.2g}%",
+            f"{each:.2f} s",
+            f"{each / row['plain']:.1f}",
+            f"{sum(ours['convolutions']) / n_loads:.0f}, at most {max(ours['convolutions'])}",
+        ]
+        parts.append(line([*cells, *cold_path(rows, row, each), *warm_path(row, each)]))
+    return page(parts)
+
+
+def cold_path(rows, path, each):
+    """Return the cells of ASPHER's cold loads along a path."""
+    same = ("n", "hurst", "n_loads")
+    loads = [
+        best(row, "ASPHER")[1]
+        for row in of_kind(rows, "load")
+        if all(row[name] == path[name] for name in same)
+    ]
+    if not loads:
+        return ["–", "–", "–"]
+    times = [
+        load["seconds"] if load.get("converged") else load.get("stopped_after") for load in loads
+    ]
+    known = [time for time in times if time is not None]
+    stopped = any("stopped_after" in load for load in loads)
+    mean = sum(known) / len(known) if known else None
+    text = "failed" if mean is None else f"{'> ' * stopped}{mean:.2f} s"
+    failed = len(times) - len(known)
+    count = f"{len(times)} of {path['n_loads']}" + f", {failed} failed" * (failed > 0)
+    return [text, ratio(mean, each, stopped), count]
+
+
+def warm_path(path, each):
+    """Return the cells of ASPHER's warm loads along a path."""
+    _, run = best(path, "ASPHER")
+    time = run["seconds"] if run.get("converged") else run.get("stopped_after")
+    if time is None:
+        return [duration(run), "–"]
+    mean, stopped = time / path["n_loads"], "stopped_after" in run
+    return [f"{'> ' * stopped}{mean:.2f} s", ratio(mean, each, stopped)]

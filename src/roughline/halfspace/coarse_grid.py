@@ -1,0 +1,162 @@
+"""The far part of an operator, on a coarse grid to which cubic B-splines lead and back.
+
+References
+----------
+.. [1] U. Essmann, L. Perera, M. L. Berkowitz, T. Darden, H. Lee and L. G. Pedersen, "A smooth
+   particle mesh Ewald method", J. Chem. Phys. 103, 8577-8593 (1995).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast
+
+import numpy as np
+
+from roughline.computing import fft
+from roughline.computing.arrays import Indices, Real, Single
+from roughline.halfspace import restricted_loops as loops
+from roughline.halfspace.convolution import Convolution
+from roughline.halfspace.operator import GridNodes, Operator
+from roughline.halfspace.padded_grid import PaddedGrid
+
+_SPREAD_AT_A_TIME = 2**14  # nodes, whose work takes a thread longer than to begin with it
+_BEYOND = 3  # coarse nodes that splines reach beyond the grid
+
+
+@dataclass(frozen=True, eq=False)
+class CoarseGrid:
+    """A smooth kernel on a coarse grid, between nodes of the fine one [1]_.
+
+    Attributes
+    ----------
+    convolution : Convolution
+        The kernel on the coarse grid.
+    weights : tuple of ndarray, shape (ratio, 4)
+        Weights of the four coarse rows around a row, by its place between two of them, and those
+        of the columns around a column.
+    periodic : bool
+        Whether pressures repeat themselves beyond the grid.
+    """
+
+    convolution: Convolution
+    weights: tuple[Single, Single]
+    periodic: bool
+
+    @classmethod
+    def of(cls, operator: Operator, ratios: tuple[int, int], spectrum: Real) -> CoarseGrid:
+        """Put a smooth kernel on a coarse grid.
+
+        Parameters
+        ----------
+        operator : Operator
+            The operator on the fine grid.
+        ratios : tuple of int
+            Cells along the sides of a coarse cell; they divide the periods.
+        spectrum : ndarray, shape (coarse periods // 2 + 1)
+            A quarter of the spectrum of the kernel, as in :class:`Operator`.
+        """
+        px, py = (period // ratio for period, ratio in zip(operator.periods, ratios, strict=True))
+        # the spectrum of a B-spline's values on the grid, there and back
+        x, y = ((2 + np.cos(2 * np.pi / n * np.arange(n // 2 + 1))) / 3 for n in (px, py))
+        corrected = spectrum / (x[:, np.newaxis] * y) ** 2
+        periodic = operator.periods == operator.shape
+        nx, ny = (-(-n // ratio) + _BEYOND for n, ratio in zip(operator.shape, ratios, strict=True))
+        dx, dy = (ratio * side for ratio, side in zip(ratios, operator.spacing, strict=True))
+        shape = (px, py) if periodic else (nx, ny)
+        convolution = Convolution(shape, (dx, dy), (px, py), corrected, operator.zero_mean)
+        return cls(convolution, (_spline_weights(ratios[0]), _spline_weights(ratios[1])), periodic)
+
+    @cached_property
+    def _memory(self) -> tuple[Single, Single]:
+        """Pressures that splines have spread, and displacements between which they interpolate."""
+        (nx, ny), beyond = self.convolution.shape, _BEYOND if self.periodic else 0
+        shape = nx + beyond, ny + beyond
+        return np.empty(shape, dtype=np.float32), np.empty(shape, dtype=np.float32)
+
+    @cached_property
+    def _everywhere(self) -> GridNodes:
+        nx, ny = self.convolution.shape
+        return GridNodes.of(np.arange(nx * ny), (nx, ny))
+
+    def displacement(self, pressure: Single, sources: GridNodes, grid: PaddedGrid) -> Single:
+        """Return the displacement of the coarse nodes, and leave the pressures on a fine grid.
+
+        Parameters
+        ----------
+        pressure : ndarray
+            Pressures on the sources. [pressure]
+        sources : GridNodes
+            Nodes of the fine grid.
+        grid : PaddedGrid
+            Where the pressures are written.
+        """
+        spread, moved = self._memory
+        lines = np.empty((sources.rows.size, spread.shape[1]), dtype=np.float32)
+        place = sources.place_of_rows
+        along, across = self.weights[1], self.weights[0]
+
+        def spread_along(first: int, last: int) -> None:
+            rows = first, last
+            loops.spread_along_rows(pressure, sources.listed, along, rows, *grid.parts, lines)
+
+        def spread_across(first: int, last: int) -> None:
+            loops.spread_across_rows(lines, place, across, first, last, spread)
+
+        fft.share_out_blocks(spread_along, sources.rows.size, sources.rows_of(_SPREAD_AT_A_TIME))
+        fft.share_out_blocks(spread_across, len(spread), 1 + _SPREAD_AT_A_TIME // len(spread))
+        if self.periodic:
+            grid.wrap()
+            inner = self._convolved(_folded(_folded(spread).T).T, None)
+            moved[:] = np.pad(inner, (1, 2), mode="wrap")
+            return moved
+        return self._convolved(spread, moved)
+
+    def _convolved(self, pressure: Single, out: Single | None) -> Single:
+        """Convolve on the coarse grid; all is in single precision, whatever the types say."""
+        values: Any = pressure.ravel()
+        result: Any = out
+        result = self.convolution.displacement(values, self._everywhere, None, "float32", result)
+        return cast(Single, result)
+
+
+def at_cells(
+    spectrum: Real, periods: tuple[int, int], ratios: tuple[int, int], lags: list[Indices]
+) -> Real:
+    """Transform an even spectrum back, given by its quarter, to some cells of a finer grid.
+
+    Parameters
+    ----------
+    spectrum : ndarray, shape (periods // 2 + 1)
+        The quarter.
+    periods : tuple of int
+        Of the coarse grid.
+    ratios : tuple of int
+        Cells along the sides of a coarse cell.
+    lags : list of ndarray
+        The cells, along x and y.
+    """
+    result = spectrum
+    for axis, period in enumerate(periods):
+        modes = np.arange(period // 2 + 1)
+        weights = np.where((modes == 0) | (2 * modes == period), 1.0, 2.0)
+        cosines = np.cos(2 * np.pi / (period * ratios[axis]) * np.outer(lags[axis], modes))
+        result = np.moveaxis(np.tensordot(weights * cosines, result, axes=(1, axis)), 0, axis)
+    return result
+
+
+def _folded(values: Single) -> Single:
+    """Add the rows that splines reach beyond a period to those a period away."""
+    inner = values[1:-2].copy()
+    inner[-1] += values[0]
+    inner[0] += values[-2]
+    inner[1] += values[-1]
+    return inner
+
+
+def _spline_weights(ratio: int) -> Single:
+    """Return the weights of the four cubic B-splines that reach a point, by its place."""
+    t = np.arange(ratio) / ratio
+    weights = [(1 - t) ** 3, 4 - 6 * t**2 + 3 * t**3, 1 + 3 * t + 3 * t**2 - 3 * t**3, t**3]
+    return (np.stack(weights, axis=1) / 6).astype(np.float32)

@@ -1,0 +1,160 @@
+"""The contact under one load, by the correction of a defect.
+
+A search near the contact, with an operator that is restricted to it, errs by what this operator
+errs. So the exact operator tells the gap of what was found, everywhere, and the search goes on from
+there: the restricted operator is asked only for what further changes of the pressures displace.
+Each turn leaves a hundredth of the error or less. The residuals that count are those of the exact
+operator. Where turns do not help, the search goes on with the exact operator alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughline.halfspace.active_set import search
+from roughline.halfspace.contact_set import ContactSet
+from roughline.halfspace.convolution import MUCH
+from roughline.halfspace.exchange import able_to_carry
+from roughline.halfspace.nearby import NearbyProblem, nearby
+from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
+from roughline.halfspace.trial import Trial
+
+_GAIN = 2e-3  # of residuals by a search near the contact
+_DEFECT = 2e-3  # of residuals that a restricted operator leaves, about
+_REACH = 30.0  # of later searches, which leave a smaller error than they find
+_PRODUCTS = 200  # with the restricted operator in one search, at most; a sound one takes some 20
+_AIM = 0.3  # below the tolerance, so that the certificate is not missed by a hair
+_SINGLE_ABOVE = 1e-4  # residuals below this are computed in the precision of the certificate
+
+
+def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
+    """Find the contact set and the pressures under one load.
+
+    Parameters
+    ----------
+    problem : Problem
+        The body and the half-space.
+    load : Load
+        What is prescribed.
+    start : ContactSet
+        Where to start from, with pressures of which none is negative.
+    method : Method
+        Tolerance, bound on the convolutions and precision.
+    """
+    contact_set, gap = start, None
+    spent, worst, precision = Spent(), np.inf, method.steps
+    while True:
+        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), problem.separation)
+        gap = np.empty(problem.separation.shape) if gap is None else gap
+        first = not spent.convolutions
+        trial = Trial.of(problem, load, contact_set, precision, gap, rescale=first)
+        contact_set = trial.contact_set
+        spent.convolutions += 1
+        worst_before, worst = worst, trial.residuals.worst
+        if precision == method.certificate and trial.certified(method.rtol):
+            return trial.contact(problem, Outcome.CONVERGED, spent.convolutions)
+        left = method.max_iterations - spent.total
+        near = nearby(problem, trial)
+        if near is None or left <= 1 or not worst < 0.5 * worst_before:
+            break
+        del trial
+        if gap.nbytes > MUCH:
+            gap = None
+        problem.operator.release_buffers()
+        bounded = replace(method, max_iterations=left)
+        contact_set = _refined(*near, load, worst, bounded, spent)
+        precision = method.certificate
+    left = max(1, method.max_iterations - spent.total)
+    rest = replace(method, max_iterations=left)
+    if left == 1:  # no more than a certificate
+        rest = replace(rest, precision=method.certificate)
+    contact = search(problem, load, contact_set, rest)
+    return replace(contact, convolutions=contact.convolutions + spent.convolutions)
+
+
+@dataclass
+class Spent:
+    """What a load has taken so far.
+
+    Attributes
+    ----------
+    convolutions : int
+        Convolutions with the exact operator.
+    products : int
+        Products with restricted operators.
+    """
+
+    convolutions: int = 0
+    products: int = 0
+
+    @property
+    def total(self) -> int:
+        """Both, which the bound on iterations bounds."""
+        return self.convolutions + self.products
+
+
+def _refined(
+    near: NearbyProblem,
+    start: ContactSet,
+    load: Load,
+    worst: float,
+    method: Method,
+    spent: Spent,
+) -> ContactSet:
+    """Search near the contact, correcting the defect there, until a certificate is likely.
+
+    What is found is returned on the grid.
+
+    Parameters
+    ----------
+    near : NearbyProblem
+        The problem near the contact.
+    start : ContactSet
+        Where to start from.
+    load : Load
+        What is prescribed.
+    worst : float
+        The largest residual there.
+    method : Method
+        As for :func:`solve`.
+    spent : Spent
+        What the load has taken; added to.
+    """
+    most = spent.total + method.max_iterations
+    while True:
+        target, left = max(_GAIN * worst, _AIM * method.rtol), most - spent.total
+        rough = Method(target, max(1, min(left - 1, _PRODUCTS)), "float32")
+        found = search(near, load, start, rough)
+        spent.products += found.convolutions
+        start = ContactSet(found.nodes, found.pressure)
+        expected = max(target, _DEFECT * worst)
+        if expected <= method.rtol or most - spent.total <= 1:
+            return near.on_grid(start)
+        precision = method.steps if expected > _SINGLE_ABOVE else method.certificate
+        exact = near.recentred(start, precision)
+        near.operator.release_buffers()
+        spent.convolutions += 1
+        trial = exact.trial(load, start)
+        worst_before, worst = worst, trial.residuals.worst
+        nearer = nearby(exact, trial, _REACH)
+        if nearer is None or not worst < 0.5 * worst_before:
+            return exact.on_grid(start)
+        near, start = nearer
+
+
+def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> ContactSet:
+    """Find a contact roughly: as :func:`solve`, with one search, and no certificate."""
+    contact_set = able_to_carry(start, problem.fewest_nodes(load), problem.separation)
+    gap = np.empty(problem.separation.shape)
+    trial = Trial.of(problem, load, contact_set, method.steps, gap, rescale=True)
+    contact_set, near = trial.contact_set, nearby(problem, trial)
+    del trial, gap
+    problem.operator.release_buffers()
+    if near is None:
+        contact = search(problem, load, contact_set, method)
+        return ContactSet(contact.nodes, contact.pressure)
+    there, start = near
+    found = search(there, load, start, method)
+    return there.on_grid(ContactSet(found.nodes, found.pressure))

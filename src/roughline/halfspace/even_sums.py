@@ -1,0 +1,119 @@
+"""Fourier sums of even spectra at few lags."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import gcd
+
+import numpy as np
+
+from roughline.computing import fft
+from roughline.computing.arrays import Integers, Real
+from roughline.halfspace import loops
+
+_ROWS_AT_A_TIME = 64
+
+
+@dataclass(frozen=True, eq=False)
+class Lags:
+    """Multiples of a block's sides at which a sum is wanted, averaged over the cells of two blocks.
+
+    Attributes
+    ----------
+    counts : tuple of int
+        The multiples are 0 ... count - 1 along each axis.
+    sides : tuple of int
+        Cells along the sides of a block.
+    """
+
+    counts: tuple[int, int]
+    sides: tuple[int, int] = (1, 1)
+
+
+def even_sums(
+    spectrum: Real, periods: tuple[int, int], lags: Lags, inverse_lags: Lags, near_lags: Lags
+) -> tuple[Real, Real, Real]:
+    """Transform a spectrum and its inverse back, in one pass and only at the lags that are wanted.
+
+    Parameters
+    ----------
+    spectrum : ndarray, shape (periods[0] // 2 + 1, periods[1] // 2 + 1)
+        A quarter of a spectrum that is even and not negative.
+    periods : tuple of int
+        Its whole size.
+    lags, near_lags : Lags
+        Where the sums of the spectrum are wanted.
+    inverse_lags : Lags
+        Where those of its inverse are wanted; that is taken to be zero where the spectrum is.
+
+    Returns
+    -------
+    tuple of ndarray
+        The sums at the three, of the shapes of their counts.
+    """
+    wanted = (lags, inverse_lags, near_lags)
+    axes = [_axes(periods, each) for each in wanted]
+    along_y = [np.empty((len(spectrum), each.counts[1])) for each in wanted]
+
+    def transform(first: int, last: int) -> None:
+        rows = spectrum[first:last]
+        inverse = np.empty_like(rows)
+        loops.invert(rows, inverse)
+        for values, (_, y), sums in zip((rows, inverse, rows), axes, along_y, strict=True):
+            sums[first:last] = y.at_lags(values)
+
+    fft.share_out_blocks(transform, len(spectrum), _ROWS_AT_A_TIME)
+    sums, inverse_sums, near_sums = (
+        x.at_lags(rows.T).T for (x, _), rows in zip(axes, along_y, strict=True)
+    )
+    return sums, inverse_sums, near_sums
+
+
+@dataclass(frozen=True, eq=False)
+class _Axis:
+    """The sum over the modes along an axis.
+
+    Attributes
+    ----------
+    weights, places : ndarray, shape (modes,)
+        Weight of each mode, and its place among those that differ at the lags.
+    cosines : ndarray, shape (places, lags)
+        Their cosines; with the weights, if all modes differ.
+    """
+
+    weights: Real
+    places: Integers
+    cosines: Real
+
+    def at_lags(self, rows: Real) -> Real:
+        """Sum over the modes in each row; those that cannot be told apart are added up first."""
+        if len(self.cosines) == len(self.weights):
+            return rows @ self.cosines
+        sums = np.zeros((len(rows), len(self.cosines)))
+        loops.fold_rows(rows, self.weights, self.places, sums)
+        return sums @ self.cosines
+
+
+def _axes(periods: tuple[int, int], lags: Lags) -> Sequence[_Axis]:
+    return [_axis(*each) for each in zip(periods, lags.counts, lags.sides, strict=True)]
+
+
+def _axis(period: int, count: int, side: int) -> _Axis:
+    modes = np.arange(period // 2 + 1)
+    weights = np.full(modes.size, 2.0)
+    weights[0] = 1.0
+    if period % 2 == 0:
+        weights[-1] = 1.0
+    angle = np.pi / period * modes[1:]
+    weights[1:] *= (np.sin(side * angle) / (side * np.sin(angle))) ** 2
+    # At multiples of the side, modes with the same rest have the same cosines
+    rest = period // gcd(period, side)
+    places = np.minimum(modes % rest, -modes % rest)
+    # Modulo the period, the product and so the angle stay small and exact.
+    cosine = np.cos(2 * np.pi / period * np.arange(period))
+    turns = np.outer(np.arange(rest // 2 + 1), side * np.arange(count)) % period
+    cosines = cosine[turns]
+    if rest == period:
+        cosines *= weights[:, np.newaxis]
+    return _Axis(weights, places, cosines)

@@ -1,0 +1,203 @@
+"""An approximate operator that costs what the contact costs, and not what the grid costs.
+
+The kernel is split into a smooth far part and a near part, K = far + near, as in Ewald's method.
+The far part is convolved on a coarse grid [1]_, and the near part is summed over the nodes
+themselves [2]_. In Fourier space, far is K times erfc(q w / 2), where w is the width of the
+smoothing: near then falls like erfc(r / w) / r, and is cut at a few coarse cells. Products err by a
+thousandth or so. What they miss is left to the correction of the defect, by the exact convolution.
+
+References
+----------
+.. [1] A. Brandt and A. A. Lubrecht, "Multilevel matrix multiplication and fast solution of integral
+   equations", J. Comput. Phys. 90, 348-370 (1990).
+.. [2] J. R. Phillips and J. K. White, "A precorrected-FFT method for electrostatic analysis of
+   complicated 3-D structures", IEEE Trans. Comput.-Aided Des. 16, 1059-1072 (1997).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.special import erfc
+
+from roughline.computing import fft
+from roughline.computing.arrays import Indices, Real, Single
+from roughline.halfspace import restricted_loops as loops
+from roughline.halfspace.coarse_grid import CoarseGrid, at_cells
+from roughline.halfspace.operator import GridNodes, Operator, Precision
+from roughline.halfspace.padded_grid import PaddedGrid
+
+_WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
+_RADIUS = 2.25  # of the near part, in cells of the coarse grid
+_SIDES = 2, 4, 8  # cells along the side of a coarse cell, where these are square
+_REACH = int(_RADIUS * _SIDES[-1])  # of the near part, at most
+_SHARES = 0.6, 0.25, 0.025  # of the grid, up to which the coarse cells of each size serve best
+_FEWEST_POINTS = 64  # along the shorter side of the grid
+_ROUNDING = 8  # to which the lengths of runs, and rows of the near part, are rounded up
+_SUMS_AT_A_TIME = 2**21  # near sums, which take a thread longer than to begin with them
+
+NEAR = _REACH + 1, _REACH + 1
+"""Distances in cells, counted from zero, at which the kernel is needed."""
+
+
+@dataclass(frozen=True, eq=False)
+class RestrictedOperator:
+    """The displacement of some nodes under the pressure on some nodes, to a thousandth or so.
+
+    Attributes
+    ----------
+    far : CoarseGrid
+        The far part.
+    taps : ndarray, shape (2 radius + 1, 2 radius + 8)
+        The near part, by the distance in cells, followed by zeros. [length / pressure]
+    reach : ndarray of int
+        Columns to which each row of the near part reaches, to both sides.
+    grid : PaddedGrid
+        Memory for pressures.
+    """
+
+    far: CoarseGrid
+    taps: Single
+    reach: Indices
+    grid: PaddedGrid
+
+    @classmethod
+    def of(
+        cls, operator: Operator, ratios: tuple[int, int], kernel: Real, grid: PaddedGrid
+    ) -> RestrictedOperator:
+        """Split an operator.
+
+        Parameters
+        ----------
+        operator : Operator
+            The operator.
+        ratios : tuple of int
+            Cells along the sides of a coarse cell; they divide the periods.
+        kernel : ndarray, shape NEAR
+            Displacement under unit pressure on one node, by the distance from it in cells.
+            [length / pressure]
+        grid : PaddedGrid
+            Memory, as described above.
+        """
+        (px, py), (dx, dy), (rx, ry) = operator.periods, operator.spacing, ratios
+        coarse = px // rx, py // ry
+        side = max(rx * dx, ry * dy)
+        kx, ky = np.arange(coarse[0] // 2 + 1), np.arange(coarse[1] // 2 + 1)
+        q = 2 * np.pi * np.hypot(kx[:, np.newaxis] / (px * dx), ky / (py * dy))
+        spectrum = operator.spectrum[: kx.size, : ky.size]
+        smooth = spectrum * erfc(q * _WIDTH * side / 2)
+        # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
+        some = 1 + kx.size // 8
+        smooth[0, 0] -= spectrum[some, 0] * q[some, 0] * _WIDTH * side / np.sqrt(np.pi)
+        lags = [np.arange(int(_RADIUS * side / spacing) + 1) for spacing in (dx, dy)]
+        near = kernel[: lags[0].size, : lags[1].size] - at_cells(smooth, coarse, ratios, lags)
+        inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _RADIUS * side
+        near[~inside] = 0
+        near = np.concatenate([near[:0:-1], near])
+        taps = np.concatenate([near[:, :0:-1], near, np.zeros((len(near), _ROUNDING - 1))], axis=1)
+        reach = inside.sum(axis=1) - 1
+        return cls(
+            CoarseGrid.of(operator, ratios, smooth),
+            taps.astype(np.float32),
+            np.concatenate([reach[:0:-1], reach]),
+            grid,
+        )
+
+    def displacement(
+        self,
+        pressure: Real,
+        sources: GridNodes,
+        targets: GridNodes,
+        precision: Precision = "float32",
+        out: Real | None = None,
+    ) -> Real:
+        """Return the displacement of some nodes under the pressure on some nodes.
+
+        Parameters and result are those of
+        :meth:`roughline.halfspace.operator.Operator.displacement`, but targets are given, and all
+        is computed in single precision.
+        """
+        if out is None:
+            out = np.empty(targets.indices.size)
+        unit = np.abs(pressure).max(initial=0.0)
+        if unit == 0:
+            out[:] = 0
+            return out
+        moved = self.far.displacement((pressure / unit).astype(np.float32), sources, self.grid)
+        nodes = targets.rows, targets.columns, *targets.runs
+        result = np.empty(targets.indices.size, dtype=np.float32)
+
+        def add(first: int, last: int) -> None:
+            near, rows = (self.taps, self.reach), (first, last)
+            loops.add_near_and_far(
+                *self.grid.parts, near, moved, self.far.weights, nodes, rows, result
+            )
+
+        rows_at_a_time = targets.rows_of(_SUMS_AT_A_TIME // self.taps.size)
+        fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
+        loops.clear_grid(sources.listed, *self.grid.parts)
+        if self.far.periodic:
+            self.grid.clear_margin()
+        return np.multiply(result, unit, out=out)
+
+
+class RestrictedOperators:
+    """The restricted forms of an operator, made as they are needed.
+
+    Parameters
+    ----------
+    operator : Operator
+        The operator.
+    kernel : ndarray, shape NEAR
+        Displacement under unit pressure on one node, by the distance from it in cells.
+        [length / pressure]
+    margins : tuple of int
+        Cells of the margin that others need, who use the same memory.
+    """
+
+    def __init__(self, operator: Operator, kernel: Real, margins: tuple[int, int]) -> None:
+        self._operator = operator
+        self._kernel = kernel
+        self._margins = margins
+        self._ratios = _ratios(operator)
+        self._made: dict[tuple[int, int], RestrictedOperator] = {}
+
+    @cached_property
+    def grid(self) -> PaddedGrid:
+        """Memory for values on the grid and on a margin; zero when not in use."""
+        margins = self._margins
+        if self._ratios:
+            margins = max(margins[0], _REACH), max(margins[1], _REACH + _ROUNDING)
+        return PaddedGrid.of(self._operator.shape, margins)
+
+    def on(self, nodes: GridNodes) -> RestrictedOperator | None:
+        """Return the cheapest one for some nodes, or None where the exact operator is cheaper."""
+        if not self._ratios:
+            return None
+        points = self._operator.shape[0] * self._operator.shape[1]
+        part = int(nodes.runs[1][:, 2].sum()) / points
+        ratios = next((each for share, each in reversed(self._ratios) if part <= share), None)
+        if ratios is None:
+            return None
+        if ratios not in self._made:
+            made = RestrictedOperator.of(self._operator, ratios, self._kernel, self.grid)
+            self._made[ratios] = made
+        return self._made[ratios]
+
+
+def _ratios(operator: Operator) -> list[tuple[float, tuple[int, int]]]:
+    """List possible coarse cells, about square, and up to which part of the grid they serve."""
+    possible: list[tuple[float, tuple[int, int]]] = []
+    if min(operator.shape) < _FEWEST_POINTS:
+        return []
+    dx, dy = operator.spacing
+    longer = max(dx, dy)
+    for ratio, share in zip(_SIDES, _SHARES, strict=True):
+        ratios = ratio * 2 ** round(np.log2(longer / dx)), ratio * 2 ** round(np.log2(longer / dy))
+        radius = _RADIUS * max(ratios[0] * dx, ratios[1] * dy) / min(dx, dy)
+        divides = all(p % r == 0 for p, r in zip(operator.periods, ratios, strict=True))
+        if divides and radius < _REACH + 1:
+            possible.append((share, ratios))
+    return possible

@@ -1,0 +1,98 @@
+"""The approximate inverse of the half-space on a set of nodes."""
+
+import numpy as np
+import pytest
+
+from roughline.computing import fft
+from roughline.halfspace import preconditioner as room
+from roughline.halfspace.half_space import HalfSpace
+from roughline.halfspace.lattice_loops import GROUP, invert_groups
+from roughline.halfspace.operator import GridNodes
+from roughline.halfspace.preconditioner import ApproximateInverse, preconditioner
+
+SHAPE = 150, 600  # so that there are groups, and blocks and groups are cut at the edges
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["free", "periodic"])
+def inverse(request):
+    half_space = HalfSpace(1.0, periodic=request.param)
+    return ApproximateInverse.of(half_space.operator(SHAPE, (1.0, 1.0)))
+
+
+def some_nodes(part, seed=0):
+    x, y = np.indices(SHAPE)
+    height = np.sin(x / 9) * np.cos(y / 23) + np.random.default_rng(seed).normal(size=SHAPE) / 3
+    return GridNodes.of(np.flatnonzero(height > np.quantile(height, 1 - part)), SHAPE)
+
+
+def test_on_few_nodes_it_is_the_inverse(inverse):
+    nodes = some_nodes(0.002)
+    residual = np.random.default_rng(1).normal(size=nodes.indices.size)
+    pressure = preconditioner(inverse, nodes)(residual)
+    moved = inverse.operator.displacement(pressure, nodes, nodes)
+    if inverse.operator.zero_mean:  # which takes even pressure for one that displaces
+        moved -= (moved - residual).mean()
+    assert moved == pytest.approx(residual, abs=1e-4)
+
+
+@pytest.mark.parametrize("part", [0.01, 0.2, 0.9])
+def test_it_is_symmetric_and_positive(inverse, part):
+    nodes = some_nodes(part)
+    apply = preconditioner(inverse, nodes)
+    a, b = np.random.default_rng(2).normal(size=(2, nodes.indices.size))
+    norm = np.sqrt((a @ apply(a)) * (b @ apply(b)))
+    assert norm > 0
+    assert a @ apply(b) == pytest.approx(b @ apply(a), abs=1e-6 * norm)
+    assert not inverse.restricted.grid.values.any()
+
+
+def test_it_comes_close(inverse):
+    nodes = some_nodes(0.2)
+    apply = preconditioner(inverse, nodes)
+    pressure = np.random.default_rng(3).normal(size=nodes.indices.size)
+    pressure -= pressure.mean()
+    moved = inverse.operator.displacement(pressure, nodes, nodes)
+    ratio = (moved @ apply(moved)) / (pressure @ moved)
+    assert 0.5 < ratio < 2
+
+
+def test_an_even_residual_far_above_the_others_does_not_drown_them(inverse):
+    nodes = some_nodes(0.3)
+    apply = preconditioner(inverse, nodes)
+    residual = np.random.default_rng(4).normal(size=nodes.indices.size)
+    ones = np.ones_like(residual)
+    together = apply(residual + 1e7 * ones) - 1e7 * apply(ones)
+    assert together == pytest.approx(apply(residual), abs=1e-5)
+
+
+def test_its_bits_do_not_depend_on_the_threads(inverse, monkeypatch):
+    monkeypatch.setattr(room, "_NODES_AT_A_TIME", 1000)
+    monkeypatch.setattr(fft, "available_cores", lambda: 3)
+    nodes, results, before = some_nodes(0.3), [], fft.threads()
+    residual = np.random.default_rng(5).normal(size=nodes.indices.size)
+    try:
+        for threads in (1, 3):
+            fft.set_threads(threads)
+            results.append(preconditioner(inverse, nodes)(residual))
+    finally:
+        fft.set_threads(before)
+    assert (results[0] == results[1]).all()
+
+
+def test_groups_are_inverted_on_pressures_that_sum_to_zero():
+    rng = np.random.default_rng(6)
+    kernel = 1 / np.hypot(*np.meshgrid([0.3, 1, 2, 3], [0.3, 1, 2, 3]))
+    count = rng.integers(0, 3, (GROUP, GROUP)).astype(float)
+    energy = count * (1 + count * kernel[0, 0])
+    inverses, energies = np.empty((1, GROUP**2, GROUP**2)), np.zeros((1, 1))
+    invert_groups(kernel, (count, energy), np.zeros(1, dtype=np.intp), 0, 1, inverses, energies)
+    occupied = np.flatnonzero(count)
+    x, y = np.divmod(occupied, GROUP)
+    nodes = count.ravel()[occupied]
+    matrix = kernel[abs(x[:, None] - x), abs(y[:, None] - y)] * np.outer(nodes, nodes)
+    np.fill_diagonal(matrix, energy.ravel()[occupied])
+    assert energies[0, 0] == pytest.approx(matrix.sum(), rel=1e-8)
+    even = np.linalg.solve(matrix, nodes)
+    expected = np.linalg.inv(matrix) - np.outer(even, even) / (nodes @ even)
+    assert inverses[0][np.ix_(occupied, occupied)] == pytest.approx(expected, abs=1e-7)
+    assert np.abs(inverses[0]).sum() == pytest.approx(np.abs(expected).sum())

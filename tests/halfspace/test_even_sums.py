@@ -1,0 +1,78 @@
+"""Fourier sums at few lags against the whole transform."""
+
+import numpy as np
+import pytest
+
+from roughline.computing import fft
+from roughline.computing.cores import available_cores
+from roughline.halfspace import convolution
+from roughline.halfspace.even_sums import Lags, even_sums
+from roughline.halfspace.lattices import kernels_on, lags_for, lattice_shapes
+from roughline.halfspace.preconditioner import ApproximateInverse
+
+ROUNDING = 1e-14
+
+
+def whole(quarter, periods):
+    """Return all modes of a spectrum that is given by its quarter."""
+    i, j = (np.minimum(np.arange(n), -np.arange(n) % n) for n in periods)
+    return quarter[i[:, np.newaxis], j]
+
+
+def block_mean(values, lags, side, axis):
+    """Average even, periodic values along an axis over all pairs of cells of two blocks."""
+    total = 0.0
+    for one in range(side):
+        for other in range(side):
+            total = total + values.take(lags + one - other, axis=axis, mode="wrap")
+    return total / side**2
+
+
+@pytest.mark.parametrize("periods", [(24, 40), (1, 2), (64, 15), (7, 48)])
+@pytest.mark.parametrize("sides", [(1, 1), (4, 6), (16, 3)])
+def test_sums_are_those_of_the_whole_transform(periods, sides):
+    quarter = np.random.default_rng(0).random([n // 2 + 1 for n in periods])
+    quarter[0, 0] = 0.0
+    lags, inverse_lags = Lags((3, 5), sides), Lags((2, 3))
+    found, found_inverse, near = even_sums(quarter, periods, lags, inverse_lags, Lags((4, 2)))
+    spectrum = whole(quarter, periods)
+    expected = np.fft.fft2(spectrum).real
+    close = expected.take(range(4), axis=0, mode="wrap").take(range(2), axis=1, mode="wrap")
+    assert np.abs(near - close).max() < ROUNDING * spectrum.sum()
+    for axis, side in enumerate(sides):
+        expected = block_mean(expected, side * np.arange(lags.counts[axis]), side, axis)
+    assert np.abs(found - expected).max() < ROUNDING * spectrum.sum()
+    inverse = np.divide(1, spectrum, out=np.zeros(periods), where=spectrum > 0)
+    expected = np.fft.fft2(inverse).real
+    expected = expected.take(range(2), axis=0, mode="wrap").take(range(3), axis=1, mode="wrap")
+    assert np.abs(found_inverse - expected).max() < ROUNDING * inverse.sum()
+
+
+@pytest.mark.parametrize("finest", [(200, 130), (33, 1), (5, 9)])
+def test_kernels_of_coarser_lattices_are_averaged_over_their_blocks(finest):
+    shapes = lattice_shapes(finest)
+    x, y = (np.arange(n) for n in lags_for(shapes))
+    kernels = kernels_on(shapes, np.exp(-x[:, np.newaxis] / 7 - y / 11))
+    assert [kernel.shape for kernel in kernels] == shapes
+    for level, kernel in enumerate(kernels):
+        side = 4**level
+        cells = np.arange(side)
+        for i, j in {(0, 0), (kernel.shape[0] - 1, kernel.shape[1] - 1), (0, kernel.shape[1] // 2)}:
+            along_x = abs(side * i + cells[:, np.newaxis] - cells)
+            along_y = abs(side * j + cells[:, np.newaxis] - cells)
+            expected = np.exp(-along_x / 7).mean() * np.exp(-along_y / 11).mean()
+            assert kernel[i, j] == pytest.approx(expected, rel=ROUNDING)
+
+
+def test_the_number_of_threads_changes_no_bit_of_the_approximate_inverse():
+    count, found = fft.threads(), []
+    try:
+        for threads in (1, available_cores()):
+            fft.set_threads(threads)
+            operator = convolution.free((200, 150), (1.0, 0.9), 1.0)
+            inverse = ApproximateInverse.of(operator)
+            found.append((operator.spectrum, inverse.taps, *inverse.block_kernels))
+    finally:
+        fft.set_threads(count)
+    for one, other in zip(*found, strict=True):
+        assert (one == other).all()

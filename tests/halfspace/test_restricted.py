@@ -1,0 +1,214 @@
+"""The operator that is restricted to the contact: how much it errs, and that it may err at all."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+import roughline as rl
+from roughline.computing import fft
+from roughline.halfspace import correction, lending
+from roughline.halfspace.coarse_grid import CoarseGrid
+from roughline.halfspace.half_space import HalfSpace
+from roughline.halfspace.operator import GridNodes
+from roughline.halfspace.preconditioner import ApproximateInverse
+from roughline.halfspace.restricted import RestrictedOperator, RestrictedOperators
+
+
+def contact_nodes(shape, seed, part):
+    """Return the highest nodes of a rough surface, in clusters as contact is."""
+    n = 2 ** int(np.ceil(np.log2(max(shape))))
+    heights = rl.SelfAffine(hurst=0.5, rms_height=1.0).surface(n, seed).heights
+    heights = np.asarray(heights)[: shape[0], : shape[1]]
+    return np.flatnonzero(heights > np.quantile(heights, 1 - part))
+
+
+def made(operator, ratios):
+    """Split an operator."""
+    restricted = ApproximateInverse.of(operator).restricted
+    return RestrictedOperator.of(operator, ratios, restricted._kernel, restricted.grid)
+
+
+def on(operator, nodes):
+    """Return the restricted operator that is chosen for some nodes."""
+    return ApproximateInverse.of(operator).restricted.on(nodes)
+
+
+def matrices(operator, ratios, nodes):
+    """Return the exact and the restricted operator as dense matrices."""
+    here = GridNodes.of(nodes, operator.shape)
+    split = made(operator, ratios)
+    units = np.eye(nodes.size)
+    return tuple(
+        np.stack([each.displacement(unit, here, here) for unit in units])
+        for each in (operator, split)
+    )
+
+
+@pytest.mark.parametrize(
+    ("shape", "spacing", "ratios", "periodic"),
+    [
+        ((64, 64), (1.0, 1.0), (2, 2), False),
+        ((64, 64), (1.0, 1.0), (4, 4), False),
+        ((96, 80), (1.0, 1.0), (8, 8), False),
+        ((67, 101), (1.0, 1.3), (4, 4), False),
+        ((64, 128), (2.0, 1.0), (2, 4), False),
+        ((80, 96), (1.0, 1.0), (8, 8), True),
+        ((64, 64), (1.0, 1.0), (4, 4), True),
+    ],
+)
+def test_it_is_the_exact_operator_to_a_fiftieth_for_any_pressure(shape, spacing, ratios, periodic):
+    """Each correction of the defect then leaves a fiftieth of the error, in energy."""
+    operator = HalfSpace(1.0, periodic).operator(shape, spacing)
+    exact, split = matrices(operator, ratios, contact_nodes(shape, 3, 0.08))
+    assert np.abs(split - split.T).max() <= 1e-5 * np.abs(exact).max()
+    if periodic:  # even pressure displaces nothing
+        exact, split = (each + operator.spectrum.max() for each in (exact, split))
+    factors = eigh((split + split.T) / 2, exact, eigvals_only=True)
+    assert np.abs(factors - 1).max() <= 0.02
+
+
+def test_its_memory_is_clean_after_use():
+    operator = HalfSpace(1.0, True).operator((64, 64), (1.0, 1.0))
+    nodes = GridNodes.of(contact_nodes((64, 64), 1, 0.3), (64, 64))
+    split = made(operator, (4, 4))
+    first = split.displacement(np.ones(nodes.indices.size), nodes, nodes)
+    assert not split.grid.values.any()
+    again = split.displacement(np.ones(nodes.indices.size), nodes, nodes)
+    np.testing.assert_array_equal(first, again)
+
+
+@pytest.mark.parametrize("unit", [1e-300, 1e-30, 1.0, 1e30])
+def test_units_do_not_matter(unit):
+    operator = HalfSpace(1.0).operator((64, 64), (1.0, 1.0))
+    nodes = GridNodes.of(contact_nodes((64, 64), 1, 0.3), (64, 64))
+    split = on(operator, nodes)
+    pressure = np.random.default_rng(0).random(nodes.indices.size)
+    expected = unit * split.displacement(pressure, nodes, nodes)
+    moved = split.displacement(unit * pressure, nodes, nodes)
+    np.testing.assert_allclose(moved, expected, rtol=1e-5)
+
+
+@pytest.mark.skipif(fft.threads() < 2, reason="needs two cores")
+def test_its_bits_do_not_depend_on_the_number_of_threads():
+    operator = HalfSpace(1.0).operator((256, 200), (1.0, 1.0))
+    nodes = GridNodes.of(contact_nodes((256, 200), 1, 0.3), (256, 200))
+    split = on(operator, nodes)
+    pressure = np.random.default_rng(0).random(nodes.indices.size)
+    many = split.displacement(pressure, nodes, nodes)
+    count = fft.threads()
+    fft.set_threads(1)
+    try:
+        one = split.displacement(pressure, nodes, nodes)
+    finally:
+        fft.set_threads(count)
+    np.testing.assert_array_equal(many, one)
+
+
+@pytest.mark.parametrize(
+    ("shape", "spacing", "periodic"),
+    [
+        ((1, 512), (1.0, 1.0), False),
+        ((2, 2), (1.0, 1.0), False),
+        ((40, 400), (1.0, 1.0), False),
+        ((128, 128), (1.0, 40.0), False),
+        ((97, 101), (1.0, 1.0), True),
+    ],
+    ids=["line", "two points", "strip", "oblong cells", "primes"],
+)
+def test_where_no_coarse_grid_exists_there_is_none(shape, spacing, periodic):
+    operator = HalfSpace(1.0, periodic).operator(shape, spacing)
+    nodes = GridNodes.of(np.arange(1), shape)
+    assert on(operator, nodes) is None
+
+
+def heights(n=96):
+    return rl.SelfAffine(hurst=0.6, rms_height=1.0).surface(n, 5)
+
+
+def test_without_it_the_results_are_the_same(monkeypatch):
+    surface, forces = heights(), [0.02, 0.3, 2.0]
+    by_both = rl.press(surface, E_star=1.0, forces=forces, fields=True)
+    monkeypatch.setattr(RestrictedOperators, "on", lambda self, nodes: None)
+    exact = rl.press(surface, E_star=1.0, forces=forces, fields=True)
+    assert by_both.convolutions.sum() < 0.5 * exact.convolutions.sum()
+    np.testing.assert_allclose(by_both.depth, exact.depth, rtol=3e-6)
+    np.testing.assert_allclose(by_both.stiffness, exact.stiffness, rtol=1e-6)
+    for one, other in zip(by_both.fields, exact.fields, strict=True):
+        largest = other.pressure.max()
+        np.testing.assert_allclose(one.pressure, other.pressure, atol=1e-4 * largest)
+
+
+def damaged(name):
+    """Return a way to damage the restricted operator."""
+    sound = RestrictedOperator.of
+
+    def of(operator, ratios, *others):
+        whole = sound(operator, ratios, *others)
+        if name == "no near part":
+            return dataclasses.replace(whole, taps=0 * whole.taps)
+        if name == "near part too strong":
+            return dataclasses.replace(whole, taps=2 * whole.taps)
+        if name == "near part of the wrong sign":
+            return dataclasses.replace(whole, taps=-whole.taps)
+        if name == "far part too weak":
+            convolution = whole.far.convolution
+            weak = dataclasses.replace(convolution, spectrum=0.5 * convolution.spectrum)
+            far = dataclasses.replace(whole.far, convolution=weak)
+            return dataclasses.replace(whole, far=far)
+        if name == "weights of another place":
+            rolled = tuple(np.roll(each, 1, axis=0) for each in whole.far.weights)
+            return dataclasses.replace(whole, far=dataclasses.replace(whole.far, weights=rolled))
+        assert name == "not a number"
+        return dataclasses.replace(whole, taps=np.nan * whole.taps)
+
+    return of
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        "no near part",
+        "near part too strong",
+        "near part of the wrong sign",
+        "far part too weak",
+        "weights of another place",
+        "not a number",
+        "stale coarse grid",
+    ],
+)
+@pytest.mark.parametrize("control", ["forces", "depths"])
+@pytest.mark.usefixtures("nothing_kept")
+def test_a_damaged_one_costs_time_and_never_a_wrong_result(monkeypatch, damage, control):
+    surface = heights()
+    sound = rl.press(surface, E_star=1.0, forces=[0.02, 0.3, 2.0])
+    loads = {control: getattr(sound, control.removesuffix("s"))}
+    lending._kept.clear()
+    if damage == "stale coarse grid":
+        monkeypatch.setattr(CoarseGrid, "_convolved", lambda self, pressure, out: out)
+    else:
+        monkeypatch.setattr(RestrictedOperator, "of", damaged(damage))
+    curve = rl.press(surface, E_star=1.0, throw=False, **loads)
+    assert curve.residual[curve.converged].max(initial=0) <= 1e-6
+    for name in ("depth", "force", "stiffness"):
+        found, expected = (getattr(each, name)[curve.converged] for each in (curve, sound))
+        np.testing.assert_allclose(found, expected, rtol=1e-5)
+    assert curve.converged.all()
+
+
+def test_a_turn_that_does_not_help_is_not_repeated(monkeypatch):
+    """A search near the contact that finds nothing is left to the exact operator."""
+    monkeypatch.setattr(correction, "_refined", lambda near, start, *rest: near.on_grid(start))
+    curve = rl.press(heights(), E_star=1.0, forces=[0.3])
+    assert curve.converged.all()
+
+
+def test_the_coarse_grid_is_chosen_by_what_is_in_contact():
+    operator = HalfSpace(1.0).operator((256, 256), (1.0, 1.0))
+    shapes = [
+        on(operator, GridNodes.of(contact_nodes((256, 256), 1, part), (256, 256)))
+        for part in (0.001, 0.1, 0.5, 1.0)
+    ]
+    sides = [None if each is None else each.far.weights[0].shape[0] for each in shapes]
+    assert sides == [8, 4, 2, None]
