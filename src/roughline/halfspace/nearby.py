@@ -16,7 +16,6 @@ from roughline.halfspace.trial import Trial
 
 # Nodes of a gap below so many times the error on contact may come into contact.
 REACH = 2.0
-_SPARE = 1000  # nodes beyond six times those in contact
 _LARGEST = 0.4  # part of the grid on which a problem is looked at
 
 
@@ -141,13 +140,11 @@ def nearby(
 
 def _close_nodes(gap: Real, nodes: Indices, reach: float) -> Indices:
     """Return the nodes off the contact whose gap is small, at most a few times those in it."""
-    wrong = gap.ravel() < 0
-    wrong[nodes] = True
-    reach *= float(np.sqrt(np.mean(gap.ravel()[wrong] ** 2)))
+    reach *= float(np.sqrt(np.mean(gap.flat[nodes] ** 2)))
     close = gap.ravel() < reach
     close[nodes] = False
     others = np.flatnonzero(close)
-    most = max(0, min(6 * nodes.size + _SPARE, int(_LARGEST * gap.size) - nodes.size))
+    most = max(0, int(_LARGEST * gap.size) - nodes.size)
     if others.size <= most:
         return others
     gaps = gap.flat[others]
