@@ -148,7 +148,7 @@ _DECLARED = (
         "convolutions",
         "",
         "1",
-        "convolutions that the load took, its stiffness included",
+        "exact convolutions that the load took, its stiffness included",
         long_name="convolutions spent",
         column=7,
         dtype="i8",
