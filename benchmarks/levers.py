@@ -4,10 +4,9 @@ import sys
 import time
 from contextlib import contextmanager
 
-import numpy as np
-
 import roughline as rl
-from roughline.halfspace import cascade, loops, path, preconditioner, tangent
+from roughline.halfspace import cascade, convolution, path, preconditioner, tangent
+from roughline.halfspace.restricted import RestrictedOperators
 
 
 @contextmanager
@@ -19,16 +18,6 @@ def without(module, name, value):
         yield
     finally:
         setattr(module, name, sound)
-
-
-def stencil_only(self, residual):
-    """Apply the stencil to the residual itself, with no lattices."""
-    result, sums = np.empty_like(residual), np.empty_like(self._per_node)
-    loops.scatter_details(residual, self._block, 0 * sums, self._places, self._grid)
-    loops.apply_stencil(
-        self._grid, self._places, self._offsets, self._taps, self._block, result, sums
-    )
-    return result
 
 
 def measured(surface, n_loads, **options):
@@ -44,17 +33,17 @@ def main():
     surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7)
     rl.press(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7), E_star=1.0, n_loads=3)
     levers = {
-        "nothing": without(path, "_PART_OF_RISE", path._PART_OF_RISE),
-        "lattices of the preconditioner": without(
-            preconditioner._Multilevel, "__call__", stencil_only
+        "nothing": without(path, "_LARGEST_CHANGE", path._LARGEST_CHANGE),
+        "steps restricted to the contact": without(
+            RestrictedOperators, "on", lambda self, nodes: None
         ),
+        "sums over pairs of few nodes": without(convolution, "_PAIRS", 0.0),
         "direct solution of few nodes": without(preconditioner, "_DIRECT", 0),
         "energy of the tangent's error as its measure (1e-12 instead)": without(
             tangent, "_ENERGY_MARGIN", 1e-6
         ),
-        "half of the rise for predicting new contact": without(path, "_PART_OF_RISE", 1.0),
         "prediction along the tangent (coarse grids every time)": without(
-            path, "_LARGEST_RISE", 0.0
+            path, "_LARGEST_CHANGE", 0.0
         ),
         "coarse grids (rigid shift for the first load)": without(cascade, "_COARSEST", 10**6),
     }

@@ -30,8 +30,8 @@ _SATURATED = 0.2
 _FULL = 1.0
 _SLOPE_FACTOR = 1.6  # Persson's theory has sqrt(2), and has too little in contact under small loads
 # A load with its stiffness takes as long as so many convolutions of whole fields, on average over a
-# path. It does some 35, most of them in single precision and on a part of the rows.
-_CONVOLUTIONS = 20
+# path, most of it for steps that are restricted to the contact.
+_CONVOLUTIONS = 14
 _SECONDS_AT_LEAST = 1e-3  # of a load, on any grid [s]
 _PROBE = 512  # points along a side of the grid that is timed
 

@@ -2,7 +2,8 @@
 
 Each round has four steps.
 
-1. The gap that the trial pressures leave is computed on the whole grid, and with it the residuals.
+1. The gap that the trial pressures leave is computed wherever the problem is looked at, on the
+   whole grid or near the contact, and with it the residuals.
 2. The search ends where the residuals are within the tolerance, or where they fall no more.
 3. Conjugate gradients lead the pressures towards those that close the gap on the trial nodes,
    until what is wrong with the set of nodes outweighs what is wrong with the pressures [3]_.
@@ -38,7 +39,7 @@ from roughline.halfspace.trial import Trial
 
 
 def search(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
-    """Find the contact set and the pressures under one load.
+    """Find the contact set and the pressures under one load, with the operator of the problem.
 
     Parameters
     ----------

@@ -3,7 +3,7 @@
 A search near the contact, with an operator that is restricted to it, errs by what this operator
 errs. So the exact operator tells the gap of what was found, everywhere, and the search goes on from
 there: the restricted operator is asked only for what further changes of the pressures displace.
-Each turn leaves a hundredth of the error or less. The residuals that count are those of the exact
+Each turn leaves some 1/500 of the error. The residuals that count are those of the exact
 operator. Where turns do not help, the search goes on with the exact operator alone.
 """
 
