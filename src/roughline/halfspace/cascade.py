@@ -58,7 +58,7 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     nodes = np.flatnonzero(pressure > 0)
     if nodes.size:
         return ContactSet(nodes, pressure.flat[nodes]), largest
-    return _rigid_guess(problem, load), 0.0
+    return _rigid_guess(problem, load), largest
 
 
 def _halved(field: Real) -> Real:
