@@ -139,7 +139,7 @@ def nearby(
 
 
 def _close_nodes(gap: Real, nodes: Indices, reach: float) -> Indices:
-    """Return the nodes off the contact whose gap is small, as many as a part of the grid at most."""
+    """Return the nodes off the contact whose gap is small; at most a part of the grid."""
     reach *= float(np.sqrt(np.mean(gap.flat[nodes] ** 2)))
     close = gap.ravel() < reach
     close[nodes] = False
