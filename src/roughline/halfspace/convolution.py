@@ -19,6 +19,7 @@ _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
 _PAIRS = 1.5  # of nodes for each mode, up to which sums over pairs take less time ...
 _MANY = 2**20  # ... where there are so many modes
+_SPARE = 8  # modes at the end of each row, as caches hold few rows a power of two apart
 _SMALL = 2**16  # modes, which a thread transforms before another has begun
 _TABLE_AT_A_TIME = 2**16  # points
 _LARGE = 2**22  # points of the padded rows, from which on memory counts
@@ -86,7 +87,7 @@ class Convolution:
         Single precision uses the memory of double precision once that is allocated.
         """
         if precision not in self._buffers:
-            shape = (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision)
+            shape = (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision) + _SPARE
             if precision == "float64":
                 self._buffers.clear()  # single precision shares the memory from now on
                 modes: Any = np.empty(shape, dtype=np.complex128)
@@ -157,6 +158,7 @@ class Convolution:
         """
         (nx, ny), (mx, my) = self.shape, self.periods
         modes, real_modes = self._buffer(precision)
+        period = my // self._parts(precision)
         spectrum = self.spectrum[:, odd :: self._parts(precision)]
         rows_out = np.arange(nx) if targets is None else targets.rows
         angles = 2 * np.pi / my * np.arange(ny if odd else 0)
@@ -165,32 +167,32 @@ class Convolution:
         def transform_rows(first: int, last: int) -> None:
             places = sources.starts, sources.columns
             if odd:
-                loops.scatter_turned(pressure, *places, turns, first, last, real_modes)
+                loops.scatter_turned(pressure, *places, turns, first, last, real_modes, period)
             else:
-                loops.scatter_pairs(pressure, *places, first, last, real_modes)
-            fft.fft_rows(modes[first:last], forward=True)
+                loops.scatter_pairs(pressure, *places, first, last, real_modes, period)
+            fft.fft_rows(modes[first:last, :period], forward=True)
 
         def convolve_columns(first: int, last: int) -> None:
             columns = np.empty((mx, last - first), dtype=modes.dtype)
             real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
-            loops.load_columns(real_modes, sources.rows, first, odd, real_columns)
+            loops.load_columns(real_modes, period, sources.rows, first, odd, real_columns)
             fft.fft_columns(columns, forward=True)
             loops.weigh_columns(real_columns, spectrum, first)
             fft.fft_columns(columns, forward=False)
-            loops.store_columns(real_columns, rows_out, first, odd, real_modes)
+            loops.store_columns(real_columns, rows_out, first, odd, real_modes, period)
 
         def transform_rows_back(first: int, last: int) -> None:
-            fft.fft_rows(modes[first:last], forward=False)
+            fft.fft_rows(modes[first:last, :period], forward=False)
             if targets is None and odd:
-                loops.add_turned_rows(real_modes, turns, first, last, result)
+                loops.add_turned_rows(real_modes, period, turns, first, last, result)
             elif targets is None:
-                loops.gather_rows(real_modes, first, last, result)
+                loops.gather_rows(real_modes, period, first, last, result)
             elif odd:
                 places = targets.starts, targets.columns
-                loops.add_turned_pairs(real_modes, *places, turns, first, last, result)
+                loops.add_turned_pairs(real_modes, period, *places, turns, first, last, result)
             else:
                 places = targets.starts, targets.columns
-                loops.gather_pairs(real_modes, *places, first, last, result)
+                loops.gather_pairs(real_modes, period, *places, first, last, result)
 
         modes_at_a_time, pairs_at_a_time = _MODES_AT_A_TIME, _PAIRS_AT_A_TIME
         if mx * my <= _SMALL:

@@ -10,6 +10,7 @@ References
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,7 +49,12 @@ def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> Real:
     )
     result = np.empty(x.shape)
     _fill_points(
-        x.ravel(), y.ravel(), dx / unit, dy / unit, _multipoles(dx, dy), result.reshape(-1)
+        x.ravel(),
+        y.ravel(),
+        dx / unit,
+        dy / unit,
+        _multipoles(dx / unit, dy / unit),
+        result.reshape(-1),
     )
     return result * (unit / np.pi)
 
@@ -68,11 +74,13 @@ def love_rows(first: int, dx: float, dy: float, factor: float, rows: Real) -> No
         Overwritten.
     """
     unit = max(dx, dy)
-    _fill_rows(first, dx / unit, dy / unit, _multipoles(dx, dy), factor * unit / np.pi, rows)
+    sides = dx / unit, dy / unit
+    _fill_rows(first, *sides, _multipoles(*sides), factor * unit / np.pi, rows)
 
 
+@lru_cache
 def _multipoles(dx: float, dy: float) -> Real:
-    """Return the mean over the cell of the terms of 1/r, with its longer side as the unit.
+    """Return the mean over a cell, whose longer side is one, of the terms of 1/r.
 
     1/r seen from (u, v) in the cell is the sum over even l of ``rho^l P_l(cos g) / r^(l+1)``, where
     ``rho cos g = u cos t + v sin t`` in the direction t; odd terms have no mean.
@@ -82,7 +90,7 @@ def _multipoles(dx: float, dy: float) -> Real:
     ndarray, shape (_MULTIPOLES + 1, _MULTIPOLES + 1)
         Row k holds the factor of ``1/r^(2k+1)`` as a polynomial in cos² t.
     """
-    half_sides = dx / max(dx, dy) / 2, dy / max(dx, dy) / 2
+    half_sides = dx / 2, dy / 2
     moments = [
         [half ** (2 * i) / (2 * i + 1) for i in range(_MULTIPOLES + 1)] for half in half_sides
     ]

@@ -45,7 +45,13 @@ def list_rows(
 
 @compiled
 def scatter_pairs(
-    values: Floats, starts: Integers, columns: Integers, first: int, last: int, pairs: Floats
+    values: Floats,
+    starts: Integers,
+    columns: Integers,
+    first: int,
+    last: int,
+    pairs: Floats,
+    period: int,
 ) -> None:
     """Write the values of two rows each into the real and imaginary parts of one complex row.
 
@@ -57,10 +63,11 @@ def scatter_pairs(
         Where each row begins in `values`; column of each value, below twice the period.
     first, last : int
         The pairs to fill.
-    pairs : ndarray, shape (pairs, period, 2)
+    pairs : ndarray, shape (pairs, period or more, 2)
         Overwritten, zero where there are no values. Values a period apart are added.
+    period : int
+        Columns in use.
     """
-    period = pairs.shape[1]
     for pair in range(first, last):
         pairs[pair] = 0
         for part in range(2):
@@ -80,6 +87,7 @@ def scatter_turned(
     first: int,
     last: int,
     pairs: Floats,
+    period: int,
 ) -> None:
     """Write as scatter_pairs does, each value times the conjugate of its column's complex turn.
 
@@ -87,10 +95,9 @@ def scatter_turned(
     ----------
     turns : ndarray, shape (columns, 2)
         Real and imaginary part.
-    values, starts, columns, first, last, pairs
+    values, starts, columns, first, last, pairs, period
         As for scatter_pairs.
     """
-    period = pairs.shape[1]
     for pair in range(first, last):
         z = pairs[pair]
         z[:] = 0
@@ -106,10 +113,15 @@ def scatter_turned(
 
 @compiled
 def gather_pairs(
-    pairs: Floats, starts: Integers, columns: Integers, first: int, last: int, values: Floats
+    pairs: Floats,
+    period: int,
+    starts: Integers,
+    columns: Integers,
+    first: int,
+    last: int,
+    values: Floats,
 ) -> None:
     """Read back the values that scatter_pairs wrote."""
-    period = pairs.shape[1]
     for row in range(2 * first, min(2 * last, starts.size - 1)):
         for i in range(starts[row], starts[row + 1]):
             column = columns[i] if columns[i] < period else columns[i] - period
@@ -119,6 +131,7 @@ def gather_pairs(
 @compiled
 def add_turned_pairs(
     pairs: Floats,
+    period: int,
     starts: Integers,
     columns: Integers,
     turns: Floats,
@@ -127,7 +140,6 @@ def add_turned_pairs(
     values: Floats,
 ) -> None:
     """Read back the values that scatter_turned wrote, and add them to others."""
-    period = pairs.shape[1]
     for row in range(2 * first, min(2 * last, starts.size - 1)):
         part = row % 2
         for i in range(starts[row], starts[row + 1]):
@@ -138,9 +150,8 @@ def add_turned_pairs(
 
 
 @compiled
-def gather_rows(pairs: Floats, first: int, last: int, field: Floats) -> None:
+def gather_rows(pairs: Floats, period: int, first: int, last: int, field: Floats) -> None:
     """Read back whole rows, cropped to the field."""
-    period = pairs.shape[1]
     for row in range(2 * first, min(2 * last, field.shape[0])):
         for column in range(field.shape[1]):
             place = column if column < period else column - period
@@ -148,9 +159,10 @@ def gather_rows(pairs: Floats, first: int, last: int, field: Floats) -> None:
 
 
 @compiled
-def add_turned_rows(pairs: Floats, turns: Floats, first: int, last: int, field: Floats) -> None:
+def add_turned_rows(
+    pairs: Floats, period: int, turns: Floats, first: int, last: int, field: Floats
+) -> None:
     """Read back whole rows as add_turned_pairs does, and add them to the field."""
-    period = pairs.shape[1]
     for row in range(2 * first, min(2 * last, field.shape[0])):
         part = row % 2
         for column in range(field.shape[1]):
@@ -180,7 +192,9 @@ def leave_gaps(field: Floats, separation: Floats, touch: float, approach: float)
 
 
 @compiled
-def load_columns(pairs: Floats, rows: Integers, first: int, odd: int, columns: Floats) -> None:
+def load_columns(
+    pairs: Floats, period: int, rows: Integers, first: int, odd: int, columns: Floats
+) -> None:
     """Separate two real rows from each complex one, for a block of modes, and pad with zeros.
 
     A = (Z(k) + Z(-k)*) / 2 and B = (Z(k) - Z(-k)*) / 2i are the spectra of the real and imaginary
@@ -188,8 +202,10 @@ def load_columns(pairs: Floats, rows: Integers, first: int, odd: int, columns: F
 
     Parameters
     ----------
-    pairs : ndarray, shape (pairs, period, 2)
+    pairs : ndarray, shape (pairs, period or more, 2)
         Transformed rows.
+    period : int
+        Columns in use.
     rows : ndarray of int
         Where in the columns each of the real rows belongs.
     first : int
@@ -200,7 +216,6 @@ def load_columns(pairs: Floats, rows: Integers, first: int, odd: int, columns: F
     columns : ndarray, shape (padded rows, modes, 2)
         Overwritten.
     """
-    period = pairs.shape[1]
     half = pairs.dtype.type(0.5)
     columns[:] = 0
     for pair in range((rows.size + 1) // 2):
@@ -254,9 +269,10 @@ def fold_rows(rows: Floats, weights: Floats, places: Integers, sums: Floats) -> 
 
 
 @compiled
-def store_columns(columns: Floats, rows: Integers, first: int, odd: int, pairs: Floats) -> None:
+def store_columns(
+    columns: Floats, rows: Integers, first: int, odd: int, pairs: Floats, period: int
+) -> None:
     """Join two real rows into each complex one: the inverse of load_columns, for some rows."""
-    period = pairs.shape[1]
     for pair in range((rows.size + 1) // 2):
         z = pairs[pair]
         a = columns[rows[2 * pair]]
