@@ -18,7 +18,7 @@ from roughline.computing.cores import available_cores
 
 TOLERANCE = 1e-6
 SEED = 7
-WARM_UP = 128  # points along a side; no timed grid has as few
+WARM_UP = 480  # points along a side; no timed grid has as few
 MOST_ITERATIONS = 100_000
 SPAWN = multiprocessing.get_context("spawn")
 
@@ -176,8 +176,8 @@ def program_of(label):
 def timed(press, n, hurst, limit):
     """Press in a process of its own, and stop it after so many seconds.
 
-    The process has pressed a smaller grid before: what must be compiled is compiled, and neither
-    tables nor memory of the timed grid are there. What comes back has "seconds" when it ended, and
+    The process has pressed another surface on another grid before: machine code is loaded, and
+    neither tables nor memory of the timed grid are there. What comes back has "seconds" when it ended, and
     "others", the part of them in which other work had the cores; "stopped_after" when it was
     stopped; and "failed" when it raised or died.
     """
@@ -198,7 +198,7 @@ def timed(press, n, hurst, limit):
 
 
 def answer(sender, press, n, hurst):
-    """Press a small surface and then the timed one; tell when the latter begins and how it ends."""
+    """Press another surface and then the timed one; tell when the latter begins and how it ends."""
     warnings.simplefilter("ignore")
     spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0)
     press(spectrum.surface(WARM_UP, SEED))

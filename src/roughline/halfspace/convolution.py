@@ -26,7 +26,7 @@ _LARGE = 2**22  # points of the padded rows, from which on memory counts
 _LONG = 64  # points along a side, from which on it has as many periods to choose from
 
 
-MUCH = 2**28
+MUCH = 2**26
 """Bytes from which on memory that is not needed for a while is given back.
 
 Less is kept: to touch new memory for the first time can take longer than the work on it.

@@ -17,7 +17,8 @@ from roughline.halfspace.active_set import search
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.convolution import MUCH
 from roughline.halfspace.exchange import able_to_carry
-from roughline.halfspace.nearby import NearbyProblem, nearby
+from roughline.halfspace.nearby import Nearby, nearby
+from roughline.halfspace.operator import Precision
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.trial import Trial
 
@@ -44,6 +45,7 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         Tolerance, bound on the convolutions and precision.
     """
     contact_set, gap = start, None
+    del start  # from here on, nothing is held that is not needed
     spent, worst, precision = Spent(), np.inf, method.steps
     while True:
         contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), problem.separation)
@@ -59,12 +61,13 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         near = nearby(problem, trial)
         if near is None or left <= 1 or not worst < 0.5 * worst_before:
             break
-        del trial
+        del trial, contact_set
         if gap.nbytes > MUCH:
             gap = None
         problem.operator.release_buffers()
         bounded = replace(method, max_iterations=left)
-        contact_set = _refined(*near, load, worst, bounded, spent)
+        contact_set = _refined(near, load, worst, bounded, spent)
+        del near
         precision = method.certificate
     left = max(1, method.max_iterations - spent.total)
     rest = replace(method, max_iterations=left)
@@ -95,24 +98,15 @@ class Spent:
         return self.convolutions + self.products
 
 
-def _refined(
-    near: NearbyProblem,
-    start: ContactSet,
-    load: Load,
-    worst: float,
-    method: Method,
-    spent: Spent,
-) -> ContactSet:
+def _refined(near: Nearby, load: Load, worst: float, method: Method, spent: Spent) -> ContactSet:
     """Search near the contact, correcting the defect there, until a certificate is likely.
 
     What is found is returned on the grid.
 
     Parameters
     ----------
-    near : NearbyProblem
-        The problem near the contact.
-    start : ContactSet
-        Where to start from.
+    near : Nearby
+        The problem near the contact, and where to start from; both are overwritten.
     load : Load
         What is prescribed.
     worst : float
@@ -126,22 +120,38 @@ def _refined(
     while True:
         target, left = max(_GAIN * worst, _AIM * method.rtol), most - spent.total
         rough = Method(target, max(1, min(left - 1, _PRODUCTS)), "float32")
-        found = search(near, load, start, rough)
-        spent.products += found.convolutions
-        start = ContactSet(found.nodes, found.pressure)
+        spent.products += _search(near, load, rough)
         expected = max(target, _DEFECT * worst)
         if expected <= method.rtol or most - spent.total <= 1:
-            return near.on_grid(start)
+            break
         precision = method.steps if expected > _SINGLE_ABOVE else method.certificate
-        exact = near.recentred(start, precision)
-        near.operator.release_buffers()
         spent.convolutions += 1
-        trial = exact.trial(load, start)
-        worst_before, worst = worst, trial.residuals.worst
-        nearer = nearby(exact, trial, _REACH)
-        if nearer is None or not worst < 0.5 * worst_before:
-            return exact.on_grid(start)
-        near, start = nearer
+        worst_before, worst = worst, _correct(near, load, precision)
+        if not worst < 0.5 * worst_before:
+            break
+    return near.on_grid
+
+
+def _search(near: Nearby, load: Load, method: Method) -> int:
+    """Search near the contact, and return the products that it took."""
+    found = search(near.problem, load, near.contact_set, method)
+    near.contact_set = ContactSet(found.nodes, found.pressure)
+    return found.convolutions
+
+
+def _correct(near: Nearby, load: Load, precision: Precision) -> float:
+    """Compute exactly what was found displaces, and return the largest residual.
+
+    It is infinite where the exact operator is cheaper than a restricted one.
+    """
+    exact = near.problem.recentred(near.contact_set, precision)
+    exact.operator.release_buffers()
+    trial = exact.trial(load, near.contact_set)
+    nearer = nearby(exact, trial, _REACH)
+    if nearer is None:
+        return np.inf
+    near.problem, near.contact_set = nearer.problem, nearer.contact_set
+    return trial.residuals.worst
 
 
 def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> ContactSet:
@@ -155,6 +165,5 @@ def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> 
     if near is None:
         contact = search(problem, load, contact_set, method)
         return ContactSet(contact.nodes, contact.pressure)
-    there, start = near
-    found = search(there, load, start, method)
-    return there.on_grid(ContactSet(found.nodes, found.pressure))
+    _search(near, load, method)
+    return near.on_grid

@@ -83,15 +83,31 @@ class NearbyProblem(Problem):
         """Return a set of sites with its pressures as a trial."""
         return Trial.of(self, load, contact_set, "float32", np.empty_like(self.moved))
 
-    def on_grid(self, contact_set: ContactSet) -> ContactSet:
-        """Return a set of sites as one of nodes of the grid."""
-        return ContactSet(self.sites.indices[contact_set.nodes], contact_set.pressure)
+
+@dataclass
+class Nearby:
+    """A problem near the contact, and the contact set that is looked at.
+
+    Attributes
+    ----------
+    problem : NearbyProblem
+        The problem.
+    contact_set : ContactSet
+        Sites in contact and the pressures on them.
+    """
+
+    problem: NearbyProblem
+    contact_set: ContactSet
+
+    @property
+    def on_grid(self) -> ContactSet:
+        """The contact set as one of nodes of the grid."""
+        nodes = self.problem.sites.indices[self.contact_set.nodes]
+        return ContactSet(nodes, self.contact_set.pressure)
 
 
-def nearby(
-    problem: Problem, trial: Trial, reach: float = REACH
-) -> tuple[NearbyProblem, ContactSet] | None:
-    """Look at a problem near the contact of a trial.
+def nearby(problem: Problem, trial: Trial, reach: float = REACH) -> Nearby | None:
+    """Look at a problem near the contact of a trial; None where the exact operator is cheaper.
 
     Parameters
     ----------
@@ -99,15 +115,6 @@ def nearby(
         The problem, and the trial with its gap.
     reach : float
         Nodes off the contact are looked at whose gap is below so many times the error.
-
-    Returns
-    -------
-    problem : NearbyProblem
-        The problem there.
-    contact_set : ContactSet
-        Sites in contact and the pressures on them.
-
-    None where the exact operator is cheaper than a restricted one.
     """
     contact_set = trial.contact_set
     sites, order = merged(contact_set.nodes, _close_nodes(trial.gap, contact_set.nodes, reach))
@@ -135,7 +142,7 @@ def nearby(
         before,
         moved,
     )
-    return near, ContactSet(places, contact_set.pressure)
+    return Nearby(near, ContactSet(places, contact_set.pressure))
 
 
 def _close_nodes(gap: Real, nodes: Indices, reach: float) -> Indices:

@@ -80,8 +80,6 @@ class ConjugateGradients:
     level : float
         The uniform displacement that goes with a fixed total; zero where the total is free.
         [length]
-    error : ndarray, shape (nodes,)
-        Displacement that is still missing. [length]
     energy : float
         Estimate of the energy norm of the error, squared. [pressure length]
     gained : float
@@ -126,8 +124,12 @@ class ConjugateGradients:
         if self._ones is not None:
             self.level = -float(self._step.sum() / self._ones.sum())
             self._step += self.level * self._ones
-        self.error = self._residual + self.level
         self._energy_before, self.energy = self.energy, float(self.error @ self._step)
+
+    @property
+    def error(self) -> Real:
+        """Displacement that is still missing, shape (nodes,). [length]"""
+        return self._residual + self.level
 
     def advance(self) -> bool:
         """Do one step; return False if there is nothing more to gain."""

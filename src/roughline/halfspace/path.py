@@ -105,26 +105,25 @@ class _Path:
         """Solve the contact under a load; elastic until a node exceeds the hardness."""
         if self._furthest is not None and load.value > self._furthest.load.value:
             self._furthest = None
-        start, self._start = self._start, None
         problem, most = self._elastic_or_yielding(load), self._yielding.largest_pressure
-        if start is None:
-            start, pressure = first_guess(problem, load)
-            if pressure > _BEYOND_DOUBT * most and problem.conditions is not self._yielding:
+        if self._start is None:
+            self._start, largest = first_guess(problem, load)
+            if largest > _BEYOND_DOUBT * most and problem.conditions is not self._yielding:
                 problem = replace(problem, conditions=self._yielding)
-                start, _ = first_guess(problem, load)
-        contact = self._solve(problem, load, start)
+                self._start, _ = first_guess(problem, load)
+        contact = self._solve(problem, load)
         if contact.pressure.max() > most:
             problem = replace(problem, conditions=self._yielding)
-            start = ContactSet(contact.nodes, self._yielding.projected(contact.pressure))
-            spent = contact.convolutions
-            del contact
-            contact = self._solve(problem, load, start, spent)
+            pressure = self._yielding.projected(contact.pressure)
+            self._start, spent = ContactSet(contact.nodes, pressure), contact.convolutions
+            del contact, pressure
+            contact = self._solve(problem, load, spent)
             contact = replace(contact, convolutions=contact.convolutions + spent)
         self._yields |= problem.conditions is self._yielding
         return contact
 
-    def _solve(self, problem: Problem, load: Load, start: ContactSet, spent: int = 0) -> Contact:
-        """Solve a contact that has spent some of its convolutions before.
+    def _solve(self, problem: Problem, load: Load, spent: int = 0) -> Contact:
+        """Solve a contact from its start; it has spent some of its convolutions before.
 
         Where nodes at the hardness alone would bear the force, it is made slightly less: with no
         elastic node among them the depth would be open.
@@ -135,7 +134,14 @@ class _Path:
             if whole and abs(nodes - whole) <= _SAME_FORCE * whole:
                 load = Load(force=load.force * (1 - 2 * _SAME_FORCE))
         left = max(1, self._method.max_iterations - spent)
-        return solve(problem, load, start, replace(self._method, max_iterations=left))
+        method = replace(self._method, max_iterations=left)
+        return solve(problem, load, self._taken_start(), method)
+
+    def _taken_start(self) -> ContactSet:
+        """Return where a search starts, and hold it no longer."""
+        start, self._start = self._start, None
+        assert start is not None
+        return start
 
     def _elastic_or_yielding(self, load: Load) -> Problem:
         """Return the bodies as the last load left them, elastic if they may be under this one.

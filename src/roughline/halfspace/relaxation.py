@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.conditions import (
     ContactConditions,
     Violations,
@@ -95,11 +95,11 @@ def relaxed(
     gradients = equations.gradients
     while True:
         level = trial.approach if load.force is None else gradients.level
-        error = float(np.abs(gradients.error).max(initial=0.0))
+        error, squared = _largest_and_squared(gradients.error)
         wrong = equations.violations(conditions, level, tolerance)
         if error <= tolerance or gradients.steps >= most_steps:
             break
-        outweighed = wrong.squared(diagonal) > gradients.error @ gradients.error
+        outweighed = wrong.squared(diagonal) > squared
         if outweighed and gradients.steps and not to_tolerance:
             break
         if not gradients.advance():
@@ -107,6 +107,11 @@ def relaxed(
     pressure[elastic] = gradients.pressure
     largest_error = max(error, max(out_of_bounds(conditions, gradients.pressure)) * diagonal)
     return Relaxation(wrong, level, largest_error, gradients.steps)
+
+
+def _largest_and_squared(values: Real) -> tuple[float, float]:
+    """Return the largest magnitude, and the sum of squares."""
+    return float(np.abs(values).max(initial=0.0)), float(values @ values)
 
 
 @dataclass(frozen=True, eq=False)
