@@ -24,11 +24,11 @@ def cut_out(surface: rl.Surface) -> rl.Surface:
 
 def test_an_estimate_grows_with_points_loads_and_fields():
     small, large = rl.estimate((2048, 2048), 20), rl.estimate((8192, 8192), 20)
-    assert large.memory == 16 * small.memory
+    assert 12 * small.memory < large.memory <= 16 * small.memory
     assert large.seconds > 8 * small.seconds
     assert rl.estimate((2048, 2048), 20, fields=True).memory > 3 * small.memory
     assert rl.estimate((2048, 2048), 20, yielding=True).memory > 1.3 * small.memory
-    assert str(large).startswith("about 5.6 GB and ")
+    assert str(large).startswith("about 4.7 GB and ")
 
 
 @pytest.mark.parametrize("periodic", [False, True])

@@ -1,5 +1,7 @@
 """The half-space makes one map from pressures to displacements, in any units and on any grid."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -82,3 +84,16 @@ def test_sums_over_pairs_are_those_of_the_transforms(monkeypatch, shape, spacing
     out = np.empty(200)
     assert operator.displacement(pressure, sources, targets, out=out) is out
     np.testing.assert_array_equal(out, summed)
+
+
+def test_the_displacement_of_many_nodes_under_few_takes_no_more_than_the_transform():
+    """Sums over pairs hold one part for each of 32 blocks, which is much for many nodes."""
+    shape = (1024, 1024)
+    operator = HalfSpace(E_star=1.0).operator(shape, (1.0, 1.0))
+    sources, targets = GridNodes.of(np.arange(4), shape), GridNodes.of(np.arange(2**19), shape)
+    operator.displacement(np.ones(4), sources, targets)  # its memory stays
+    tracemalloc.start()
+    operator.displacement(np.ones(4), sources, targets)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 4 * 8 * 2**19

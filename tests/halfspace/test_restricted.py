@@ -199,7 +199,7 @@ def test_a_damaged_one_costs_time_and_never_a_wrong_result(monkeypatch, damage, 
 
 def test_a_turn_that_does_not_help_is_not_repeated(monkeypatch):
     """A search near the contact that finds nothing is left to the exact operator."""
-    monkeypatch.setattr(correction, "_refined", lambda near, start, *rest: near.on_grid(start))
+    monkeypatch.setattr(correction, "_refined", lambda near, *rest: near.on_grid)
     curve = rl.press(heights(), E_star=1.0, forces=[0.3])
     assert curve.converged.all()
 

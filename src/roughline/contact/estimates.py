@@ -14,17 +14,14 @@ from roughline.topography.body import Surface
 # Most memory that a path of loads held at any time beside the surface, as measured (see
 # docs/speed.md): on grids without contact; of the contact, for each of its nodes; and of the nodes
 # watched beside it, which are many where both contact and gap are. [bytes per point]
-_BYTES = 36
-_BYTES_SMALL = 50  # up to so many points that rows are transformed all at once
-_BYTES_PERIODIC = 29
-_BYTES_OF_CONTACT = 145
-_BYTES_OF_WATCHED = 75
-_BYTES_OF_WATCHED_PERIODIC = 115
-_SMALL = 1448**2  # points
-_SEVERAL = 1.15  # times as much of the contact where several loads follow each other
+_BYTES = {False: (51, 46, 29), True: (34, 34, 23)}  # free, periodic; small, medium, large grids
+_SIDES = 1448, 2896  # points along a side: more are medium, and large
+_BYTES_OF_CONTACT = 131
+_BYTES_OF_WATCHED = {False: 60, True: 111}
+_SEVERAL = 1.14  # times as much of the contact where several loads follow each other
 _BYTES_OF_FIELDS = 34  # of one load
 _BYTES_OF_YIELD = 25
-_BYTES_OF_DENTS = 30  # for each node in contact
+_BYTES_OF_DENTS = 50  # for each node in contact
 # Largest share in contact where it is not known: that at saturation, free and periodic.
 _SATURATED = 0.2
 _FULL = 1.0
@@ -139,13 +136,10 @@ def memory_for(
     share = area_fraction
     if share is None:
         share = _FULL if periodic else _SATURATED
-    bytes_ = _BYTES if points > _SMALL else _BYTES_SMALL
-    watched = _BYTES_OF_WATCHED
-    if periodic:
-        bytes_, watched = _BYTES_PERIODIC, _BYTES_OF_WATCHED_PERIODIC
-    vectors = share * (_BYTES_OF_CONTACT + watched * (1 - share))
-    total = bytes_ + vectors * (_SEVERAL if several else 1.0)
-    if yielding:
+    size = sum(points > side**2 for side in _SIDES)
+    vectors = share * (_BYTES_OF_CONTACT + _BYTES_OF_WATCHED[periodic] * (1 - share))
+    total = _BYTES[periodic][size] + vectors * (_SEVERAL if several else 1.0)
+    if yielding and several:  # the surface is kept as loads have left it
         total += _BYTES_OF_YIELD + _BYTES_OF_DENTS * share
     return points * round(total + _BYTES_OF_FIELDS * kept_fields)
 

@@ -13,7 +13,7 @@ from roughline.computing.arrays import Real
 from roughline.halfspace import loops
 from roughline.halfspace.kernel import love_rows
 from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
-from roughline.halfspace.pair_sums import KernelRows, displaced_by_pairs
+from roughline.halfspace.pair_sums import ROWS_AT_A_TIME, KernelRows, displaced_by_pairs
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
@@ -106,10 +106,11 @@ class Convolution:
             self._buffers.clear()
 
     def _pairs_are_few(self, sources: GridNodes, targets: GridNodes) -> bool:
-        """Whether sums over pairs of nodes take less time than transforms."""
+        """Whether sums over pairs take less time than transforms, and no more memory than rows."""
         modes = self.periods[0] * self.periods[1]
         pairs = sources.indices.size * targets.indices.size
-        return self.kernel_rows is not None and modes >= _MANY and pairs <= _PAIRS * modes
+        fit = targets.indices.size <= ROWS_AT_A_TIME * self.shape[1]
+        return self.kernel_rows is not None and modes >= _MANY and fit and pairs <= _PAIRS * modes
 
     def displacement(
         self,
@@ -156,13 +157,12 @@ class Convolution:
         back, crop, join), then rows back. Of long padded rows, even modes are taken first: the
         transform of half the period. Odd ones are that of the row turned by one mode.
         """
-        (nx, ny), (mx, my) = self.shape, self.periods
+        (nx, ny), (mx, my), parts = self.shape, self.periods, self._parts(precision)
         modes, real_modes = self._buffer(precision)
-        period = my // self._parts(precision)
-        spectrum = self.spectrum[:, odd :: self._parts(precision)]
+        period, spectrum = my // parts, self.spectrum[:, odd::parts]
         rows_out = np.arange(nx) if targets is None else targets.rows
-        angles = 2 * np.pi / my * np.arange(ny if odd else 0)
-        turns = np.stack([np.cos(angles), np.sin(angles)], axis=1).astype(real_modes.dtype)
+        turns = np.exp(2j * np.pi / my * np.arange(ny if odd else 0))
+        turns = turns.astype(modes.dtype).view(real_modes.dtype).reshape(-1, 2)
 
         def transform_rows(first: int, last: int) -> None:
             places = sources.starts, sources.columns

@@ -14,7 +14,8 @@ from roughline.halfspace.operator import GridNodes
 KernelRows = Callable[[int, Real], None]
 """Fills rows of the table of a kernel by the distance in cells, from a first row on."""
 
-_ROWS_AT_A_TIME = 32
+ROWS_AT_A_TIME = 32
+"""Rows of the table whose sums are added up before those of others."""
 
 
 def displaced_by_pairs(
@@ -36,15 +37,15 @@ def displaced_by_pairs(
     """
     nx, ny = sources.shape
     loaded = sources.starts, sources.columns, sources.place_of_rows
-    parts = np.zeros((-(-nx // _ROWS_AT_A_TIME), targets.indices.size))
+    parts = np.zeros((-(-nx // ROWS_AT_A_TIME), targets.indices.size))
 
     def add(first: int, last: int) -> None:
         table = np.empty((last - first, ny))
         kernel_rows(first, table)
-        part = parts[first // _ROWS_AT_A_TIME]
+        part = parts[first // ROWS_AT_A_TIME]
         _add_pairs(table, first, pressure, loaded, targets.listed, part)
 
-    fft.share_out_blocks(add, nx, _ROWS_AT_A_TIME)
+    fft.share_out_blocks(add, nx, ROWS_AT_A_TIME)
     return parts.sum(axis=0)
 
 
