@@ -177,9 +177,9 @@ def timed(press, n, hurst, limit):
     """Press in a process of its own, and stop it after so many seconds.
 
     The process has pressed another surface on another grid before: machine code is loaded, and
-    neither tables nor memory of the timed grid are there. What comes back has "seconds" when it ended, and
-    "others", the part of them in which other work had the cores; "stopped_after" when it was
-    stopped; and "failed" when it raised or died.
+    neither tables nor memory of the timed grid are there. What comes back has "seconds" when it
+    ended, and "others", the part of them in which other work had the cores; "stopped_after" when it
+    was stopped; and "failed" when it raised or died.
     """
     receiver, sender = SPAWN.Pipe(duplex=False)
     process = SPAWN.Process(target=answer, args=(sender, press, n, hurst))

@@ -9,8 +9,9 @@ INTRODUCTION = """\
 All press the same surfaces, free and fractal down to the grid, and are asked for 1e-6, each in its
 own measure. Only roughline's times include a stiffness, with every load. Every timing is a
 process of its own that has pressed another grid, of 480² points, before: machine code is loaded,
-thread pools run, and neither tables, plans of transforms nor memory of the timed grid are there. All may use as many threads. Programs take turns; the best of the runs counts, and what takes
-2 s or more runs once.
+thread pools run, and neither tables, plans of transforms nor memory of the timed grid are there.
+All may use as many threads. Programs take turns; the best of the runs counts, and what takes 2 s or
+more runs once.
 
 ASPHER counts with the best of its engines in double precision at that load: an H² product that
 touches the candidate contact only, and FFT. "Fourier" is the former with the preconditioner that

@@ -9,6 +9,7 @@ import time
 import psutil
 import pytest
 
+from roughline.server import lanes
 from roughline.server import process as processes
 from roughline.server.lanes import Lane
 from roughline.server.requests import Limits, Request
@@ -261,7 +262,9 @@ def test_addresses_take_turns_and_refinements_come_last():
     run(scenario, lasting=False, limits=limits)
 
 
-def test_many_that_wait_are_told_to_the_task():
+def test_many_that_wait_are_told_to_the_task(monkeypatch):
+    monkeypatch.setattr(lanes, "_SOON", 1e9)  # who has waited long is told as well
+
     async def scenario(lane, asker):
         for number in range(12):
             asker.ask("echo", slot=f"{number}", session=f"{number}", say=number)
