@@ -6,13 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from roughline.computing import fft
 from roughline.computing.arrays import Real
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.correction import guessed
 from roughline.halfspace.lending import lent
+from roughline.halfspace.separation import Separation
 from roughline.halfspace.state import Load, Method, Problem
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
+_NODES_AT_A_TIME = 2**15  # whose means a thread computes, so many fit into a cache
 _ROUGH = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
@@ -39,7 +42,7 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     operator, separation = problem.operator, problem.separation
     if max(separation.shape) <= _COARSEST:
         return _rigid_guess(problem, load), 0.0
-    coarse_separation = _halved(np.asarray(separation))
+    coarse_separation = _halved(separation)
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(problem, load), 0.0
     shape, spacing = problem.half_space.coarser_grid(operator.shape, operator.spacing)
@@ -48,34 +51,60 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
         contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
     del coarse, inverse
     largest = float(contact.pressure.max())
-    pressure = np.zeros(shape)
-    pressure.flat[contact.nodes] = contact.pressure
-    for axis, n in enumerate(separation.shape):
-        # at the end of an odd side one node takes the force of two
-        share = spacing[axis] / operator.spacing[axis] / _widths(n, axis)
-        pressure = np.repeat(pressure * share, min(n, 2), axis=axis).take(range(n), axis=axis)
-    pressure = problem.conditions.projected(pressure)
-    nodes = np.flatnonzero(pressure > 0)
-    if nodes.size:
-        return ContactSet(nodes, pressure.flat[nodes]), largest
-    return _rigid_guess(problem, load), largest
+    # at the end of an odd side one node takes the force of two
+    shares = [
+        spacing[axis] / operator.spacing[axis] / _widths(n) for axis, n in enumerate(operator.shape)
+    ]
+    start = _spread(contact, operator.shape, shares)
+    pressure = problem.conditions.projected(start.pressure)
+    start = ContactSet(start.nodes, pressure).without(pressure <= 0)
+    return start if start.nodes.size else _rigid_guess(problem, load), largest
 
 
-def _halved(field: Real) -> Real:
+def _halved(field: Real | Separation) -> Real:
     """Means over two by two nodes; fewer at the end of an odd side."""
-    for axis, n in enumerate(field.shape):
-        along = np.moveaxis(field, axis, 0)
-        halves = along[::2].copy()
-        halves[: n // 2] += along[1::2]
-        halves[: n // 2] /= 2
-        field = np.moveaxis(halves, 0, axis)
-    return np.ascontiguousarray(field)
+    nx, ny = field.shape
+    result = np.empty((-(-nx // 2), -(-ny // 2)))
+
+    def halve(first: int, last: int) -> None:
+        part = np.asarray(field[2 * first : 2 * last])
+        for axis, n in enumerate(part.shape):
+            along = np.moveaxis(part, axis, 0)
+            halves = along[::2].copy()
+            halves[: n // 2] += along[1::2]
+            halves[: n // 2] /= 2
+            part = np.moveaxis(halves, 0, axis)
+        result[first:last] = part
+
+    fft.share_out_blocks(halve, len(result), 1 + _NODES_AT_A_TIME // ny)
+    return result
 
 
-def _widths(n: int, axis: int) -> Real:
-    """Nodes that each coarse one stands for, to be broadcast along an axis."""
-    widths = np.diff(np.append(np.arange(0.0, n, 2), n))
-    return widths[:, np.newaxis] if axis == 0 else widths
+def _widths(n: int) -> Real:
+    """Nodes along a side that each coarse one stands for."""
+    return np.diff(np.append(np.arange(0.0, n, 2), n))
+
+
+def _spread(coarse: ContactSet, shape: tuple[int, int], shares: list[Real]) -> ContactSet:
+    """Spread the pressures on coarse nodes over the nodes of a grid that each stands for.
+
+    Parameters
+    ----------
+    coarse : ContactSet
+        The coarse nodes.
+    shape : tuple of int
+        Points of the grid, (nx, ny).
+    shares : list of ndarray
+        Pressure over that of the coarse node, by its row and by its column.
+    """
+    rows, columns = np.divmod(coarse.nodes, shares[1].size)
+    pressure = coarse.pressure * shares[0][rows] * shares[1][columns]
+    x = 2 * rows[:, np.newaxis] + [0, 0, 1, 1]
+    y = 2 * columns[:, np.newaxis] + [0, 1, 0, 1]
+    inside = (x < shape[0]) & (y < shape[1])
+    nodes = (x * shape[1] + y)[inside]
+    order = np.argsort(nodes)
+    return ContactSet(nodes[order], np.repeat(pressure, inside.sum(axis=1))[order])
 
 
 def _rigid_guess(problem: Problem, load: Load) -> ContactSet:

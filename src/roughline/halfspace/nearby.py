@@ -117,7 +117,10 @@ def nearby(problem: Problem, trial: Trial, reach: float = REACH) -> Nearby | Non
         Nodes off the contact are looked at whose gap is below so many times the error.
     """
     contact_set = trial.contact_set
-    sites, order = merged(contact_set.nodes, _close_nodes(trial.gap, contact_set.nodes, reach))
+    nx, ny = problem.operator.shape
+    most = max(0, int(_LARGEST * nx * ny) - contact_set.nodes.size)
+    close = _close_nodes(trial.gap, contact_set.nodes, reach, most)
+    sites, order = merged(contact_set.nodes, close)
     nodes = problem.grid_nodes(sites)
     operator = problem.inverse.restricted.on(nodes)
     if operator is None:
@@ -145,13 +148,12 @@ def nearby(problem: Problem, trial: Trial, reach: float = REACH) -> Nearby | Non
     return Nearby(near, ContactSet(places, contact_set.pressure))
 
 
-def _close_nodes(gap: Real, nodes: Indices, reach: float) -> Indices:
-    """Return the nodes off the contact whose gap is small; at most a part of the grid."""
+def _close_nodes(gap: Real, nodes: Indices, reach: float, most: int) -> Indices:
+    """Return the nodes off the contact whose gap is small, at most so many."""
     reach *= float(np.sqrt(np.mean(gap.flat[nodes] ** 2)))
     close = gap.ravel() < reach
     close[nodes] = False
     others = np.flatnonzero(close)
-    most = max(0, int(_LARGEST * gap.size) - nodes.size)
     if others.size <= most:
         return others
     gaps = gap.flat[others]
