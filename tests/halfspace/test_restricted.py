@@ -204,6 +204,29 @@ def test_a_turn_that_does_not_help_is_not_repeated(monkeypatch):
     assert curve.converged.all()
 
 
+def test_later_searches_look_beside_the_contact_too(monkeypatch):
+    """A node that leaves by an error of the restricted operator comes back before the certificate.
+
+    The corrected search looks at nodes of which most are in contact: its share of the grid counts.
+    """
+    looked_at = []
+
+    def recorded(problem, trial, *reach):
+        near = correction_nearby(problem, trial, *reach)
+        if problem.operator.shape == (256, 256):
+            looked_at.append((near.problem.sites.indices.size, near.contact_set.nodes.size))
+        return near
+
+    correction_nearby = correction.nearby
+    monkeypatch.setattr(correction, "nearby", recorded)
+    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(256, 7)
+    curve = rl.press(surface, E_star=1.0, forces=[1.2])
+    (_, first), (sites, contact) = looked_at[:2]
+    assert contact > 0.8 * first  # of which most are in contact
+    assert contact < sites < 1.1 * contact
+    assert curve.converged.all()
+
+
 def test_the_coarse_grid_is_chosen_by_what_is_in_contact():
     operator = HalfSpace(1.0).operator((256, 256), (1.0, 1.0))
     shapes = [
