@@ -8,8 +8,9 @@ SAME_AREA = 1e-4  # relative
 INTRODUCTION = """\
 All press the same surfaces, free and fractal down to the grid, and are asked for 1e-6, each in its
 own measure. Only roughline's times include a stiffness, with every load. Every timing is a
-process of its own that has pressed another grid, of 480² points, before: machine code is loaded,
-thread pools run, and neither tables, plans of transforms nor memory of the timed grid are there.
+process of its own that has pressed another grid before (480² points; others 256², as ASPHER takes
+powers of two only): machine code is loaded, thread pools run, and neither tables, plans of
+transforms nor memory of the timed grid are there.
 All may use as many threads. Programs take turns; the best of the runs counts, and what takes 2 s or
 more runs once.
 

@@ -178,8 +178,8 @@ def main():
     add("--fresh", action="store_true", help="forget the rows measured before")
     add("--disturbed", action="store_true", help="measure rows again that other work disturbed")
     wanted = parser.parse_args()
-    if min(wanted.sizes) <= WARM_UP:
-        parser.error(f"sizes begin above {WARM_UP}, the grid that warms up")
+    if min(wanted.sizes) <= max(WARM_UP.values()):
+        parser.error(f"sizes begin above {max(WARM_UP.values())}, the grid that warms up")
     cores = available_cores()
     for library in ("OMP", "OPENBLAS", "MKL"):  # of the processes that are timed
         os.environ[f"{library}_NUM_THREADS"] = str(cores)
