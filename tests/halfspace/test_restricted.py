@@ -11,9 +11,10 @@ from roughline.computing import fft
 from roughline.halfspace import correction, lending
 from roughline.halfspace.coarse_grid import CoarseGrid
 from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import GridNodes
+from roughline.halfspace.operator import GridNodes, displacement_field
 from roughline.halfspace.preconditioner import ApproximateInverse
 from roughline.halfspace.restricted import RestrictedOperator, RestrictedOperators
+from roughline.halfspace.small_grid import SmallGrid
 
 
 def contact_nodes(shape, seed, part):
@@ -225,6 +226,19 @@ def test_later_searches_look_beside_the_contact_too(monkeypatch):
     assert contact > 0.8 * first  # of which most are in contact
     assert contact < sites < 1.1 * contact
     assert curve.converged.all()
+
+
+@pytest.mark.parametrize("shape", [(19, 19), (35, 131), (67, 12), (16, 24), (21, 15)])
+@pytest.mark.parametrize("periodic", [False, True])
+def test_whole_fields_on_small_grids_are_displaced_as_others(shape, periodic):
+    operator = HalfSpace(2.0, periodic).operator(shape, (1.0, 0.7))
+    small = SmallGrid.of(shape, operator.periods, operator.spectrum)
+    rng = np.random.default_rng(3)
+    for _ in range(2):  # its memory is used again
+        pressure = rng.normal(size=shape).astype(np.float32)
+        found = small.convolved(pressure, np.empty_like(pressure))
+        expected = displacement_field(operator, pressure.astype(float))
+        np.testing.assert_allclose(found, expected, atol=1e-6 * np.abs(expected).max())
 
 
 def test_the_coarse_grid_is_chosen_by_what_is_in_contact():

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -20,8 +20,10 @@ from roughline.halfspace import restricted_loops as loops
 from roughline.halfspace.convolution import Convolution
 from roughline.halfspace.operator import GridNodes, Operator
 from roughline.halfspace.padded_grid import PaddedGrid
+from roughline.halfspace.small_grid import SmallGrid
 
 _SPREAD_AT_A_TIME = 2**14  # nodes, whose work takes a thread longer than to begin with it
+_SMALL = 2**18  # modes, up to which one thread transforms whole rows sooner than two share them
 _BEYOND = 3  # coarse nodes that splines reach beyond the grid
 
 
@@ -76,6 +78,14 @@ class CoarseGrid:
         return np.empty(shape, dtype=np.float32), np.empty(shape, dtype=np.float32)
 
     @cached_property
+    def _small(self) -> SmallGrid | None:
+        """The same convolution where it is small."""
+        its = self.convolution
+        if its.periods[0] * its.periods[1] > _SMALL:
+            return None
+        return SmallGrid.of(its.shape, its.periods, its.spectrum)
+
+    @cached_property
     def _everywhere(self) -> GridNodes:
         nx, ny = self.convolution.shape
         return GridNodes.of(np.arange(nx * ny), (nx, ny))
@@ -108,17 +118,19 @@ class CoarseGrid:
         fft.share_out_blocks(spread_across, len(spread), 1 + _SPREAD_AT_A_TIME // len(spread))
         if self.periodic:
             grid.wrap()
-            inner = self._convolved(_folded(_folded(spread).T).T, None)
-            moved[:] = np.pad(inner, (1, 2), mode="wrap")
+            inner = np.ascontiguousarray(_folded(_folded(spread).T).T)
+            moved[:] = np.pad(self._convolved(inner, inner), (1, 2), mode="wrap")
             return moved
         return self._convolved(spread, moved)
 
-    def _convolved(self, pressure: Single, out: Single | None) -> Single:
+    def _convolved(self, pressure: Single, out: Single) -> Single:
         """Convolve on the coarse grid; all is in single precision, whatever the types say."""
+        if self._small is not None:
+            return self._small.convolved(pressure, out)
         values: Any = pressure.ravel()
         result: Any = out
-        result = self.convolution.displacement(values, self._everywhere, None, "float32", result)
-        return cast(Single, result)
+        self.convolution.displacement(values, self._everywhere, None, "float32", result)
+        return out
 
 
 def at_cells(
