@@ -47,15 +47,8 @@ def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> Real:
     x, y = np.broadcast_arrays(
         np.abs(x).astype(np.float64) / unit, np.abs(y).astype(np.float64) / unit
     )
-    result = np.empty(x.shape)
-    _fill_points(
-        x.ravel(),
-        y.ravel(),
-        dx / unit,
-        dy / unit,
-        _multipoles(dx / unit, dy / unit),
-        result.reshape(-1),
-    )
+    result, sides = np.empty(x.shape), (dx / unit, dy / unit)
+    _fill_points(x.ravel(), y.ravel(), *sides, _multipoles(*sides), result.reshape(-1))
     return result * (unit / np.pi)
 
 
