@@ -7,8 +7,9 @@ import pytest
 from scipy.linalg import eigh
 
 import roughline as rl
+from random_problems import E_STAR, random_history, random_problem
 from roughline.computing import fft
-from roughline.halfspace import correction, lending
+from roughline.halfspace import convolution, correction, lending
 from roughline.halfspace.coarse_grid import CoarseGrid
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import GridNodes, displacement_field
@@ -249,3 +250,52 @@ def test_the_coarse_grid_is_chosen_by_what_is_in_contact():
     ]
     sides = [None if each is None else each.far.weights[0].shape[0] for each in shapes]
     assert sides == [8, 4, 2, None]
+
+
+@pytest.mark.parametrize("draw", [random_problem, random_history])
+def test_searches_that_begin_where_bodies_can_touch_end_as_others(draw):
+    """Random bodies, elastic and yielding, with and without the cheap sums over pairs."""
+    compared = 0
+    for number in range(40):
+        problem = draw(np.random.default_rng([16, number]))
+        usual, near = pressed(problem), pressed(problem, cheap_sums=True)
+        if usual is None or near is None:
+            assert usual is near
+            continue
+        assert near.converged.tolist() == usual.converged.tolist()
+        solved = usual.converged
+        for name in ("force", "depth"):
+            found, expected = getattr(near, name)[solved], getattr(usual, name)[solved]
+            assert found == pytest.approx(expected, rel=1e-4), (number, problem.kind)
+        compared += 1
+    assert compared > 30
+
+
+def pressed(problem, *, cheap_sums=False):
+    """Press a body, None where that is refused; all sums over pairs count as cheap if asked."""
+    given = {"E_star": E_STAR, "periodic": problem.periodic, "throw": False, **problem.loads}
+    if problem.hardness is not None:
+        given["hardness"] = problem.hardness
+    with pytest.MonkeyPatch.context() as patch:
+        if cheap_sums:
+            patch.setattr(convolution, "_MANY", 0)
+            patch.setattr(convolution, "_PAIRS", np.inf)
+        try:
+            return rl.press(problem.surface, **given)
+        except rl.InputError:
+            return None
+
+
+def test_light_loads_transform_the_grid_once(monkeypatch):
+    wholes = []
+    displacement = convolution.Convolution.displacement
+
+    def counted(self, pressure, sources, targets=None, *others, **named):
+        if self.shape == (512, 512) and targets is None:
+            wholes.append(named.get("precision", others[0] if others else "float64"))
+        return displacement(self, pressure, sources, targets, *others, **named)
+
+    monkeypatch.setattr(convolution.Convolution, "displacement", counted)
+    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7)
+    assert rl.press(surface, E_star=1.0, forces=[0.03]).converged.all()
+    assert wholes == ["float64"]

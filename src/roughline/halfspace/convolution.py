@@ -17,7 +17,7 @@ from roughline.halfspace.pair_sums import ROWS_AT_A_TIME, KernelRows, displaced_
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
-_PAIRS = 1.5  # of nodes for each mode, up to which sums over pairs take less time ...
+_PAIRS = 4.0  # of nodes for each mode, up to which sums over pairs take less time ...
 _MANY = 2**20  # ... where there are so many modes
 _SPARE = 8  # modes at the end of each row, as caches hold few rows a power of two apart
 _SMALL = 2**16  # modes, which a thread transforms before another has begun
@@ -105,12 +105,12 @@ class Convolution:
         if sum(modes.nbytes for modes, _ in self._buffers.values()) > MUCH:
             self._buffers.clear()
 
-    def _pairs_are_few(self, sources: GridNodes, targets: GridNodes) -> bool:
+    def sums_are_cheap(self, sources: int, targets: int) -> bool:
         """Whether sums over pairs take less time than transforms, and no more memory than rows."""
         modes = self.periods[0] * self.periods[1]
-        pairs = sources.indices.size * targets.indices.size
-        fit = targets.indices.size <= ROWS_AT_A_TIME * self.shape[1]
-        return self.kernel_rows is not None and modes >= _MANY and fit and pairs <= _PAIRS * modes
+        fit = targets <= ROWS_AT_A_TIME * self.shape[1]
+        few = sources * targets <= _PAIRS * modes
+        return self.kernel_rows is not None and modes >= _MANY and fit and few
 
     def displacement(
         self,
@@ -133,7 +133,7 @@ class Convolution:
             return result
         if out is None:
             out = np.empty(self.shape if targets is None else targets.indices.size)
-        if targets is not None and self._pairs_are_few(sources, targets):
+        if targets is not None and self.sums_are_cheap(sources.indices.size, targets.indices.size):
             assert self.kernel_rows is not None
             out[:] = displaced_by_pairs(self.kernel_rows, pressure, sources, targets)
         else:

@@ -17,7 +17,7 @@ from roughline.halfspace.active_set import search
 from roughline.halfspace.contact_set import ContactSet
 from roughline.halfspace.convolution import MUCH
 from roughline.halfspace.exchange import able_to_carry
-from roughline.halfspace.nearby import Nearby, nearby
+from roughline.halfspace.nearby import Nearby, nearby, within_reach
 from roughline.halfspace.operator import Precision
 from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.trial import Trial
@@ -47,6 +47,15 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
     contact_set, gap = start, None
     del start  # from here on, nothing is held that is not needed
     spent, worst, precision = Spent(), np.inf, method.steps
+    bounded = replace(method, max_iterations=method.max_iterations - 1)
+    several = bounded.max_iterations > 1
+    begun = within_reach(problem, load, contact_set, precision) if several else None
+    if begun is not None:
+        spent.convolutions += 1
+        worst = begun[1]
+        contact_set = _refined(begun[0], load, worst, bounded, spent)
+        precision = method.certificate
+    del begun
     while True:
         contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), problem.separation)
         gap = np.empty(problem.separation.shape) if gap is None else gap
@@ -156,6 +165,10 @@ def _correct(near: Nearby, load: Load, precision: Precision) -> float:
 
 def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> ContactSet:
     """Find a contact roughly: as :func:`solve`, with one search, and no certificate."""
+    begun = within_reach(problem, load, start, method.steps)
+    if begun is not None:
+        _search(begun[0], load, method)
+        return begun[0].on_grid
     contact_set = able_to_carry(start, problem.fewest_nodes(load), problem.separation)
     gap = np.empty(problem.separation.shape)
     trial = Trial.of(problem, load, contact_set, method.steps, gap, rescale=True)

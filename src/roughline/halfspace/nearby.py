@@ -7,16 +7,21 @@ from functools import cached_property
 
 import numpy as np
 
+from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.contact_set import ContactSet, merged
+from roughline.halfspace.exchange import able_to_carry
 from roughline.halfspace.operator import GridNodes, Precision
 from roughline.halfspace.restricted import RestrictedOperator
+from roughline.halfspace.separation import Separation
 from roughline.halfspace.state import Load, Problem
 from roughline.halfspace.trial import Trial
 
 # Nodes of a gap below so many times the error on contact may come into contact.
 REACH = 2.0
 _LARGEST = 0.4  # part of the grid on which a problem is looked at
+_AROUND = 4  # nodes that can touch, for each node in contact, about
+_NODES_AT_A_TIME = 2**15  # whose separations a thread looks at
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,9 +84,10 @@ class NearbyProblem(Problem):
         moved = self.operator.displacement(contact_set.pressure, sources, self.sites, precision)
         return replace(self, before=before, moved=moved)
 
-    def trial(self, load: Load, contact_set: ContactSet) -> Trial:
+    def trial(self, load: Load, contact_set: ContactSet, *, rescale: bool = False) -> Trial:
         """Return a set of sites with its pressures as a trial."""
-        return Trial.of(self, load, contact_set, "float32", np.empty_like(self.moved))
+        out = np.empty_like(self.moved)
+        return Trial.of(self, load, contact_set, "float32", out, rescale=rescale)
 
 
 @dataclass
@@ -121,22 +127,96 @@ def nearby(problem: Problem, trial: Trial, reach: float = REACH) -> Nearby | Non
     most = max(0, int(_LARGEST * nx * ny) - contact_set.nodes.size)
     close = _close_nodes(trial.gap, contact_set.nodes, reach, most)
     sites, order = merged(contact_set.nodes, close)
+    places = np.flatnonzero(order < contact_set.nodes.size)
+    moved = trial.gap.flat[sites]
+    moved[places[~problem.conditions.elastic(contact_set.pressure)]] -= trial.overlap
+    moved += trial.approach
+    moved -= problem.separation.flat[sites] - problem.touch
+    return _looked_at(problem, sites, moved, ContactSet(places, contact_set.pressure))
+
+
+def within_reach(
+    problem: Problem, load: Load, start: ContactSet, precision: Precision
+) -> tuple[Nearby, float] | None:
+    """Look at a problem wherever the bodies can touch; return it with the largest residual.
+
+    Pressure pushes the half-space away. So a node can only touch where the bodies are nearer to
+    each other, before the load, than they approach. Returns None where the gap everywhere takes
+    no more time.
+
+    Parameters
+    ----------
+    problem, load : Problem, Load
+        The problem, and what is prescribed.
+    start : ContactSet
+        Nodes in contact, and pressures on them up to a factor.
+    precision : {"float64", "float32"}
+        Precision of the displacements.
+    """
+    operator = problem.operator
+    start = able_to_carry(start, problem.fewest_nodes(load), problem.separation)
+    nodes, pressure = start.nodes, start.pressure
+    if not operator.sums_are_cheap(nodes.size, _AROUND * nodes.size):
+        return None
+    if load.force is not None:
+        pressure = problem.conditions.with_total(pressure, load.force / operator.cell_area)
+    sources = problem.grid_nodes(nodes)
+    moved = operator.displacement(pressure, sources, sources, precision)
+    depth = load.depth
+    if depth is None:  # where the pressures put the nodes under them, by the work that they do
+        depth = float(pressure @ (moved + problem.separation.flat[nodes])) / float(pressure.sum())
+    others = np.setdiff1d(_nearer(problem.separation, depth), nodes, assume_unique=True)
+    if not operator.sums_are_cheap(nodes.size, others.size):
+        return None
+    beside = operator.displacement(pressure, sources, problem.grid_nodes(others), precision)
+    sites, order = merged(nodes, others)
+    contact_set = ContactSet(np.flatnonzero(order < nodes.size), pressure)
+    around = _looked_at(problem, sites, np.concatenate([moved, beside])[order], contact_set)
+    if around is None:
+        return None
+    trial = around.problem.trial(load, contact_set, rescale=True)
+    near = nearby(around.problem, trial)
+    return None if near is None else (near, trial.residuals.worst)
+
+
+def _nearer(separation: Real | Separation, distance: float) -> Indices:
+    """Return the nodes at which the bodies are nearer to each other than a distance."""
+    nx, ny = separation.shape
+    found: list[Indices] = [np.empty(0, dtype=np.intp)] * nx
+
+    def look(first: int, last: int) -> None:
+        found[first] = first * ny + np.flatnonzero(separation[first:last] < distance)
+
+    fft.share_out_blocks(look, nx, 1 + _NODES_AT_A_TIME // ny)
+    return np.concatenate(found)
+
+
+def _looked_at(
+    problem: Problem, sites: Indices, moved: Real, contact_set: ContactSet
+) -> Nearby | None:
+    """Look at a problem on some nodes; None where the exact operator is cheaper.
+
+    Parameters
+    ----------
+    problem : Problem
+        The problem.
+    sites : ndarray of int
+        The nodes, ascending.
+    moved : ndarray, shape (sites,)
+        Displacements of them. [length]
+    contact_set : ContactSet
+        Sites in contact, and the pressures under which they moved.
+    """
     nodes = problem.grid_nodes(sites)
     operator = problem.inverse.restricted.on(nodes)
     if operator is None:
         return None
-    places = np.flatnonzero(order < contact_set.nodes.size)
-    separation = problem.separation.flat[sites]
-    moved = trial.gap.flat[sites]
-    moved[places[~problem.conditions.elastic(contact_set.pressure)]] -= trial.overlap
-    moved += trial.approach
-    moved -= separation - problem.touch
     before = np.zeros(sites.size)
-    before[places] = contact_set.pressure
+    before[contact_set.nodes] = contact_set.pressure
     near = NearbyProblem(
         problem.half_space,
         problem.inverse,
-        separation,
+        problem.separation.flat[sites],
         problem.rms_height,
         problem.conditions,
         problem.touch,
@@ -145,7 +225,7 @@ def nearby(problem: Problem, trial: Trial, reach: float = REACH) -> Nearby | Non
         before,
         moved,
     )
-    return Nearby(near, ContactSet(places, contact_set.pressure))
+    return Nearby(near, contact_set)
 
 
 def _close_nodes(gap: Real, nodes: Indices, reach: float, most: int) -> Indices:

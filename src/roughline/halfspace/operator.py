@@ -116,6 +116,9 @@ class Operator(Protocol):
         The shape is (periods[0] // 2 + 1, periods[1] // 2 + 1). [length / pressure]
         """
 
+    def sums_are_cheap(self, sources: int, targets: int) -> bool:
+        """Whether to sum over pairs of so many nodes takes less time than to transform the grid."""
+
     def release_buffers(self) -> None:
         """Give back the memory in which displacements are computed, until it is needed again."""
 
