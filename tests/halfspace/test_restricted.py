@@ -7,7 +7,6 @@ import pytest
 from scipy.linalg import eigh
 
 import roughline as rl
-from random_problems import E_STAR, random_history, random_problem
 from roughline.computing import fft
 from roughline.halfspace import convolution, correction, lending
 from roughline.halfspace.coarse_grid import CoarseGrid
@@ -252,38 +251,39 @@ def test_the_coarse_grid_is_chosen_by_what_is_in_contact():
     assert sides == [8, 4, 2, None]
 
 
-@pytest.mark.parametrize("draw", [random_problem, random_history])
-def test_searches_that_begin_where_bodies_can_touch_end_as_others(draw):
-    """Random bodies, elastic and yielding, with and without the cheap sums over pairs."""
-    compared = 0
-    for number in range(40):
-        problem = draw(np.random.default_rng([16, number]))
-        usual, near = pressed(problem), pressed(problem, cheap_sums=True)
-        if usual is None or near is None:
-            assert usual is near
-            continue
-        assert near.converged.tolist() == usual.converged.tolist()
-        solved = usual.converged
-        for name in ("force", "depth"):
-            found, expected = getattr(near, name)[solved], getattr(usual, name)[solved]
-            assert found == pytest.approx(expected, rel=1e-4), (number, problem.kind)
-        compared += 1
-    assert compared > 30
+@pytest.mark.parametrize("hardness", [None, 30.0, 3.0])
+def test_searches_that_begin_where_bodies_can_touch_end_as_others(hardness, monkeypatch):
+    """Under forces and depths that rise and fall, on bodies that are elastic and that yield."""
+    begun = []
+    within_reach = correction.within_reach
 
+    def recorded(*arguments):
+        found = within_reach(*arguments)
+        begun.append(found is not None)
+        return found
 
-def pressed(problem, *, cheap_sums=False):
-    """Press a body, None where that is refused; all sums over pairs count as cheap if asked."""
-    given = {"E_star": E_STAR, "periodic": problem.periodic, "throw": False, **problem.loads}
-    if problem.hardness is not None:
-        given["hardness"] = problem.hardness
-    with pytest.MonkeyPatch.context() as patch:
-        if cheap_sums:
-            patch.setattr(convolution, "_MANY", 0)
-            patch.setattr(convolution, "_PAIRS", np.inf)
-        try:
-            return rl.press(problem.surface, **given)
-        except rl.InputError:
-            return None
+    monkeypatch.setattr(correction, "within_reach", recorded)
+    rng = np.random.default_rng(16)
+    for seed in range(8):
+        n, hurst = int(rng.integers(96, 200)), rng.uniform(0.1, 0.9)
+        whole = rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(n, seed)
+        surface = rl.Surface(whole.heights[: n - 16], ((n - 16) / n, 1.0))
+        loads = {
+            "forces": 10 ** rng.uniform(-2.5, 0, 4),
+            "depths": 10 ** rng.uniform(-1, 0.3, 4),
+        }
+        for control, values in loads.items():
+            given = {"E_star": 1.0, "hardness": hardness, control: values}
+            usual = rl.press(surface, **given)
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(convolution, "_MANY", 0)
+                patch.setattr(convolution, "_PAIRS", np.inf)
+                near = rl.press(surface, **given)
+            assert usual.converged.all()
+            assert near.converged.all()
+            for name in ("force", "depth", "stiffness"):
+                assert getattr(near, name) == pytest.approx(getattr(usual, name), rel=1e-4)
+    assert np.count_nonzero(begun) > 30
 
 
 def test_light_loads_transform_the_grid_once(monkeypatch):
