@@ -196,7 +196,7 @@ class Convolution:
 
         modes_at_a_time, pairs_at_a_time = _MODES_AT_A_TIME, _PAIRS_AT_A_TIME
         if mx * my <= _SMALL:
-            modes_at_a_time = pairs_at_a_time = my
+            modes_at_a_time, pairs_at_a_time = my, mx
         pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
         fft.share_out_blocks(transform_rows, pairs, pairs_at_a_time)
         fft.share_out_blocks(convolve_columns, spectrum.shape[1], modes_at_a_time)
