@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator, Sequence, Set
 from dataclasses import replace
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from roughline._version import __version__
+from roughline.computing import linear_algebra
 from roughline.contact.border import border_warnings
 from roughline.contact.curve import Curve, Status
 from roughline.contact.fields import Indentation
@@ -67,7 +67,7 @@ def press_surface(
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
-        with threadpool_limits(limits=1, user_api="blas"):
+        with linear_algebra.on_one_thread():
             path, kept_there = replace(loads, values=values), {int(places[i]) for i in kept}
             for result in _results(surface, E_star, path, method, hardness, periodic, kept_there):
                 results.append(result)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
+from roughline.computing import linear_algebra
 from roughline.computing.arrays import Indices, Real
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.leakage import LONGER, LONGEST, map_leakage, power_inside
@@ -61,7 +61,7 @@ class MapRings:
     @cached_property
     def laws(self) -> Laws:
         """Every law, compared with the rings."""
-        with threadpool_limits(limits=1, user_api="blas"):  # threads gain nothing on small matrices
+        with linear_algebra.on_one_thread():  # threads gain nothing on small matrices
             return self._compare_laws()
 
     def _compare_laws(self) -> Laws:

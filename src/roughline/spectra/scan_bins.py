@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
+from roughline.computing import linear_algebra
 from roughline.computing.arrays import Real
 from roughline.spectra.leakage import LONG_WAVES, map_leakage
 from roughline.spectra.map_rings import modes_of_surface
@@ -59,7 +59,7 @@ class ScanBins:
     @cached_property
     def laws(self) -> Laws:
         """Every law, compared with the bins."""
-        with threadpool_limits(limits=1, user_api="blas"):  # threads gain nothing on small matrices
+        with linear_algebra.on_one_thread():  # threads gain nothing on small matrices
             return self._compare_laws()
 
     def _compare_laws(self) -> Laws:

@@ -1,0 +1,45 @@
+"""Linear algebra on one thread, as long as anyone at work needs that."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from threading import Lock, Thread
+
+from threadpoolctl import threadpool_limits
+
+_lock = Lock()
+_at_work = 0
+_limits: list[threadpool_limits] = []  # one as long as anyone is at work
+
+
+@contextmanager
+def on_one_thread() -> Iterator[None]:
+    """Keep the linear algebra of this process to one thread meanwhile.
+
+    The number of its threads belongs to the process, and the last bits of results depend on it. So
+    it changes when the first begins, and is what it was when the last of several threads that are
+    at work side by side has ended.
+    """
+    global _at_work
+    with _lock:
+        if not _at_work:
+            _in_passing(lambda: _limits.append(threadpool_limits(limits=1, user_api="blas")))
+        _at_work += 1
+    try:
+        yield
+    finally:
+        with _lock:
+            _at_work -= 1
+            if not _at_work:
+                _in_passing(lambda: _limits.pop().restore_original_limits())
+
+
+def _in_passing(change: Callable[[], None]) -> None:
+    """Change the number of threads from a thread that ends with it.
+
+    threadpoolctl lets no other thread change it as long as the one that did is alive.
+    """
+    thread = Thread(target=change)
+    thread.start()
+    thread.join()

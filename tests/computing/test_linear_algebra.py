@@ -1,0 +1,48 @@
+"""The threads of the linear algebra, where several threads are at work side by side."""
+
+from threading import Barrier, Thread
+
+import scipy.linalg  # noqa: F401  loads the library
+from threadpoolctl import threadpool_info
+
+from roughline.computing.linear_algebra import on_one_thread
+
+
+def threads():
+    return {each["num_threads"] for each in threadpool_info() if each["user_api"] == "blas"}
+
+
+def test_the_first_that_ends_leaves_the_last_on_one_thread():
+    """One that begins within another and ends after it had two threads for a while before."""
+    both_at_work, one_has_ended = Barrier(2), Barrier(2)
+    seen = []
+
+    def first():
+        with on_one_thread():
+            both_at_work.wait(10)
+        one_has_ended.wait(10)
+
+    def last():
+        with on_one_thread():
+            both_at_work.wait(10)
+            one_has_ended.wait(10)
+            seen.append(threads())
+
+    before = threads()
+    at_work = [Thread(target=each) for each in (first, last)]
+    for each in at_work:
+        each.start()
+    for each in at_work:
+        each.join(20)
+    assert seen == [{1}]
+    assert threads() == before
+
+
+def test_an_error_gives_the_threads_back():
+    before = threads()
+    try:
+        with on_one_thread():
+            raise ValueError
+    except ValueError:
+        pass
+    assert threads() == before
