@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 
 _lock = Lock()
 _at_work = 0
-_limits: list[threadpool_limits] = []  # one as long as anyone is at work
+_limits: list[threadpool_limits] = []  # one, as long as anyone is at work
 
 
 @contextmanager
@@ -23,7 +23,7 @@ def on_one_thread() -> Iterator[None]:
     """
     global _at_work
     with _lock:
-        if not _at_work:
+        if not _limits:
             _in_passing(lambda: _limits.append(threadpool_limits(limits=1, user_api="blas")))
         _at_work += 1
     try:

@@ -140,9 +140,9 @@ def within_reach(
 ) -> tuple[Nearby, float] | None:
     """Look at a problem wherever the bodies can touch; return it with the largest residual.
 
-    Pressure pushes the half-space away. So a node can only touch where the bodies are nearer to
-    each other, before the load, than they approach. Returns None where the gap everywhere takes
-    no more time.
+    Pressure pushes a free half-space away everywhere. So a node can only touch where the bodies
+    are nearer to each other, before the load, than they approach. Returns None where the gap on
+    the whole grid takes no more time, and for periodic bodies, whose grid is always transformed.
 
     Parameters
     ----------
