@@ -86,17 +86,17 @@ fuzz: $(VENV)/installed
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
-	$(BIN)/python studies/paper/reduce.py out/study.zarr
-	$(BIN)/python studies/paper/times.py
+	$(BIN)/python -m studies.paper.reduce out/study.zarr
+	$(BIN)/python -m studies.paper.times
 
 correlations: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/correlations/plan.toml --store out/correlations.zarr
-	$(BIN)/python studies/correlations/reduce.py out/correlations.zarr
-	$(BIN)/python studies/correlations/publish.py
+	$(BIN)/python -m studies.correlations.reduce out/correlations.zarr
+	$(BIN)/python -m studies.correlations.publish
 
 published: $(VENV)/installed
-	$(BIN)/python studies/paper/publish.py
-	$(BIN)/python studies/correlations/publish.py
+	$(BIN)/python -m studies.paper.publish
+	$(BIN)/python -m studies.correlations.publish
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py

@@ -6,14 +6,32 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from conductance import BANDS, DIMENSIONS, ELASTIC, FULL, WINDOW, Sample, sample
-from findings import change_with_band, over_bearing_area, over_holm, over_root_sum
-from judgement import TOLERANCES, Judgement, Ratio, judge, simultaneous_intervals
-
 from roughline.report.page import Table
 from roughline.statistics.averages import average
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Verdict, joint_verdict, verdict
+from roughline.statistics.verdict import Verdict, verdict
+from studies.correlations.conductance import (
+    BANDS,
+    DIMENSIONS,
+    ELASTIC,
+    FULL,
+    WINDOW,
+    Sample,
+    sample,
+)
+from studies.correlations.findings import (
+    change_with_band,
+    over_bearing_area,
+    over_holm,
+    over_root_sum,
+)
+from studies.correlations.judgement import (
+    TOLERANCES,
+    Ratio,
+    judge,
+    simultaneous_intervals,
+)
+from studies.judged import Judgement, judged_together
 
 EXPONENT_TOLERANCE = 0.01
 """How near exponents must come: the two handbooks' differ by so much."""
@@ -121,7 +139,7 @@ def _of_ratios(statement: str, what: str, samples: Sequence[Sample], ratio: Rati
         tuple(
             _in_words(
                 [
-                    (dimension, _jointly([judge(one, ratio, tolerance) for one in of_it]))
+                    (dimension, judged_together([judge(one, ratio, tolerance) for one in of_it]))
                     for dimension, of_it in by_dimension.items()
                 ]
             )
@@ -170,13 +188,6 @@ def _of_bands(statement: str, hardness: float, wide: int) -> Claim:
             for share in TOLERANCES
         ),
     )
-
-
-def _jointly(judged: Sequence[Judgement]) -> Judgement:
-    """Judge several samples together; what decides them all decides."""
-    whole = joint_verdict(each.verdict for each in judged)
-    enough = [each.enough for each in judged if each.verdict is Verdict.UNDECIDED]
-    return Judgement(whole, max(enough) if whole is Verdict.UNDECIDED else math.nan)
 
 
 def _in_words(judged: Sequence[tuple[float, Judgement]]) -> str:

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
-from conductance import BANDS, BOXES, ELASTIC, FULL, WINDOW, sample
-from correlation_tables import band_table, boundary_table, box_table, grid_table
-from findings import (
+from roughline.report.page import Section
+from roughline.statistics.bootstrap import IntervalEstimate
+from studies.correlations.conductance import BANDS, BOXES, ELASTIC, FULL, WINDOW, sample
+from studies.correlations.correlation_tables import (
+    band_table,
+    boundary_table,
+    box_table,
+    grid_table,
+)
+from studies.correlations.findings import (
     ELASTIC_BANDS,
     MIDDLE,
     change_with_band,
@@ -12,9 +19,6 @@ from findings import (
     change_with_box,
     worst_grid_shift,
 )
-
-from roughline.report.page import Section
-from roughline.statistics.bootstrap import IntervalEstimate
 
 _HURST = f"Hurst {3 - MIDDLE:.1f}"
 

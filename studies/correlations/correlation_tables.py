@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from conductance import (
+from roughline.computing.arrays import Real
+from roughline.report.page import Table
+from roughline.statistics.bootstrap import IntervalEstimate
+from studies.correlations.conductance import (
     BANDS,
     BOXES,
     DIMENSIONS,
@@ -17,8 +20,8 @@ from conductance import (
     plan,
     sample,
 )
-from correlation_claims import MIXED
-from findings import (
+from studies.correlations.correlation_claims import MIXED
+from studies.correlations.findings import (
     ELASTIC_BANDS,
     MIDDLE,
     elastic_pressure_over_hardness,
@@ -27,11 +30,7 @@ from findings import (
     over_holm,
     over_root_sum,
 )
-from judgement import TOLERANCES, Ratio, grid_shift, judge
-
-from roughline.computing.arrays import Real
-from roughline.report.page import Table
-from roughline.statistics.bootstrap import IntervalEstimate
+from studies.correlations.judgement import TOLERANCES, Ratio, grid_shift, judge
 
 IN_WINDOW = PRESSURES[1:]
 

@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from conductance import (
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from roughline.report.style import MARKERS, PAGE, SHADE, colours, new_figure
+from roughline.statistics.averages import average
+from studies.correlations.conductance import (
     BANDS,
     DIMENSIONS,
     ELASTIC,
@@ -16,12 +21,7 @@ from conductance import (
     sample,
     yovanovich,
 )
-from findings import ELASTIC_BANDS, MIDDLE
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-
-from roughline.report.style import MARKERS, PAGE, SHADE, colours, new_figure
-from roughline.statistics.averages import average
+from studies.correlations.findings import ELASTIC_BANDS, MIDDLE
 
 _CONDUCTANCE = r"$h_c\,\sigma\,/\,(\kappa_s m)$"
 _PRESSURE_ELASTIC = r"pressure $p\,/\,(E^*\nabla h)$"

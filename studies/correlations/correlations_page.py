@@ -2,10 +2,21 @@
 
 from __future__ import annotations
 
-from conductance import BANDS, BOXES, DIMENSIONS, ELASTIC, FULL, PRESSURES, WINDOW, plan
-from correlation_claims import EXPONENT_TOLERANCE, MIXED, claims, claims_table
-from correlation_dependences import dependences
-from correlation_tables import (
+from roughline._version import __version__
+from roughline.report.page import Section, render_markdown
+from studies.correlations.conductance import (
+    BANDS,
+    BOXES,
+    DIMENSIONS,
+    ELASTIC,
+    FULL,
+    PRESSURES,
+    WINDOW,
+    plan,
+)
+from studies.correlations.correlation_claims import EXPONENT_TOLERANCE, MIXED, claims, claims_table
+from studies.correlations.correlation_dependences import dependences
+from studies.correlations.correlation_tables import (
     area_table,
     between_table,
     ensembles_table,
@@ -13,7 +24,7 @@ from correlation_tables import (
     root_sum_table,
     scatter_table,
 )
-from findings import (
+from studies.correlations.findings import (
     MIDDLE,
     change_with_band,
     common_law,
@@ -26,10 +37,7 @@ from findings import (
     slope_spread,
     spots_of_the_correlation,
 )
-from judgement import LEVEL
-
-from roughline._version import __version__
-from roughline.report.page import Section, render_markdown
+from studies.correlations.judgement import LEVEL
 
 TITLE = "The handbooks' conductance of joints, put to the test"
 FOLDER = "figures/correlations"

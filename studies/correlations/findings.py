@@ -6,7 +6,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from conductance import (
+
+from roughline.computing.arrays import Real
+from roughline.statistics.averages import average, relative_difference
+from roughline.statistics.bootstrap import IntervalEstimate
+from studies.correlations.conductance import (
     BANDS,
     BOXES,
     DIMENSIONS,
@@ -20,12 +24,8 @@ from conductance import (
     sample,
     yovanovich,
 )
-from judgement import Ratio, grid_shift
-from reduce import BEARING
-
-from roughline.computing.arrays import Real
-from roughline.statistics.averages import average, relative_difference
-from roughline.statistics.bootstrap import IntervalEstimate
+from studies.correlations.judgement import Ratio, grid_shift
+from studies.correlations.reduce import BEARING
 
 MIDDLE = 2.5
 """Fractal dimension of the surfaces that are shown where one is enough."""

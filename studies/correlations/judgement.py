@@ -4,66 +4,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-from conductance import ELASTIC, FINE_HARDNESSES, Sample, sample
 
 from roughline.computing.arrays import Real
 from roughline.statistics.averages import average, relative_difference
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Verdict, joint_verdict, verdict
+from studies.correlations.conductance import ELASTIC, FINE_HARDNESSES, Sample, sample
+from studies.judged import Judgement, WidenedInterval, growth_to_decide
 
 Ratio = Callable[[Sample], Real]
 
 TOLERANCES = (0.1, 0.2)
 LEVEL = 0.95
 _HALVES = 2.0  # an error that halves with the spacing is twice the difference of two grids
-
-
-@dataclass(frozen=True)
-class RatioInterval:
-    """Interval of the mean of a ratio at one pressure.
-
-    Attributes
-    ----------
-    low, high : float
-        Its ends.
-    least, most : float
-        What the grid alone leaves open of the mean, within them.
-    """
-
-    low: float
-    least: float
-    most: float
-    high: float
-
-
-@dataclass(frozen=True)
-class Judgement:
-    """What a sample says of a correlation.
-
-    Attributes
-    ----------
-    verdict : Verdict
-        On the correlation at all loads of the window.
-    enough : float
-        Realisations that would decide where this sample does not, by its scatter; infinite where
-        the grid's error leaves it open, NaN where the sample decides.
-    """
-
-    verdict: Verdict
-    enough: float
-
-    @property
-    def what_would_decide(self) -> str:
-        """How many realisations would decide; empty where the sample does."""
-        if math.isnan(self.enough):
-            return ""
-        if math.isinf(self.enough):
-            return "finer grids would decide"
-        digits = 1 - math.floor(math.log10(self.enough))  # it is known no better
-        return f"some {math.ceil(round(self.enough, digits)):,} surfaces would decide"
 
 
 def grid_shift(one: Sample, ratio: Ratio) -> list[IntervalEstimate]:
@@ -101,7 +56,7 @@ def judge(one: Sample, ratio: Ratio, tolerance: float) -> Judgement:
     if whole is not Verdict.UNDECIDED:
         return Judgement(whole, math.nan)
     open_ones = [
-        _growth_to_decide(each, tolerance)
+        growth_to_decide(each, 1 - tolerance, 1 + tolerance)
         for each, found in zip(simultaneous, verdicts, strict=True)
         if found is Verdict.UNDECIDED
     ]
@@ -110,7 +65,7 @@ def judge(one: Sample, ratio: Ratio, tolerance: float) -> Judgement:
     return Judgement(whole, one.count * growth)
 
 
-def simultaneous_intervals(one: Sample, ratio: Ratio) -> list[RatioInterval]:
+def simultaneous_intervals(one: Sample, ratio: Ratio) -> list[WidenedInterval]:
     """Return the intervals of a ratio that hold at all pressures of the window together.
 
     They have Bonferroni's level, and are widened on one side by the error of the grid.
@@ -121,21 +76,4 @@ def simultaneous_intervals(one: Sample, ratio: Ratio) -> list[RatioInterval]:
     grid = _HALVES * np.array([shift.value for shift in grid_shift(one, ratio)])[inside]
     down, up = 1 + np.minimum(grid, 0), 1 + np.maximum(grid, 0)
     ends = (mean.low * down, mean.mean * down, mean.mean * up, mean.high * up)
-    return [RatioInterval(*map(float, each)) for each in zip(*ends, strict=True)]
-
-
-def _growth_to_decide(interval: RatioInterval, tolerance: float) -> tuple[float, bool]:
-    """By what factor an ensemble has to grow to decide at one pressure, and whether to refute.
-
-    Intervals shrink as the square root of the realisations; what the grid leaves open stays.
-    """
-    low, least, most, high = interval.low, interval.least, interval.most, interval.high
-    bottom, top = 1 - tolerance, 1 + tolerance
-    if most < bottom:
-        return ((high - most) / (bottom - most)) ** 2, True
-    if least > top:
-        return ((least - low) / (least - top)) ** 2, True
-    if least <= bottom or most >= top:
-        return math.inf, False
-    widths = ((least - low) / (least - bottom), (high - most) / (top - most))
-    return max(widths) ** 2, False
+    return [WidenedInterval(*map(float, each)) for each in zip(*ends, strict=True)]

@@ -1,6 +1,6 @@
 """Draw the page on the handbooks' correlations and its figures.
 
-    python studies/correlations/publish.py
+    python -m studies.correlations.publish
 
 reads ``data.npz`` and ``plan.toml`` beside it, and writes ``docs/correlations.md`` and
 ``docs/figures/correlations``.
@@ -9,10 +9,9 @@ reads ``data.npz`` and ``plan.toml`` beside it, and writes ``docs/correlations.m
 import shutil
 from pathlib import Path
 
-from correlations_figures import conductance_figure, ratio_figure
-from correlations_page import page
-
 from roughline.report.style import save, styled
+from studies.correlations.correlations_figures import conductance_figure, ratio_figure
+from studies.correlations.correlations_page import page
 
 DOCS = Path(__file__).parents[2] / "docs"
 FIGURES = DOCS / "figures" / "correlations"

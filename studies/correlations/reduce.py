@@ -1,6 +1,6 @@
 """Reduce the store of the study to what its page needs, less than a megabyte.
 
-    python studies/correlations/reduce.py out/correlations.zarr
+    python -m studies.correlations.reduce out/correlations.zarr
 
 writes ``data.npz``: arrays of the store by "ENSEMBLE/VARIABLE", in single precision, and how
 Gaussian the heights are. What the ensembles are stands in ``plan.toml``.

@@ -1,6 +1,6 @@
 """Draw the page "The paper, recomputed", the page of the map and their figures.
 
-    python studies/paper/publish.py
+    python -m studies.paper.publish
 
 reads the data and the map of the package, and writes ``docs/paper.md``,
 ``docs/trust.md`` and ``docs/figures/paper``.

@@ -1,6 +1,6 @@
 """Reduce the store of the paper's study to what figures and tables need, a few megabytes.
 
-    python studies/paper/reduce.py out/study.zarr
+    python -m studies.paper.reduce out/study.zarr
 
 writes the data and the map of the package.
 """

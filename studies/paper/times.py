@@ -1,6 +1,6 @@
 """Time one body of each fractal dimension and ensemble of the study, on an idle machine.
 
-    python studies/paper/times.py
+    python -m studies.paper.times
 
 writes ``times.json`` into the data of the package: seconds on one core for a body with all its
 loads, by ensemble.

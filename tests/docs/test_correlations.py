@@ -5,7 +5,11 @@ from statistics import NormalDist
 
 import numpy as np
 import pytest
-from conductance import (
+
+from roughline.engineering import formulas
+from roughline.statistics.averages import average
+from roughline.statistics.verdict import Verdict
+from studies.correlations.conductance import (
     DIMENSIONS,
     ELASTIC,
     FULL,
@@ -18,8 +22,8 @@ from conductance import (
     sample,
     yovanovich,
 )
-from correlations_page import BETWEEN, page
-from findings import (
+from studies.correlations.correlations_page import BETWEEN, page
+from studies.correlations.findings import (
     BANDS,
     ELASTIC_BANDS,
     MIDDLE,
@@ -30,13 +34,10 @@ from findings import (
     over_holm,
     over_root_sum,
 )
-from judgement import Judgement, RatioInterval, _growth_to_decide, judge
+from studies.correlations.judgement import judge
+from studies.judged import Judgement, WidenedInterval, growth_to_decide
 
-from roughline.engineering import formulas
-from roughline.statistics.averages import average
-from roughline.statistics.verdict import Verdict
-
-AGAIN = "the page is not that of the data any more: run studies/correlations/publish.py"
+AGAIN = "the page is not that of the data any more: run python -m studies.correlations.publish"
 NEEDED = ("rms_slope", "area_fraction", "stiffness", "unloading_stiffness")
 
 
@@ -157,7 +158,7 @@ def test_four_times_the_surfaces_halve_an_interval():
         ((0.8, 1.0, 1.0, 1.2), 4.0, False),
         ((0.7, 0.85, 0.92, 1.0), math.inf, False),
     ):
-        found = _growth_to_decide(RatioInterval(*ends), 0.1)
+        found = growth_to_decide(WidenedInterval(*ends), 0.9, 1.1)
         assert found == (pytest.approx(growth), refutes)
     assert Judgement(Verdict.UNDECIDED, 1234.0).what_would_decide == (
         "some 1,200 surfaces would decide"

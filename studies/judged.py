@@ -1,0 +1,111 @@
+"""Verdicts of the studies, and how many realisations would decide where a sample does not."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.verdict import Verdict, joint_verdict, verdict
+
+
+@dataclass(frozen=True)
+class WidenedInterval:
+    """Interval of a mean that an error of the grid has widened, too.
+
+    Attributes
+    ----------
+    low, high : float
+        Its ends.
+    least, most : float
+        What the grid alone leaves open of the mean, within them.
+    """
+
+    low: float
+    least: float
+    most: float
+    high: float
+
+    @classmethod
+    def of(cls, estimate: IntervalEstimate) -> WidenedInterval:
+        """Return the interval of a mean of which the grid leaves nothing open."""
+        return cls(estimate.low, estimate.value, estimate.value, estimate.high)
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What a sample says of a statement.
+
+    Attributes
+    ----------
+    verdict : Verdict
+        On the statement.
+    enough : float
+        Realisations that would decide where this sample does not, by its scatter; infinite where
+        the grid's error leaves it open, NaN where the sample decides.
+    """
+
+    verdict: Verdict
+    enough: float
+
+    @property
+    def what_would_decide(self) -> str:
+        """How many realisations would decide; empty where the sample does."""
+        if math.isnan(self.enough):
+            return ""
+        if math.isinf(self.enough):
+            return "finer grids would decide"
+        digits = 1 - math.floor(math.log10(self.enough))  # it is known no better
+        return f"some {math.ceil(round(self.enough, digits)):,} surfaces would decide"
+
+    @property
+    def in_words(self) -> str:
+        """The verdict, and what would decide."""
+        if not self.what_would_decide:
+            return str(self.verdict)
+        return f"{self.verdict} ({self.what_would_decide})"
+
+
+def judged(interval: WidenedInterval, count: int, least: float, most: float) -> Judgement:
+    """Judge one interval by the range that a statement allows.
+
+    Parameters
+    ----------
+    interval : WidenedInterval
+        What was found.
+    count : int
+        Realisations that it is of.
+    least, most : float
+        The range.
+    """
+    found = verdict(interval.low, interval.high, least, most)
+    if found is not Verdict.UNDECIDED:
+        return Judgement(found, math.nan)
+    return Judgement(found, count * growth_to_decide(interval, least, most)[0])
+
+
+def judged_together(parts: Sequence[Judgement]) -> Judgement:
+    """Judge a statement about several cases; what decides all that are open decides."""
+    whole = joint_verdict(each.verdict for each in parts)
+    enough = [each.enough for each in parts if each.verdict is Verdict.UNDECIDED]
+    return Judgement(whole, max(enough) if whole is Verdict.UNDECIDED else math.nan)
+
+
+def growth_to_decide(interval: WidenedInterval, least: float, most: float) -> tuple[float, bool]:
+    """By what factor an ensemble has to grow to decide, and whether to refute.
+
+    Intervals shrink as the square root of the realisations; what the grid leaves open stays.
+    """
+    low, high = interval.low, interval.high
+    if interval.most < least:
+        return ((high - interval.most) / (least - interval.most)) ** 2, True
+    if interval.least > most:
+        return ((interval.least - low) / (interval.least - most)) ** 2, True
+    if interval.least <= least or interval.most >= most:
+        return math.inf, False
+    widths = (
+        (interval.least - low) / (interval.least - least),
+        (high - interval.most) / (most - interval.most),
+    )
+    return max(widths) ** 2, False

@@ -1,0 +1,178 @@
+"""The data of a study: what its page needs of a finished store, in one NetCDF file."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray
+
+from roughline.campaign import Ensemble, Plan, Store
+from roughline.campaign.layout import DONE
+from roughline.errors import RoughlineError, StoreError
+
+_AGAIN = "run its campaign and its reduction again, or take the plan back"
+_PACKED = {"zlib": True, "complevel": 9, "shuffle": True}
+
+
+def run(main: Callable[[Path], None], usage: str) -> None:
+    """Call a reduction with the store that the command line names; errors are one line each."""
+    if len(sys.argv) != 2:
+        sys.exit(usage)
+    try:
+        main(Path(sys.argv[1]))
+    except RoughlineError as error:
+        print(f"error: {error}", file=sys.stderr)
+        sys.exit(2)
+
+
+def finished(store: Store, ensemble: Ensemble) -> xarray.Dataset:
+    """Return an ensemble of a store, of the plan's settings, dimensions and realisations.
+
+    A store may hold more than the plan asks for; the rest is left out.
+
+    Raises
+    ------
+    StoreError
+        If the ensemble is not there, has other settings, or is not done.
+    """
+    try:
+        data = store.dataset(ensemble.name)
+    except (OSError, ValueError, KeyError, RuntimeError) as error:
+        raise StoreError(
+            f"{store.path}: the ensemble {ensemble.name!r} cannot be read ({error}); run the "
+            "campaign again, it computes what is damaged anew"
+        ) from error
+    _refuse_other_settings(data.attrs, ensemble, str(store.path))
+    there = set(data.fractal_dimension.values.tolist())
+    wanted = [each for each in ensemble.fractal_dimensions if each in there]
+    data = data.sel(fractal_dimension=wanted).isel(realisation=slice(ensemble.realisations))
+    done = int(np.count_nonzero(data.case_status == DONE))
+    if done < ensemble.cases:
+        failed = store.counts(ensemble.name)[1]
+        raise StoreError(
+            f"{store.path}: {ensemble.cases - done} of {ensemble.cases} cases of "
+            f"{ensemble.name!r} are not done, {failed} have failed; run the campaign again, it "
+            "goes on from there"
+        )
+    return data
+
+
+def write_groups(
+    path: Path, plan: Plan, store: Store, names: Sequence[str], more: dict[str, Any] | None = None
+) -> None:
+    """Write variables of all ensembles of a plan, a group for each, in single precision.
+
+    Parameters
+    ----------
+    path : Path
+        The file; it is written whole or not at all.
+    plan, store : Plan, Store
+        What was asked for, and a store that holds it.
+    names : sequence of str
+        Variables that are kept, as far as an ensemble has them.
+    more : dict, optional
+        Further attributes of the file.
+
+    Raises
+    ------
+    StoreError
+        As for :func:`finished`.
+    """
+    unwritten = path.with_suffix(".part")
+    unwritten.unlink(missing_ok=True)
+    groups = {each.name: finished(store, each) for each in plan.ensembles}
+    root = xarray.Dataset(attrs={"study": plan.name, **(more or {})})
+    root.to_netcdf(unwritten, engine="h5netcdf", mode="w")
+    for name, data in groups.items():
+        kept = data[[each for each in names if each in data]]
+        for variable in kept.data_vars.values():
+            if variable.dtype == np.float64:
+                attributes = variable.attrs
+                kept[variable.name] = variable.astype(np.float32).assign_attrs(attributes)
+        packed = dict.fromkeys(map(str, kept), _PACKED)
+        kept.to_netcdf(unwritten, engine="h5netcdf", mode="a", group=name, encoding=packed)
+    unwritten.replace(path)
+
+
+def read_groups(path: Path, plan: Plan) -> dict[str, xarray.Dataset]:
+    """Read the data of a study, a Dataset in double precision for each ensemble of its plan.
+
+    Raises
+    ------
+    StoreError
+        If the file is missing or damaged, or is not that of the plan; the difference is named.
+    """
+    read = {}
+    try:
+        for ensemble in plan.ensembles:
+            with xarray.open_dataset(path, engine="h5netcdf", group=ensemble.name) as data:
+                read[ensemble.name] = data.load()
+    except FileNotFoundError as error:
+        raise StoreError(f"{path} does not exist: {_AGAIN}") from error
+    except KeyError as error:
+        raise StoreError(
+            f"{path} has no ensemble {ensemble.name!r}, which the plan has: {_AGAIN}"
+        ) from error
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{path} is damaged ({error}): {_AGAIN}") from error
+    for ensemble in plan.ensembles:
+        _refuse_other_settings(read[ensemble.name].attrs, ensemble, str(path))
+        _refuse_other_extent(read[ensemble.name], ensemble, str(path))
+    return {name: _in_double(data) for name, data in read.items()}
+
+
+def refuse_other_plan(stored: str, plan: dict[str, Any], path: Path) -> None:
+    """Refuse data that were made from another plan, which they keep as JSON.
+
+    Raises
+    ------
+    StoreError
+        If they differ; the first difference is named.
+    """
+    before = json.loads(stored)
+    for key in sorted({*before, *plan}):
+        if before.get(key) != plan.get(key):
+            raise _other(str(path), "the data", key, before.get(key), plan.get(key))
+
+
+def _refuse_other_settings(stored: dict[str, Any], ensemble: Ensemble, place: str) -> None:
+    wanted = json.loads(json.dumps(ensemble.identity()))
+    for key, value in wanted.items():
+        found = stored.get(key)
+        found = found.tolist() if isinstance(found, np.ndarray | np.generic) else found
+        if found != value:
+            raise _other(place, f"the ensemble {ensemble.name!r}", key, found, value)
+
+
+def _refuse_other_extent(data: xarray.Dataset, ensemble: Ensemble, place: str) -> None:
+    extents: Iterable[tuple[str, Any, Any]] = (
+        (
+            "fractal_dimensions",
+            data.fractal_dimension.values.tolist(),
+            sorted(ensemble.fractal_dimensions),
+        ),
+        ("realisations", data.sizes["realisation"], ensemble.realisations),
+    )
+    for key, found, wanted in extents:
+        if found != wanted:
+            raise _other(place, f"the ensemble {ensemble.name!r}", key, found, wanted)
+
+
+def _other(place: str, what: str, key: str, found: Any, wanted: Any) -> StoreError:
+    return StoreError(
+        f"{place}: {what} has {key} = {_short(found)}, the plan has {_short(wanted)}: {_AGAIN}"
+    )
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _in_double(data: xarray.Dataset) -> xarray.Dataset:
+    return data.map(lambda each: each.astype(np.float64) if each.dtype == np.float32 else each)
