@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.statistics.averages import at_levels, relative_difference
+from roughline.statistics.averages import relative_difference
 
 
 def test_the_mean_is_the_mean(ensemble):
@@ -75,28 +75,6 @@ def test_few_realisations_are_judged_by_student():
     """With two values, 12.7 standard errors on each side."""
     found = rl.average(np.array([[1.0], [3.0]]))
     assert [found.low[0], found.high[0]] == pytest.approx([2 - 12.7062, 2 + 12.7062], abs=1e-3)
-
-
-def test_levels_are_those_of_the_plane():
-    """Lines of springs at a fixed level, found from curves at fixed force."""
-    spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0)
-    forces = np.geomspace(1e-5, 3, 111)
-    lines = [spectrum.line(2**14, i) for i in range(8)]
-    curves = [rl.press(line, E_star=1.0, forces=forces) for line in lines]
-    highest = [line.heights.max() - line.heights.mean() for line in lines]
-    depth, stiffness = ([getattr(c, name) for c in curves] for name in ("depth", "stiffness"))
-    force, found = at_levels(forces, depth, stiffness, highest, 50)
-    assert force.shape == found.shape == (8, 50)
-    planes = np.array(highest)[:, np.newaxis] - np.array(depth)
-    levels = np.linspace(planes[:, 0].max(), planes[:, -1].max(), 50)
-    for i, line in enumerate(lines):
-        above = np.maximum(line.heights - line.heights.mean() - levels[:, np.newaxis], 0)
-        exact = above.sum(axis=1) / line.heights.size
-        sure = exact > 2e-5
-        assert force[i][sure] == pytest.approx(exact[sure], rel=0.02)
-        share = np.count_nonzero(above, axis=1) / line.heights.size
-        assert found[i][sure] == pytest.approx(share[sure], rel=0.05)
-    assert (force[:, 0] == 0).sum() == 7
 
 
 @pytest.mark.parametrize(

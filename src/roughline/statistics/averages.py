@@ -148,44 +148,6 @@ def _log_ratio_of_pairs(
     return float(ratio.value), float(low), float(high)
 
 
-def at_levels(
-    force_bar: ArrayLike, depth: ArrayLike, stiffness: ArrayLike, highest: ArrayLike, levels: int
-) -> tuple[Real, Real]:
-    """Force and stiffness of every realisation at common levels of the rigid plane.
-
-    The level is the height of the plane above the mean of the heights. A realisation whose
-    highest point lies below the plane carries no force. An ensemble that is averaged at fixed
-    level shows other exponents than at fixed force, because its highest realisations dominate.
-
-    Parameters
-    ----------
-    force_bar : array_like, shape (loads,)
-        Rising dimensionless forces.
-    depth, stiffness : array_like, shape (realisations, loads)
-        Depth since touch, over h, and stiffness under these forces.
-    highest : array_like, shape (realisations,)
-        Height of the highest point of each realisation above the mean, over h.
-    levels : int
-        Number of levels, evenly spaced over those that all realisations reach.
-
-    Returns
-    -------
-    force, stiffness : ndarray, shape (realisations, levels)
-        From the highest level to the lowest. Zero where a realisation does not touch, and where
-        it carries less than the smallest load.
-    """
-    log_force = np.log(np.asarray(force_bar, dtype=np.float64))
-    depths, stiffnesses = np.asarray(depth, float), np.asarray(stiffness, float)
-    plane = np.asarray(highest, float)[:, np.newaxis] - depths
-    common = np.linspace(plane[:, 0].max(), plane[:, -1].max(), levels)
-    force_at, stiffness_at = np.zeros((2, len(depths), levels))
-    for i, (heights, stiff) in enumerate(zip(plane, stiffnesses, strict=True)):
-        touches = common <= heights[0]
-        force_at[i, touches] = np.exp(np.interp(-common[touches], -heights, log_force))
-        stiffness_at[i, touches] = np.exp(np.interp(-common[touches], -heights, np.log(stiff)))
-    return force_at, stiffness_at
-
-
 def _checked_table(values: ArrayLike, averaging: str, confidence: float) -> Real:
     table = np.asarray(values, dtype=np.float64)
     if table.ndim != 2 or not table.size:

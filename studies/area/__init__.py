@@ -1,0 +1,1 @@
+"""The study of the real contact area, with the shortest wave resolved."""

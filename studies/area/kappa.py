@@ -1,0 +1,248 @@
+"""The study's numbers: kappa = A E* g / F at a share of the area in contact, with intervals.
+
+g is the rms slope of the spectrum, not that of differences on the grid. The area is corrected for
+the steps of its outline. Surfaces have rms height, side and E* 1, so p / E* is F̄.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from roughline import campaign
+from roughline.computing.arrays import Real
+from roughline.statistics import bootstrap
+from roughline.statistics.bootstrap import IntervalEstimate, Resampled
+from roughline.statistics.power_law import exponent_weights
+from studies.judged import WidenedInterval
+from studies.reduced_data import read_groups
+
+HERE = Path(__file__).parent
+PLAN, DATA = HERE / "plan.toml", HERE / "data.nc"
+
+HURSTS = (0.8, 0.5, 0.2)
+BANDS = (4, 8, 16, 32, 64)
+"""q_high / q_roll of the main surfaces."""
+FINE_BANDS, LARGE_BANDS = (4, 8, 16), (4, 16)
+"""Those pressed with 16 cells for the shortest wave, and with eight roll-off waves a side too."""
+AREAS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.15)
+"""Shares of the area in contact at which kappa is told."""
+_HALVES = 2.0  # an error that halves with the spacing is twice the difference of two grids
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """Surfaces of one spectrum.
+
+    Attributes
+    ----------
+    kind : {"main", "fine", "large"}
+        Which part of the plan.
+    band : int
+        q_high / q_roll.
+    hurst : float
+        H.
+    nayak : float
+        Nayak's parameter m_0 m_4 / m_2² of the spectrum on its lattice of wavevectors.
+    pressure : ndarray, shape (loads,)
+        p / (E* g).
+    area, cells : ndarray, shape (realisations, loads)
+        A / A_0, corrected for the steps of its outline, and counted in cells.
+    """
+
+    kind: str
+    band: int
+    hurst: float
+    nayak: float
+    pressure: Real
+    area: Real
+    cells: Real
+
+    @property
+    def count(self) -> int:
+        """Number of realisations."""
+        return len(self.area)
+
+    def first(self, count: int) -> Sample:
+        """Return the first realisations alone."""
+        return replace(self, area=self.area[:count], cells=self.cells[:count])
+
+
+@cache
+def plan() -> campaign.Plan:
+    """Return the study's plan."""
+    return campaign.read_plan(PLAN)
+
+
+@cache
+def sample(kind: str, band: int, hurst: float) -> Sample:
+    """Return the surfaces of one spectrum."""
+    name = f"{kind}-{band}-{3 - hurst:g}"
+    ensemble, data = plan().ensemble(name), _data()[name].isel(fractal_dimension=0)
+    lattice = ensemble.spectrum(3 - hurst).lattice(ensemble.n)
+    height, slope, curvature = (lattice.moment(order) for order in (0, 2, 4))
+    return Sample(
+        kind=kind,
+        band=band,
+        hurst=hurst,
+        # of a profile of an isotropic surface: m_2 = <|grad h|²> / 2, m_4 = 3 <(laplacian h)²> / 8
+        nayak=1.5 * height * curvature / slope**2,
+        pressure=data.force_bar.values / math.sqrt(slope),
+        area=data.area_fraction_corrected.values,
+        cells=data.area_fraction.values,
+    )
+
+
+@cache
+def _data() -> dict[str, campaign.store.xarray.Dataset]:
+    return read_groups(DATA, plan())
+
+
+def unsolved_loads() -> tuple[int, int]:
+    """Return how many loads of all surfaces have no certified solution, and how many there are."""
+    status = [data.status.values for data in _data().values()]
+    return sum(int((each != 0).sum()) for each in status), sum(each.size for each in status)
+
+
+def log_kappa(areas: Real, pressure: Real, level: float, rng: int = 0) -> Resampled:
+    """Logarithm of kappa where a share of the area is in contact, from the mean area.
+
+    Parameters
+    ----------
+    areas : ndarray, shape (realisations, loads)
+        A / A_0.
+    pressure : ndarray, shape (loads,)
+        p / (E* g).
+    level : float
+        The share. Between two loads, ln p is linear in ln A.
+    rng : int, optional
+        Seed of the resampling.
+    """
+    between = _loads_around(areas.mean(axis=0), level)
+    return bootstrap.function_of_means(
+        areas[:, between], lambda means: _log_kappa(means, pressure[between], level), rng
+    )
+
+
+def kappa(one: Sample, level: float) -> IntervalEstimate:
+    """Return kappa of the corrected area, with its interval; the grid's error is not in it."""
+    return log_kappa(one.area, one.pressure, level).interval_estimate().exp()
+
+
+def kappa_in_cells(one: Sample, level: float) -> float:
+    """Return kappa of the cells in contact."""
+    return math.exp(log_kappa(one.cells, one.pressure, level).value)
+
+
+def grid_shift(band: int, hurst: float, level: float) -> IntervalEstimate:
+    """Return by how much kappa is higher with 16 cells for the shortest wave than with eight.
+
+    The same surfaces are compared.
+    """
+    fine = sample("fine", band, hurst)
+    coarse = sample("main", band, hurst).first(fine.count)
+    # brackets of each grid, side by side in one table, so that pairs are resampled together
+    places = [_loads_around(each.area.mean(axis=0), level) for each in (fine, coarse)]
+    both = np.hstack([fine.area[:, places[0]], coarse.area[:, places[1]]])
+
+    def difference(means: Real) -> tuple[Real, Real]:
+        first = _log_kappa(means[..., :2], fine.pressure[places[0]], level)
+        second = _log_kappa(means[..., 2:], coarse.pressure[places[1]], level)
+        return first[0] - second[0], np.concatenate([first[1], -second[1]], axis=-1)
+
+    return bootstrap.function_of_means(both, difference).interval_estimate()
+
+
+def size_shift(band: int, hurst: float, level: float) -> IntervalEstimate:
+    """Return by how much ln kappa is higher with eight roll-off waves a side than with four."""
+    large, main = (sample(kind, band, hurst) for kind in ("large", "main"))
+    difference = log_kappa(large.area, large.pressure, level, 1) - log_kappa(
+        main.area, main.pressure, level
+    )
+    return difference.interval_estimate()
+
+
+def widened_kappa(one: Sample, level: float) -> WidenedInterval:
+    """Return the interval of kappa, widened to one side by the error of the grid.
+
+    The error is twice the shift from eight to 16 cells, of the same band, or of the widest one that
+    was pressed with 16.
+    """
+    found = kappa(one, level)
+    shift = _HALVES * grid_shift(min(one.band, max(FINE_BANDS)), one.hurst, level).value
+    down, up = math.exp(min(shift, 0)), math.exp(max(shift, 0))
+    return WidenedInterval(found.low * down, found.value * down, found.value * up, found.high * up)
+
+
+def exponent(one: Sample, window: tuple[float, float]) -> IntervalEstimate:
+    """Return the exponent of the area over the load, between two shares of the area."""
+    mean = one.area.mean(axis=0)
+    inside = one.pressure[(mean >= window[0] * 0.95) & (mean <= window[1] * 1.05)]
+    weights = exponent_weights(one.pressure, (inside.min(), inside.max()))
+    return bootstrap.sum_of_log_means(one.area, weights).interval_estimate()
+
+
+def fall_with_nayak(hurst: float, level: float) -> IntervalEstimate:
+    """Return by how much ln kappa changes from one Nayak parameter to another ten times as large.
+
+    By least squares over the bands, which count alike.
+    """
+    samples = [sample("main", band, hurst) for band in BANDS]
+    x = np.log10([one.nayak for one in samples])
+    centred = x - x.mean()
+    return weighted_sum(samples, level, centred / (centred**2).sum())
+
+
+def bend_with_nayak(hurst: float, level: float) -> IntervalEstimate:
+    """Return the second difference of ln kappa over log Nayak: zero if kappa is linear in it.
+
+    It is the fall from the narrowest to the middle band, per factor of ten, less that from there to
+    the widest.
+    """
+    first, middle, last = (sample("main", BANDS[i], hurst) for i in (0, len(BANDS) // 2, -1))
+    left = 1 / math.log10(middle.nayak / first.nayak)
+    right = 1 / math.log10(last.nayak / middle.nayak)
+    return weighted_sum([first, middle, last], level, np.array([left, -left - right, right]))
+
+
+def weighted_sum(samples: Sequence[Sample], level: float, weights: Real) -> IntervalEstimate:
+    """Return a weighted sum of ln kappa over samples, which are resampled apart."""
+    parts = [log_kappa(one.area, one.pressure, level, rng) for rng, one in enumerate(samples)]
+    total = _scaled(parts[0], weights[0])
+    for part, weight in zip(parts[1:], weights[1:], strict=True):
+        total = total - _scaled(part, -weight)
+    return total.interval_estimate()
+
+
+def _scaled(one: Resampled, weight: float) -> Resampled:
+    return Resampled(
+        weight * one.value,
+        abs(weight) * one.error,
+        weight * one.values,
+        abs(weight) * one.errors,
+        one.freedom,
+    )
+
+
+def _loads_around(mean_area: Real, level: float) -> slice:
+    """Return the two loads between which a share of the area is in contact."""
+    above = int(np.searchsorted(mean_area, level))
+    if above in (0, mean_area.size):
+        raise ValueError(f"{level:.1%} in contact is outside the loads of the plan")
+    return slice(above - 1, above + 1)
+
+
+def _log_kappa(means: Real, pressure: Real, level: float) -> tuple[Real, Real]:
+    """Ln kappa between two loads, and its gradient by the two mean areas."""
+    first, second = np.log(means[..., 0]), np.log(means[..., 1])
+    step = math.log(pressure[1] / pressure[0])
+    rise = second - first
+    part = (math.log(level) - first) / rise
+    value = math.log(level / pressure[0]) - part * step
+    gradient = np.stack([(1 - part) / means[..., 0], part / means[..., 1]], axis=-1)
+    return value, step / rise[..., np.newaxis] * gradient
