@@ -129,9 +129,9 @@ def log_kappa(areas: Real, pressure: Real, level: float, rng: int = 0) -> Resamp
     )
 
 
-def kappa(one: Sample, level: float) -> IntervalEstimate:
+def kappa(one: Sample, level: float, confidence: float = 0.95) -> IntervalEstimate:
     """Return kappa of the corrected area, with its interval; the grid's error is not in it."""
-    return log_kappa(one.area, one.pressure, level).interval_estimate().exp()
+    return log_kappa(one.area, one.pressure, level).interval_estimate(confidence).exp()
 
 
 def kappa_in_cells(one: Sample, level: float) -> float:
@@ -167,27 +167,29 @@ def size_shift(band: int, hurst: float, level: float) -> IntervalEstimate:
     return difference.interval_estimate()
 
 
-def widened_kappa(one: Sample, level: float) -> WidenedInterval:
+def widened_kappa(one: Sample, level: float, confidence: float = 0.95) -> WidenedInterval:
     """Return the interval of kappa, widened to one side by the error of the grid.
 
     The error is twice the shift from eight to 16 cells, of the same band, or of the widest one that
     was pressed with 16.
     """
-    found = kappa(one, level)
+    found = kappa(one, level, confidence)
     shift = _HALVES * grid_shift(min(one.band, max(FINE_BANDS)), one.hurst, level).value
     down, up = math.exp(min(shift, 0)), math.exp(max(shift, 0))
     return WidenedInterval(found.low * down, found.value * down, found.value * up, found.high * up)
 
 
-def exponent(one: Sample, window: tuple[float, float]) -> IntervalEstimate:
+def exponent(
+    one: Sample, window: tuple[float, float], confidence: float = 0.95
+) -> IntervalEstimate:
     """Return the exponent of the area over the load, between two shares of the area."""
     mean = one.area.mean(axis=0)
     inside = one.pressure[(mean >= window[0] * 0.95) & (mean <= window[1] * 1.05)]
     weights = exponent_weights(one.pressure, (inside.min(), inside.max()))
-    return bootstrap.sum_of_log_means(one.area, weights).interval_estimate()
+    return bootstrap.sum_of_log_means(one.area, weights).interval_estimate(confidence)
 
 
-def fall_with_nayak(hurst: float, level: float) -> IntervalEstimate:
+def fall_with_nayak(hurst: float, level: float, confidence: float = 0.95) -> IntervalEstimate:
     """Return by how much ln kappa changes from one Nayak parameter to another ten times as large.
 
     By least squares over the bands, which count alike.
@@ -195,10 +197,10 @@ def fall_with_nayak(hurst: float, level: float) -> IntervalEstimate:
     samples = [sample("main", band, hurst) for band in BANDS]
     x = np.log10([one.nayak for one in samples])
     centred = x - x.mean()
-    return weighted_sum(samples, level, centred / (centred**2).sum())
+    return weighted_sum(samples, level, centred / (centred**2).sum(), confidence)
 
 
-def bend_with_nayak(hurst: float, level: float) -> IntervalEstimate:
+def bend_with_nayak(hurst: float, level: float, confidence: float = 0.95) -> IntervalEstimate:
     """Return the second difference of ln kappa over log Nayak: zero if kappa is linear in it.
 
     It is the fall from the narrowest to the middle band, per factor of ten, less that from there to
@@ -207,16 +209,19 @@ def bend_with_nayak(hurst: float, level: float) -> IntervalEstimate:
     first, middle, last = (sample("main", BANDS[i], hurst) for i in (0, len(BANDS) // 2, -1))
     left = 1 / math.log10(middle.nayak / first.nayak)
     right = 1 / math.log10(last.nayak / middle.nayak)
-    return weighted_sum([first, middle, last], level, np.array([left, -left - right, right]))
+    weights = np.array([left, -left - right, right])
+    return weighted_sum([first, middle, last], level, weights, confidence)
 
 
-def weighted_sum(samples: Sequence[Sample], level: float, weights: Real) -> IntervalEstimate:
+def weighted_sum(
+    samples: Sequence[Sample], level: float, weights: Real, confidence: float = 0.95
+) -> IntervalEstimate:
     """Return a weighted sum of ln kappa over samples, which are resampled apart."""
     parts = [log_kappa(one.area, one.pressure, level, rng) for rng, one in enumerate(samples)]
     total = _scaled(parts[0], weights[0])
     for part, weight in zip(parts[1:], weights[1:], strict=True):
         total = total - _scaled(part, -weight)
-    return total.interval_estimate()
+    return total.interval_estimate(confidence)
 
 
 def _scaled(one: Resampled, weight: float) -> Resampled:

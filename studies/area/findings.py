@@ -1,0 +1,268 @@
+"""What the study finds: one law for all spectra, and what is said of the area elsewhere."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.paper.stated import EXPONENT_TOLERANCE
+from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.verdict import Verdict
+from roughline.theories import bush_gibson_thomas, persson
+from studies.area.kappa import (
+    BANDS,
+    HURSTS,
+    Sample,
+    bend_with_nayak,
+    exponent,
+    fall_with_nayak,
+    kappa,
+    sample,
+    widened_kappa,
+)
+from studies.judged import Judgement, WidenedInterval, judged, judged_together
+
+TOLERANCE = 0.05
+"""How near kappa must come to a number to confirm it."""
+SAME = 0.02
+"""How near kappas must come to be called the same."""
+LIGHT, MIDDLE, HEAVY = 0.005, 0.05, 0.15
+"""Shares of the area at which statements are judged."""
+WINDOW = (LIGHT, HEAVY)
+LEVEL = 0.95
+_OF_EACH = 1 - (1 - LEVEL) / (len(BANDS) * len(HURSTS))  # Bonferroni: all spectra together
+_OF_HURSTS = 1 - (1 - LEVEL) / len(HURSTS)
+
+
+@dataclass(frozen=True)
+class CommonLaw:
+    """kappa at a share of the area for all spectra, a line over the logarithm of Nayak's parameter.
+
+    Attributes
+    ----------
+    level : float
+        The share.
+    at_ten : float
+        kappa where Nayak's parameter is 10.
+    per_decade : float
+        By how much it changes to a parameter ten times as large.
+    deviation : float
+        Largest relative deviation of a mean from the line.
+    """
+
+    level: float
+    at_ten: float
+    per_decade: float
+    deviation: float
+
+    def __call__(self, nayak: float) -> float:
+        """Evaluate the law."""
+        return self.at_ten + self.per_decade * (math.log10(nayak) - 1)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A statement, what was found, and the verdict.
+
+    Attributes
+    ----------
+    statement, found, interval : str
+        What is said, what was found, and its 95 % interval.
+    judgement : Judgement
+        On it.
+    where : str
+        For which spectra the verdict is not the commonest one, if they differ.
+    """
+
+    statement: str
+    found: str
+    interval: str
+    judgement: Judgement
+    where: str
+
+
+def main_samples() -> list[Sample]:
+    """Return the surfaces of all bands and Hurst exponents, eight cells for the shortest wave."""
+    return [sample("main", band, hurst) for hurst in HURSTS for band in BANDS]
+
+
+def common_law(level: float) -> CommonLaw:
+    """Fit the law by least squares over all spectra, which count alike."""
+    samples = main_samples()
+    x = np.log10([one.nayak for one in samples]) - 1
+    y = np.array([kappa(one, level).value for one in samples])
+    slope, offset = np.polyfit(x, y, 1)
+    deviation = float(np.abs(y / (offset + slope * x) - 1).max())
+    return CommonLaw(level, float(offset), float(slope), deviation)
+
+
+def findings() -> list[Finding]:
+    """Return all statements with their verdicts."""
+    return [
+        _kappa_is(
+            bush_gibson_thomas.KAPPA, "κ = √(2π) = 2.507 at light loads (Bush, Gibson and Thomas)"
+        ),
+        _kappa_is(persson.KAPPA, "κ = √(8/π) = 1.596 at light loads (Persson)"),
+        _linear(),
+        _one_kappa(),
+        _falls(),
+        _logarithmically(),
+        _nayak_alone(),
+    ]
+
+
+def _kappa_is(value: float, statement: str) -> Finding:
+    """Judge that kappa of light loads is a number."""
+    return _of_samples(
+        f"{statement}, to {TOLERANCE:.0%}",
+        f"κ at {LIGHT:.1%} in contact",
+        lambda one: widened_kappa(one, LIGHT, _OF_EACH),
+        (value * (1 - TOLERANCE), value * (1 + TOLERANCE)),
+        ".2f",
+    )
+
+
+def _linear() -> Finding:
+    return _of_samples(
+        f"A is linear in F (eq. 4), to ±{EXPONENT_TOLERANCE:g} of the exponent",
+        f"exponent from {WINDOW[0]:.1%} to {WINDOW[1]:.0%} in contact",
+        lambda one: WidenedInterval.of(exponent(one, WINDOW, _OF_EACH)),
+        (1 - EXPONENT_TOLERANCE, 1 + EXPONENT_TOLERANCE),
+        ".3f",
+    )
+
+
+def _one_kappa() -> Finding:
+    """Judge that kappa does not depend on the band of waves."""
+    spans = {hurst: _decades(hurst) for hurst in HURSTS}
+    return _of_hursts(
+        f"One κ for all surfaces (eq. 4), to {TOLERANCE:.0%}",
+        f"change of κ from q_high/q_roll = {BANDS[0]} to {BANDS[-1]} at {MIDDLE:.0%} in contact",
+        {hurst: _percent(_fall(hurst), decades) for hurst, decades in spans.items()},
+        (-TOLERANCE, TOLERANCE),
+    )
+
+
+def _falls() -> Finding:
+    return _of_hursts(
+        "κ falls as Nayak's parameter grows (Yastrebov, Anciaux and Molinari)",
+        f"change of κ for ten times the parameter, at {MIDDLE:.0%} in contact",
+        {hurst: _percent(_fall(hurst), 1.0) for hurst in HURSTS},
+        (-math.inf, 0.0),
+    )
+
+
+def _logarithmically() -> Finding:
+    return _of_hursts(
+        f"It falls about logarithmically, to {SAME:.0%} for ten times the parameter",
+        "its change for ten times the parameter from the middle band on, less that up to it, at "
+        f"{MIDDLE:.0%} in contact",
+        {hurst: _percent(bend_with_nayak(hurst, MIDDLE, _OF_HURSTS), 1.0) for hurst in HURSTS},
+        (-SAME, SAME),
+    )
+
+
+def _nayak_alone() -> Finding:
+    """Judge that the law of all spectra holds for each."""
+    law = common_law(MIDDLE)
+
+    def over_law(one: Sample) -> WidenedInterval:
+        found, expected = kappa(one, MIDDLE, _OF_EACH), law(one.nayak)
+        return WidenedInterval.of(
+            IntervalEstimate(*(each / expected for each in (found.value, found.low, found.high)))
+        )
+
+    return _of_samples(
+        f"Nayak's parameter alone says κ, whatever the Hurst exponent (here), to {SAME:.0%}",
+        f"κ at {MIDDLE:.0%} in contact over {law.at_ten:.3f} {law.per_decade:+.3f} log10(α/10)",
+        over_law,
+        (1 - SAME, 1 + SAME),
+        ".3f",
+    )
+
+
+def _of_samples(
+    statement: str,
+    what: str,
+    found: Callable[[Sample], WidenedInterval],
+    allowed: tuple[float, float],
+    form: str,
+) -> Finding:
+    """Judge a statement about every spectrum."""
+    samples = main_samples()
+    intervals = [found(one) for one in samples]
+    parts = [
+        judged(interval, one.count, *allowed)
+        for one, interval in zip(samples, intervals, strict=True)
+    ]
+    values = [(each.least + each.most) / 2 for each in intervals]
+    return Finding(
+        statement,
+        f"{what}: {min(values):{form}} to {max(values):{form}}",
+        f"{min(each.low for each in intervals):{form}} to "
+        f"{max(each.high for each in intervals):{form}}",
+        judged_together(parts),
+        _where(
+            [
+                (f"{one.band} at Hurst {one.hurst:g}", part)
+                for one, part in zip(samples, parts, strict=True)
+            ]
+        ),
+    )
+
+
+def _of_hursts(
+    statement: str,
+    what: str,
+    found: dict[float, IntervalEstimate],
+    allowed: tuple[float, float],
+) -> Finding:
+    """Judge a statement about all bands of each Hurst exponent."""
+    least = min(sample("main", band, HURSTS[0]).count for band in BANDS)
+    parts = {
+        hurst: judged(WidenedInterval.of(each), least, *allowed) for hurst, each in found.items()
+    }
+    hursts = ", ".join(f"{hurst:g}" for hurst in found)
+    return Finding(
+        statement,
+        f"{what}: {', '.join(f'{each.value:+.1%}' for each in found.values())} at Hurst {hursts}",
+        ", ".join(f"{each.low:+.1%} to {each.high:+.1%}" for each in found.values()),
+        judged_together(list(parts.values())),
+        _where([(f"Hurst {hurst:g}", part) for hurst, part in parts.items()]),
+    )
+
+
+def _where(parts: Sequence[tuple[str, Judgement]]) -> str:
+    """Name the cases of every verdict but the commonest."""
+    cases: dict[Verdict, list[str]] = {}
+    for name, part in parts:
+        cases.setdefault(part.verdict, []).append(name)
+    commonest = max(cases, key=lambda each: len(cases[each]))
+    return "; ".join(
+        f"{found} for {', '.join(names)}"
+        for found, names in cases.items()
+        if found is not commonest
+    )
+
+
+def _name(one: Sample) -> str:
+    return f"q_high/q_roll = {one.band} at Hurst {one.hurst:g}"
+
+
+def _fall(hurst: float) -> IntervalEstimate:
+    return fall_with_nayak(hurst, MIDDLE, _OF_HURSTS)
+
+
+def _decades(hurst: float) -> float:
+    """How many factors of ten Nayak's parameter spans."""
+    first, last = (sample("main", BANDS[i], hurst).nayak for i in (0, -1))
+    return math.log10(last / first)
+
+
+def _percent(logarithm: IntervalEstimate, factor: float) -> IntervalEstimate:
+    """Relative change of kappa from a change of its logarithm."""
+    ends = (logarithm.value, logarithm.low, logarithm.high)
+    return IntervalEstimate(*(math.expm1(each * factor) for each in ends))

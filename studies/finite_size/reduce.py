@@ -1,0 +1,23 @@
+"""Reduce the store of the study of finite size to what its page needs.
+
+    python -m studies.finite_size.reduce out/finite-size.zarr
+
+writes ``data.nc``, a group for each ensemble of ``plan.toml``.
+"""
+
+from pathlib import Path
+
+from roughline import campaign
+from studies.finite_size.samples import DATA, PLAN
+from studies.reduced_data import run, write_groups
+
+KEPT = ("stiffness", "status", "resolved")
+
+
+def main(path: Path) -> None:
+    """Reduce a finished store."""
+    write_groups(DATA, campaign.read_plan(PLAN), campaign.Store(path), KEPT)
+
+
+if __name__ == "__main__":
+    run(main, __doc__)

@@ -1,0 +1,136 @@
+"""The study's ensembles: stiffness over force in units of one roll-off wave.
+
+Surfaces have L = h = E* = 1, and L / lambda_r roll-off waves along a side, with lambda_r =
+2 pi / q_roll. In units of such a wave, force and stiffness are F / (E* h lambda_r) and
+k / (E* lambda_r). Then k = p / (gamma h) reads k / (E* lambda_r) = F / (E* h lambda_r) / gamma,
+whatever the size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+import roughline as rl
+from roughline import campaign
+from roughline.computing.arrays import Mask, Real
+from roughline.contact.curve import Status
+from roughline.contact.scaling import EXACT_PUNCH, PUNCH_GRID_ERROR
+from roughline.engineering.formulas import interface_stiffness
+from studies.reduced_data import read_groups
+
+if TYPE_CHECKING:
+    import xarray
+
+HERE = Path(__file__).parent
+PLAN, DATA = HERE / "plan.toml", HERE / "data.nc"
+
+Geometry = Literal["periodic", "free", "lines"]
+GEOMETRIES: tuple[Geometry, ...] = ("periodic", "free", "lines")
+HURSTS = (0.8, 0.5, 0.2)
+SIZES = {16: (1, 2, 4, 8, 16, 32), 64: (1, 2, 4)}
+"""Roll-off waves along a side, by the band q_high / q_roll."""
+FINE_SIZES = (2, 8)
+"""Those pressed with eight cells for the shortest wave too, periodic, band 16."""
+NEAR_PUNCH = 0.9
+"""Share of the punch's stiffness up to which a free surface shows that of its interface."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """Bodies of one spectrum and size in one geometry, in units of a roll-off wave.
+
+    Attributes
+    ----------
+    geometry : {"periodic", "free", "lines"}
+        Half-space, or springs.
+    band, size : int
+        q_high / q_roll, and L / lambda_r.
+    hurst : float
+        H.
+    force : ndarray, shape (loads,)
+        F / (E* h lambda_r).
+    stiffness : ndarray, shape (realisations, loads)
+        k / (E* lambda_r); of a free surface that of its interface, 1 / (1/k - 1/k_s).
+    left_out : int
+        Loads of the plan that are not here: a body was not solved, or has fewer than ten cells or
+        springs in contact, or the mean of free surfaces is more than 90 % as stiff as the punch.
+    """
+
+    geometry: Geometry
+    band: int
+    size: int
+    hurst: float
+    force: Real
+    stiffness: Real
+    left_out: int
+
+    @property
+    def count(self) -> int:
+        """Number of realisations."""
+        return len(self.stiffness)
+
+    @property
+    def force_bar(self) -> Real:
+        """F / (E* h L), shape (loads,)."""
+        return self.force / self.size
+
+    def first(self, count: int) -> Sample:
+        """Return the first realisations alone."""
+        return replace(self, stiffness=self.stiffness[:count])
+
+
+@cache
+def plan() -> campaign.Plan:
+    """Return the study's plan."""
+    return campaign.read_plan(PLAN)
+
+
+@cache
+def data() -> dict[str, xarray.Dataset]:
+    """Return the data of the study, by the name of the ensemble."""
+    return read_groups(DATA, plan())
+
+
+@cache
+def sample(geometry: Geometry, band: int, size: int, hurst: float, fine: bool = False) -> Sample:
+    """Return the bodies of one spectrum, size and geometry."""
+    name = f"fine-{size}" if fine else f"{'wide-' if band > 16 else ''}{geometry}-{size}"
+    ensemble = plan().ensemble(name)
+    one = data()[name].sel(fractal_dimension=3 - hurst)
+    stiffness, usable = one.stiffness.values, _usable(one)
+    if geometry == "free":
+        punch = EXACT_PUNCH - PUNCH_GRID_ERROR / ensemble.n
+        usable &= np.nan_to_num(stiffness, nan=np.inf).mean(axis=0) < NEAR_PUNCH * punch
+        stiffness = interface_stiffness(stiffness, punch)
+    return Sample(
+        geometry=geometry,
+        band=band,
+        size=size,
+        hurst=hurst,
+        force=one.force_bar.values[usable] * size,
+        stiffness=stiffness[:, usable] * size,
+        left_out=int(np.count_nonzero(~usable)),
+    )
+
+
+def samples(geometry: Geometry, band: int, hurst: float) -> list[Sample]:
+    """Return the bodies of all sizes."""
+    return [sample(geometry, band, size, hurst) for size in SIZES[band]]
+
+
+def persson(one: Sample) -> Real:
+    """Stiffness of Persson's theory at the loads of a sample, k / (E* lambda_r)."""
+    name = f"{'wide-' if one.band > 16 else ''}periodic-{one.size}"
+    ensemble = plan().ensemble(name)
+    lattice = ensemble.spectrum(3 - one.hurst).lattice(ensemble.n)
+    return rl.theory("persson", lattice, 1.0, one.force_bar).stiffness * one.size
+
+
+def _usable(one: xarray.Dataset) -> Mask:
+    """Whether a load is solved and resolved in all realisations, shape (loads,)."""
+    return ((one.status.values == Status.CONVERGED) & (one.resolved.values == 1)).all(axis=0)
