@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Verdict, joint_verdict, verdict
 
+_COUNTLESS = 100_000  # realisations above which the mean lies on the border of the range
+
 
 @dataclass(frozen=True)
 class WidenedInterval:
@@ -56,8 +58,7 @@ class Judgement:
             return ""
         if math.isinf(self.enough):
             return "finer grids would decide"
-        digits = 1 - math.floor(math.log10(self.enough))  # it is known no better
-        return f"some {math.ceil(round(self.enough, digits)):,} surfaces would decide"
+        return f"{number_in_words(self.enough)} surfaces would decide"
 
     @property
     def in_words(self) -> str:
@@ -65,6 +66,14 @@ class Judgement:
         if not self.what_would_decide:
             return str(self.verdict)
         return f"{self.verdict} ({self.what_would_decide})"
+
+
+def number_in_words(enough: float) -> str:
+    """Write a number of realisations that would decide, to two digits, as it is known no better."""
+    if enough > _COUNTLESS:
+        return f"over {_COUNTLESS:,}"
+    digits = 1 - math.floor(math.log10(enough))
+    return f"some {math.ceil(round(enough, digits)):,}"
 
 
 def judged(interval: WidenedInterval, count: int, least: float, most: float) -> Judgement:

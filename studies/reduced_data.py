@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from roughline.campaign import Ensemble, Plan, Store
 from roughline.campaign.layout import DONE
 from roughline.errors import RoughlineError, StoreError
 
-_AGAIN = "run its campaign and its reduction again, or take the plan back"
+_AGAIN = "reduce the study anew, or take the plan back"
 _PACKED = {"zlib": True, "complevel": 9, "shuffle": True}
 
 
@@ -108,36 +109,55 @@ def read_groups(path: Path, plan: Plan) -> dict[str, xarray.Dataset]:
         If the file is missing or damaged, or is not that of the plan; the difference is named.
     """
     read = {}
-    try:
+    with _readable(path):
         for ensemble in plan.ensembles:
-            with xarray.open_dataset(path, engine="h5netcdf", group=ensemble.name) as data:
-                read[ensemble.name] = data.load()
-    except FileNotFoundError as error:
-        raise StoreError(f"{path} does not exist: {_AGAIN}") from error
-    except KeyError as error:
-        raise StoreError(
-            f"{path} has no ensemble {ensemble.name!r}, which the plan has: {_AGAIN}"
-        ) from error
-    except (OSError, ValueError) as error:
-        raise StoreError(f"{path} is damaged ({error}): {_AGAIN}") from error
+            try:
+                with xarray.open_dataset(path, engine="h5netcdf", group=ensemble.name) as data:
+                    read[ensemble.name] = data.load()
+            except KeyError as error:
+                raise StoreError(
+                    f"{path} has no ensemble {ensemble.name!r}, which the plan has: {_AGAIN}"
+                ) from error
     for ensemble in plan.ensembles:
         _refuse_other_settings(read[ensemble.name].attrs, ensemble, str(path))
         _refuse_other_extent(read[ensemble.name], ensemble, str(path))
     return {name: _in_double(data) for name, data in read.items()}
 
 
-def refuse_other_plan(stored: str, plan: dict[str, Any], path: Path) -> None:
-    """Refuse data that were made from another plan, which they keep as JSON.
+def write_one(path: Path, plan: dict[str, Any], data: xarray.Dataset) -> None:
+    """Write data that are no ensembles, with the plan that they are made from."""
+    unwritten = path.with_suffix(".part")
+    data.assign_attrs(plan=json.dumps(plan)).to_netcdf(unwritten, engine="h5netcdf", mode="w")
+    unwritten.replace(path)
+
+
+def read_one(path: Path, plan: dict[str, Any]) -> xarray.Dataset:
+    """Read data that are no ensembles.
 
     Raises
     ------
     StoreError
-        If they differ; the first difference is named.
+        If the file is missing or damaged, or was made from another plan; the first difference is
+        named.
     """
-    before = json.loads(stored)
+    with _readable(path), xarray.open_dataset(path, engine="h5netcdf") as data:
+        read = data.load()
+    before = json.loads(read.attrs["plan"])
     for key in sorted({*before, *plan}):
         if before.get(key) != plan.get(key):
-            raise _other(str(path), "the data", key, before.get(key), plan.get(key))
+            raise _other(str(path), "the study", key, before.get(key), plan.get(key))
+    return read
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[None]:
+    """Say in one line why a file of data cannot be read."""
+    try:
+        yield
+    except FileNotFoundError as error:
+        raise StoreError(f"{path} does not exist: {_AGAIN}") from error
+    except (OSError, ValueError) as error:
+        raise StoreError(f"{path} is damaged ({error}): {_AGAIN}") from error
 
 
 def _refuse_other_settings(stored: dict[str, Any], ensemble: Ensemble, place: str) -> None:

@@ -67,9 +67,9 @@ def _question() -> Section:
         "What was asked",
         [
             "Is κ of A = κ F / (E* ∇h) one number for all surfaces, and which? ∇h is the rms "
-            "slope. The founding paper quotes the law as its eq. 4. On grids that cut the spectrum at "
-            "their own end κ is a number of the grid: the shortest waves are not resolved, and the "
-            "area in cells grows with the outline of the contact.",
+            "slope. The founding paper quotes the law as its eq. 4. On grids that cut the spectrum "
+            "at their own end κ is a number of the grid: the shortest waves are not resolved, and "
+            "the area in cells grows with the outline of the contact.",
         ],
     )
 

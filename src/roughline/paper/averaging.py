@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
+from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Indices, Real
 from roughline.paper.exponents import converged_stiffness, exponent_estimate
 from roughline.paper.windows import Window
 from roughline.statistics import bootstrap
 from roughline.statistics.averages import Averaging
 from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
 from roughline.statistics.planes import at_depths, at_levels
-from roughline.statistics.power_law import fit_power_law
+from roughline.statistics.power_law import fit_power_law, line_weights
 from roughline.statistics.window import inside_window
 
 if TYPE_CHECKING:
@@ -22,9 +24,12 @@ if TYPE_CHECKING:
 Fixed = Literal["force", "depth", "level"]
 """What all realisations have in common where they are averaged."""
 
-_PLACES = 2000
+_PLACES = 2000  # depths or levels of an ensemble
+_BEYOND = 5.0  # how far around the window they are used, as a factor of the mean force
+_LEAST_PLACES, _MOST_PLACES = 8, 120  # of those
+_POINTS = 12  # mean forces in the window at which the line is fitted, evenly spaced logarithms
+_NOTHING = 1e-200  # mean force up to which no body of a resample touches
 _LEAST_SHARE = 0.95  # of resamples that must have an exponent, for an interval
-_COVERED = 1.1  # how near to the ends of the window mean forces must come, as a factor
 
 
 def exponent_of_means(
@@ -60,14 +65,11 @@ def exponent_of_means(
     if geometric:
         touches = (force > 0).all(axis=0)
         force, stiffness = np.log(force[:, touches]), np.log(stiffness[:, touches])
-    if not force.size:
+    used = _places_around(force.mean(axis=0), window, geometric)
+    if used is None:
         return NO_ESTIMATE
-    mean = np.exp(force.mean(axis=0)) if geometric else force.mean(axis=0)
-    inside = inside_window(mean, window)
-    if np.count_nonzero(inside) < 3 or not _covers(mean[inside], window):
-        return NO_ESTIMATE
-    both = np.concatenate([force[:, inside], stiffness[:, inside]], axis=1)
-    exponent = bootstrap.function_of_means(both, _slope if geometric else _slope_of_logarithms)
+    both = np.concatenate([force[:, used], stiffness[:, used]], axis=1)
+    exponent = bootstrap.function_of_means(both, partial(_exponent, window, geometric))
     if np.isfinite(exponent.values).mean() < _LEAST_SHARE:
         return IntervalEstimate(float(exponent.value), np.nan, np.nan)
     return exponent.interval_estimate()
@@ -83,41 +85,50 @@ def _at_fixed(data: xarray.Dataset, fixed: Fixed) -> tuple[Real, Real]:
     return at_levels(force_bar, depth, stiffness, data.highest.values[converged], _PLACES)
 
 
-def _covers(mean_force: Real, window: Window) -> bool:
-    """Whether mean forces reach both ends of a window."""
+def _places_around(force: Real, window: Window, geometric: bool) -> Indices | None:
+    """Return places whose mean force lies around a window; None where they do not reach its ends.
+
+    They reach beyond it, as resamples have the forces of the window at other places.
+    """
+    mean = np.exp(force) if geometric else force
     low, high = window
-    return bool(mean_force.min() <= low * _COVERED and mean_force.max() >= high / _COVERED)
+    if not mean.size or mean.min() > low or mean.max() < high:
+        return None
+    around = np.flatnonzero(inside_window(mean, (low / _BEYOND, high * _BEYOND)))
+    if around.size < _LEAST_PLACES:
+        return None
+    return around[np.linspace(0, around.size - 1, min(_MOST_PLACES, around.size)).astype(int)]
 
 
-def _slope_of_logarithms(means: Real) -> tuple[Real, Real]:
-    """Exponent of mean stiffness over mean force, and its gradient by both.
+def _exponent(window: Window, geometric: bool, means: Real) -> tuple[Real, Real]:
+    """Exponent of mean stiffness over mean force in a window, and its gradient by both means.
 
-    The last axis holds the mean forces at all levels, and then the stiffnesses. A resample that
-    carries no force at a level is fitted without that level; its exponent is NaN if fewer than
-    three levels are left.
+    The last axis of `means` holds the mean forces at all places, rising, and then the stiffnesses,
+    or the means of their logarithms. The exponent of a resample that does not cover the window is
+    NaN.
     """
-    carries = (means > 0).reshape(*means.shape[:-1], 2, -1).all(axis=-2)
-    both = np.concatenate([carries, carries], axis=-1)
-    safe = np.where(both, means, 1.0)
-    slope, gradient = _slope(np.where(both, np.log(safe), np.nan))
-    return slope, gradient / safe
-
-
-def _slope(means: Real) -> tuple[Real, Real]:
-    """Slope by least squares of the second half of the last axis over the first, and its gradient.
-
-    Points that are NaN are left out; the slope is NaN if fewer than three are left.
-    """
-    known = np.isfinite(means[..., : means.shape[-1] // 2])
-    count = known.sum(axis=-1, keepdims=True)
-    x, y = (np.where(known, each - _mean(each, known), 0.0) for each in np.split(means, 2, axis=-1))
-    spread = np.where(count >= 3, (x**2).sum(axis=-1, keepdims=True), np.nan)
-    slope = (x * y).sum(axis=-1, keepdims=True) / spread
-    gradient = np.concatenate([(y - 2 * slope * x) / spread, x / spread], axis=-1)
-    return slope[..., 0], gradient
-
-
-def _mean(values: Real, known: Real) -> Real:
-    """Mean over the last axis of the values that are known, kept as an axis."""
-    count = np.maximum(known.sum(axis=-1, keepdims=True), 1)
-    return np.where(known, values, 0.0).sum(axis=-1, keepdims=True) / count
+    at = np.linspace(math.log(window[0]), math.log(window[1]), _POINTS)
+    weights, _ = line_weights(at)
+    table = means.reshape(-1, means.shape[-1])
+    logs = table if geometric else np.log(np.maximum(table, _NOTHING))
+    x, y = np.split(logs, 2, axis=1)
+    right = (x[:, :, np.newaxis] < at).sum(axis=1)
+    covers = (right[:, 0] > 0) & (right[:, -1] < x.shape[1])
+    right = np.clip(right, 1, x.shape[1] - 1)
+    (x_left, y_left), (x_right, y_right) = (
+        (np.take_along_axis(x, place, axis=1), np.take_along_axis(y, place, axis=1))
+        for place in (right - 1, right)
+    )
+    covers &= x_left[:, 0] > math.log(_NOTHING)
+    step = np.where(x_right > x_left, x_right - x_left, 1.0)
+    slope, part = (y_right - y_left) / step, (at - x_left) / step
+    exponents = np.where(covers, (y_left + slope * (at - x_left)) @ weights, np.nan)
+    gradient = np.zeros_like(logs)
+    rows = np.arange(len(logs))[:, np.newaxis]
+    for place, share in ((right - 1, 1 - part), (right, part)):
+        np.add.at(gradient, (rows, place), -weights * slope * share)
+        np.add.at(gradient, (rows, place + x.shape[1]), weights * share)
+    if not geometric:
+        gradient /= np.maximum(table, _NOTHING)
+    shape = means.shape[:-1]
+    return exponents.reshape(shape), gradient.reshape(means.shape)
