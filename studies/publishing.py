@@ -8,15 +8,19 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from roughline.paper.studies import StudySummary, write_summary
 from roughline.report.style import save, styled
 
 DOCS = Path(__file__).parents[1] / "docs"
 
 
 def publish(
-    name: str, page: Callable[[], str], figures: Mapping[str, Callable[[], Figure]]
+    name: str,
+    page: Callable[[], str],
+    figures: Mapping[str, Callable[[], Figure]],
+    summary: Callable[[], StudySummary] | None = None,
 ) -> None:
-    """Write ``docs/NAME.md``, and the figures into ``docs/figures/NAME``.
+    """Write ``docs/NAME.md``, the figures into ``docs/figures/NAME``, and what the lab shows.
 
     Parameters
     ----------
@@ -26,6 +30,8 @@ def publish(
         Returns the page as Markdown.
     figures : mapping of str to callable
         Draw the figures, by their file names without an ending.
+    summary : callable, optional
+        Returns the study in short, which comes with the package.
     """
     folder = DOCS / "figures" / name
     shutil.rmtree(folder, ignore_errors=True)
@@ -35,3 +41,5 @@ def publish(
             _, pdf = save(draw(), folder, file_name)
             pdf.unlink()
     (DOCS / f"{name}.md").write_text(page(), encoding="utf-8")
+    if summary is not None:
+        write_summary(summary())

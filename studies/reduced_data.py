@@ -17,6 +17,7 @@ from roughline.campaign.layout import DONE
 from roughline.errors import RoughlineError, StoreError
 
 _AGAIN = "reduce the study anew, or take the plan back"
+_SMALL = 8192  # bytes of an array below which packing costs more than it saves
 _PACKED = {"zlib": True, "complevel": 9, "shuffle": True}
 
 
@@ -95,7 +96,8 @@ def write_groups(
             if variable.dtype == np.float64:
                 attributes = variable.attrs
                 kept[variable.name] = variable.astype(np.float32).assign_attrs(attributes)
-        packed = dict.fromkeys(map(str, kept), _PACKED)
+        packed = {str(name): _PACKED for name in kept if kept[name].nbytes > _SMALL}
+        kept = kept.drop_vars("realisation")  # they are counted from 0
         kept.to_netcdf(unwritten, engine="h5netcdf", mode="a", group=name, encoding=packed)
     unwritten.replace(path)
 

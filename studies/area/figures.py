@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughline.computing.arrays import Real
 from roughline.report.style import MARKERS, PAGE, colours, new_figure
 from roughline.statistics.averages import average
 from roughline.theories import bush_gibson_thomas, persson
@@ -42,7 +43,7 @@ def kappa_figure() -> Figure:
 def _draw_over_area(axes: Axes) -> None:
     for hurst, style in zip(HURSTS, ("-", "--", ":"), strict=True):
         for band, colour in zip(BANDS, colours(len(BANDS)), strict=True):
-            area, mean, low, high = _over_loads(sample("main", band, hurst))
+            area, mean, low, high = over_loads(sample("main", band, hurst))
             label = f"{band}" if hurst == HURSTS[0] else None
             axes.semilogx(area, mean, color=colour, linestyle=style, label=label, linewidth=1)
             if hurst == HURSTS[0]:
@@ -59,7 +60,7 @@ def _draw_over_area(axes: Axes) -> None:
     axes.legend(handles=marks, ncols=3, loc="lower left", bbox_to_anchor=(0, 0.28))
 
 
-def _over_loads(one: Sample) -> tuple[np.ndarray, ...]:
+def over_loads(one: Sample) -> tuple[Real, ...]:
     """Mean area, and kappa with its interval, at each load."""
     mean = average(one.area)
     return (mean.mean, *(each / one.pressure for each in (mean.mean, mean.low, mean.high)))

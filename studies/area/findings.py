@@ -14,11 +14,14 @@ from roughline.statistics.verdict import Verdict
 from roughline.theories import bush_gibson_thomas, persson
 from studies.area.kappa import (
     BANDS,
+    FINE_BANDS,
+    HALVES,
     HURSTS,
     Sample,
     bend_with_nayak,
     exponent,
     fall_with_nayak,
+    grid_shift,
     kappa,
     sample,
     widened_kappa,
@@ -29,6 +32,8 @@ TOLERANCE = 0.05
 """How near kappa must come to a number to confirm it."""
 SAME = 0.02
 """How near kappas must come to be called the same."""
+STRAIGHT = 0.01
+"""How near kappa must come to a straight line over log Nayak."""
 LIGHT, MIDDLE, HEAVY = 0.005, 0.05, 0.15
 """Shares of the area at which statements are judged."""
 WINDOW = (LIGHT, HEAVY)
@@ -99,6 +104,12 @@ def common_law(level: float) -> CommonLaw:
     return CommonLaw(level, float(offset), float(slope), deviation)
 
 
+def grid_error(level: float) -> float:
+    """Return by how much kappa would be higher on infinitely fine grids, at most. [1]"""
+    shifts = [grid_shift(band, hurst, level).value for band in FINE_BANDS for hurst in HURSTS]
+    return HALVES * max(shifts, key=abs)
+
+
 def findings() -> list[Finding]:
     """Return all statements with their verdicts."""
     return [
@@ -157,11 +168,11 @@ def _falls() -> Finding:
 
 def _logarithmically() -> Finding:
     return _of_hursts(
-        f"It falls about logarithmically, to {SAME:.0%} for ten times the parameter",
-        "its change for ten times the parameter from the middle band on, less that up to it, at "
-        f"{MIDDLE:.0%} in contact",
+        f"It falls about logarithmically, to {STRAIGHT:.0%} of κ",
+        "κ of the middle band over the straight line between the narrowest and the widest, less 1, "
+        f"at {MIDDLE:.0%} in contact",
         {hurst: _percent(bend_with_nayak(hurst, MIDDLE, _OF_HURSTS), 1.0) for hurst in HURSTS},
-        (-SAME, SAME),
+        (-STRAIGHT, STRAIGHT),
     )
 
 
@@ -205,12 +216,7 @@ def _of_samples(
         f"{min(each.low for each in intervals):{form}} to "
         f"{max(each.high for each in intervals):{form}}",
         judged_together(parts),
-        _where(
-            [
-                (f"{one.band} at Hurst {one.hurst:g}", part)
-                for one, part in zip(samples, parts, strict=True)
-            ]
-        ),
+        _where(_by_band(parts)),
     )
 
 
@@ -241,15 +247,26 @@ def _where(parts: Sequence[tuple[str, Judgement]]) -> str:
     for name, part in parts:
         cases.setdefault(part.verdict, []).append(name)
     commonest = max(cases, key=lambda each: len(cases[each]))
-    return "; ".join(
-        f"{found} for {', '.join(names)}"
-        for found, names in cases.items()
-        if found is not commonest
-    )
+    others = {found: names for found, names in cases.items() if found is not commonest}
+    return "; ".join(f"{found} for {', '.join(names)}" for found, names in others.items())
 
 
-def _name(one: Sample) -> str:
-    return f"q_high/q_roll = {one.band} at Hurst {one.hurst:g}"
+def _by_band(judgements: Sequence[Judgement]) -> list[tuple[str, Judgement]]:
+    """Name judgements on all spectra, by their band alone where its Hurst exponents agree."""
+    named = []
+    by_spectrum = {
+        (one.band, one.hurst): part for one, part in zip(main_samples(), judgements, strict=True)
+    }
+    for band in BANDS:
+        of_band = {hurst: by_spectrum[band, hurst] for hurst in HURSTS}
+        if len({part.verdict for part in of_band.values()}) == 1:
+            named.append((f"q_high/q_roll = {band}", of_band[HURSTS[0]]))
+        else:
+            named += [
+                (f"q_high/q_roll = {band} at Hurst {hurst:g}", part)
+                for hurst, part in of_band.items()
+            ]
+    return named
 
 
 def _fall(hurst: float) -> IntervalEstimate:

@@ -32,7 +32,8 @@ FINE_BANDS, LARGE_BANDS = (4, 8, 16), (4, 16)
 """Those pressed with 16 cells for the shortest wave, and with eight roll-off waves a side too."""
 AREAS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.15)
 """Shares of the area in contact at which kappa is told."""
-_HALVES = 2.0  # an error that halves with the spacing is twice the difference of two grids
+HALVES = 2.0
+"""An error that halves with the spacing is twice the difference of two grids."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +175,7 @@ def widened_kappa(one: Sample, level: float, confidence: float = 0.95) -> Widene
     was pressed with 16.
     """
     found = kappa(one, level, confidence)
-    shift = _HALVES * grid_shift(min(one.band, max(FINE_BANDS)), one.hurst, level).value
+    shift = HALVES * grid_shift(min(one.band, max(FINE_BANDS)), one.hurst, level).value
     down, up = math.exp(min(shift, 0)), math.exp(max(shift, 0))
     return WidenedInterval(found.low * down, found.value * down, found.value * up, found.high * up)
 
@@ -201,15 +202,10 @@ def fall_with_nayak(hurst: float, level: float, confidence: float = 0.95) -> Int
 
 
 def bend_with_nayak(hurst: float, level: float, confidence: float = 0.95) -> IntervalEstimate:
-    """Return the second difference of ln kappa over log Nayak: zero if kappa is linear in it.
-
-    It is the fall from the narrowest to the middle band, per factor of ten, less that from there to
-    the widest.
-    """
+    """Return ln kappa of the middle band, less a straight line between the ends over log Nayak."""
     first, middle, last = (sample("main", BANDS[i], hurst) for i in (0, len(BANDS) // 2, -1))
-    left = 1 / math.log10(middle.nayak / first.nayak)
-    right = 1 / math.log10(last.nayak / middle.nayak)
-    weights = np.array([left, -left - right, right])
+    part = math.log(middle.nayak / first.nayak) / math.log(last.nayak / first.nayak)
+    weights = np.array([part - 1, 1.0, -part])
     return weighted_sum([first, middle, last], level, weights, confidence)
 
 

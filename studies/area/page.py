@@ -10,6 +10,7 @@ from studies.area.findings import (
     MIDDLE,
     common_law,
     findings,
+    grid_error,
     main_samples,
 )
 from studies.area.kappa import (
@@ -46,10 +47,11 @@ def page() -> str:
         _repeat(),
         _references(),
     ]
-    return render_markdown(TITLE, _lead(), sections, FOLDER)
+    return render_markdown(TITLE, lead(), sections, FOLDER)
 
 
-def _lead() -> str:
+def lead() -> str:
+    """Return the answer in a few sentences."""
     law, light = common_law(MIDDLE), [kappa(one, LIGHT).value for one in main_samples()]
     return (
         "The real contact area of rough elastic surfaces is nearly proportional to the force, A = "
@@ -58,7 +60,8 @@ def _lead() -> str:
         f"and not the grid's: {min(light):.2f} to {max(light):.2f} at {LIGHT:.1%} in contact, less "
         "under heavier loads. It depends on the spectrum through Nayak's parameter α alone: at "
         f"{MIDDLE:.0%} in contact it is {law.at_ten:.3f} − {-law.per_decade:.3f} log10(α/10), to "
-        f"{law.deviation:.1%}, for Hurst exponents from {min(HURSTS):g} to {max(HURSTS):g}."
+        f"{law.deviation:.1%}, for Hurst exponents from {min(HURSTS):g} to {max(HURSTS):g}. On "
+        f"infinitely fine grids κ would be up to {grid_error(MIDDLE):.1%} higher."
     )
 
 
@@ -110,7 +113,8 @@ def _method() -> Section:
     )
 
 
-def _verdicts() -> Section:
+def verdict_table() -> Table:
+    """Return the statements with their verdicts."""
     rows = [
         (
             each.statement,
@@ -120,6 +124,10 @@ def _verdicts() -> Section:
         )
         for each in findings()
     ]
+    return Table(("What is said", "Found here", "95 % interval", "Verdict"), rows, (), 3)
+
+
+def _verdicts() -> Section:
     return Section(
         "Verdicts",
         [
@@ -132,7 +140,7 @@ def _verdicts() -> Section:
         note=f"The lightest loads are those at {LIGHT:.1%} in contact. κ still rises towards "
         "lighter ones, so the limit of vanishing load, in which Bush, Gibson and Thomas's number "
         "is meant, is not judged.",
-        tables=[Table(("What is said", "Found here", "95 % interval", "Verdict"), rows, (), 3)],
+        tables=[verdict_table()],
     )
 
 

@@ -3,17 +3,18 @@
     python -m studies.area.publish
 
 reads ``data.nc`` and ``plan.toml`` beside it, and writes ``docs/area.md`` and
-``docs/figures/area``.
+``docs/figures/area``, and what the lab shows of the study.
 """
 
 from studies.area.figures import kappa_figure
 from studies.area.page import page
+from studies.area.summary import summary
 from studies.publishing import publish
 
 
 def main() -> None:
     """Draw everything anew."""
-    publish("area", page, {"kappa": kappa_figure})
+    publish("area", page, {"kappa": kappa_figure}, summary)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from roughline import campaign
 from studies.area.kappa import DATA, PLAN
 from studies.reduced_data import run, write_groups
 
-KEPT = ("area_fraction", "area_fraction_corrected", "stiffness", "status", "resolved", "rms_slope")
+KEPT = ("area_fraction", "area_fraction_corrected", "status", "resolved")
 
 
 def main(path: Path) -> None:

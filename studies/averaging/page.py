@@ -47,10 +47,11 @@ def page() -> str:
         _repeat(),
         _references(),
     ]
-    return render_markdown(TITLE, _lead(), sections, FOLDER)
+    return render_markdown(TITLE, lead(), sections, FOLDER)
 
 
-def _lead() -> str:
+def lead() -> str:
+    """Return the answer in a few sentences."""
     low, high = spread("surfaces", 2.0)
     apart = max(abs(scaling_exponent(each) - linear_exponent(each)) for each in DIMENSIONS)
     return (
@@ -116,7 +117,8 @@ def _figure() -> Section:
     )
 
 
-def _verdicts(bodies: str) -> Section:
+def verdict_table(bodies: str) -> Table:
+    """Return what every window and mean reproduces."""
     rows = [
         (
             _window(window),
@@ -127,7 +129,10 @@ def _verdicts(bodies: str) -> Section:
         for window in windows(bodies)
         for choice in choices()
     ]
-    header = ("F̄", "averaged at", "mean", *PUBLISHED)
+    return Table(("F̄", "averaged at", "mean", *PUBLISHED), rows)
+
+
+def _verdicts(bodies: str) -> Section:
     return Section(
         f"{_MODELS[bodies]}: what each choice reproduces",
         [
@@ -136,7 +141,7 @@ def _verdicts(bodies: str) -> Section:
             "lies partly within (undecided), with the number of bodies that would decide; "
             "elsewhere it is refuted.",
         ],
-        tables=[Table(header, rows)],
+        tables=[verdict_table(bodies)],
     )
 
 

@@ -3,17 +3,18 @@
     python -m studies.averaging.publish
 
 reads ``data.nc`` and ``plan.toml`` beside it, and writes ``docs/averaging.md`` and
-``docs/figures/averaging``.
+``docs/figures/averaging``, and what the lab shows of the study.
 """
 
 from studies.averaging.figures import exponents_figure
 from studies.averaging.page import page
+from studies.averaging.summary import summary
 from studies.publishing import publish
 
 
 def main() -> None:
     """Draw everything anew."""
-    publish("averaging", page, {"exponents": exponents_figure})
+    publish("averaging", page, {"exponents": exponents_figure}, summary)
 
 
 if __name__ == "__main__":

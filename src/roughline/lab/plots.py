@@ -59,6 +59,23 @@ def log_figure(
     return plot
 
 
+def semilog_figure(
+    x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float]
+) -> figure:
+    """Return an empty plot with a logarithmic x axis and a linear y axis."""
+    plot = figure(
+        x_axis_type="log",
+        x_range=x_range,
+        y_range=y_range,
+        tools=_TOOLS,
+        active_scroll="wheel_zoom",
+        sizing_mode="stretch_both",
+    )
+    plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
+    _plain(plot)
+    return plot
+
+
 def linear_figure(
     x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float] | None
 ) -> figure:

@@ -21,6 +21,7 @@ def site() -> Site:
             "measured": "roughline.lab.measured.figures",
             "published": "roughline.lab.published.figures",
             "bodies": "roughline.lab.published.body_figures",
+            "studies": "roughline.lab.published.study_figures",
         },
         tasks=TASKS,
         warm="roughline.lab.warm",

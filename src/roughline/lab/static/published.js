@@ -2,7 +2,7 @@
 import {Controls, said as asText} from "./controls.js";
 import {embedded} from "./plots.js";
 import {drawArea, drawExponents, drawFits, drawStiffness, showFits, tableOfExponents} from "./published_curves.js";
-import {Bodies, drawPoint, drawTrust, showClaims} from "./published_maps.js";
+import {Bodies, drawPoint, drawTrust, showClaims, watchStudies} from "./published_maps.js";
 import {Strip} from "./strip.js";
 import {Waiting} from "./waiting.js";
 
@@ -48,6 +48,7 @@ class Published {
     this.#bindMaps();
     this.#drawAll();
     this.#bodies.watch();
+    watchStudies();
     new MutationObserver(() => { this.#drawAll(); this.#bodies.recolour(); })
       .observe(document.documentElement, {attributeFilter: ["data-theme"]});
     this.#opening = false;

@@ -50,9 +50,26 @@ export function showClaims({header, rows, verdicts, counts, note}, wanted) {
   document.querySelector('[data-status="claims"]').textContent = `${kept.length} of ${rows.length} claims shown; ${counted}`;
 }
 
+// The figures of the studies, embedded when one of them comes into sight.
+export function watchStudies() {
+  const studies = document.querySelectorAll("#published .study");
+  for (const study of studies) colourVerdicts(study);
+  seen(studies, () => embedded("studies"));
+}
+
+// Call once, when one of the elements comes into sight.
+function seen(elements, act) {
+  const observer = new IntersectionObserver((entries) => {
+    if (!entries.some(({isIntersecting}) => isIntersecting)) return;
+    observer.disconnect();
+    act();
+  }, {rootMargin: "200px"});
+  for (const element of elements) observer.observe(element);
+}
+
 // Figures 1 and 2, computed when they come into sight.
 export class Bodies {
-  #link; #plots; #root = document.querySelector("#published-bodies"); #found = new Map(); #waiting; #asked = false;
+  #link; #plots; #root = document.querySelector("#published-bodies"); #found = new Map(); #waiting;
 
   constructor(link) {
     this.#link = link;
@@ -65,13 +82,9 @@ export class Bodies {
 
   // Embed the figures and compute as soon as they come into sight.
   watch() {
-    const observer = new IntersectionObserver((entries) => {
-      if (!entries.some(({isIntersecting}) => isIntersecting) || this.#asked) return;
-      observer.disconnect();
-      this.#asked = true;
+    seen([this.#root], () => {
       embedded("bodies").then((plots) => { this.#plots = plots; this.#press(); });
-    }, {rootMargin: "200px"});
-    observer.observe(this.#root);
+    });
   }
 
   recolour() {

@@ -1,0 +1,63 @@
+"""The figures of the studies beside the paper's, drawn with their data."""
+
+from __future__ import annotations
+
+from bokeh.models import ColumnDataSource, Whisker
+from bokeh.plotting import figure
+
+from roughline.lab.plots import embedded, linear_figure, semilog_figure, themed
+from roughline.paper.studies import StudyCurve, StudyPanel, study_summaries
+
+_MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus")
+
+
+def figures() -> bytes:
+    """All of them, by the elements of :func:`element_of`."""
+    return embedded(
+        {
+            element_of(study.name, i): _drawn(panel)
+            for study in study_summaries()
+            for i, panel in enumerate(study.panels)
+        }
+    )
+
+
+def element_of(name: str, panel: int) -> str:
+    """Return the element of the page that a panel of a study belongs to."""
+    return f"study-{name}-{panel}"
+
+
+def _drawn(panel: StudyPanel) -> figure:
+    empty = semilog_figure if panel.is_log else linear_figure
+    (left, right), (bottom, top) = panel.x_range, panel.y_range
+    plot = empty(panel.x_label, panel.y_label, (left, right), (bottom, top))
+    for curve in panel.curves:
+        _draw(plot, curve)
+    if plot.legend:
+        plot.legend.location, plot.legend.click_policy = "top_left", "hide"
+    return plot
+
+
+def _draw(plot: figure, curve: StudyCurve) -> None:
+    """Draw a curve with its band, or marks with whiskers."""
+    source = ColumnDataSource({"x": list(curve.x), "y": list(curve.y)})
+    colour = "text" if curve.colour < 0 else f"ramp-{curve.colour}"
+    named = {"legend_label": curve.name} if curve.name else {}
+    if curve.low:
+        source.data |= {"low": list(curve.low), "high": list(curve.high)}
+    if curve.marks:
+        if curve.low:
+            whisker = Whisker(base="x", lower="low", upper="high", source=source)
+            whisker.tags = themed(line_color=colour)
+            for head in (whisker.upper_head, whisker.lower_head):
+                head.size, head.tags = 6, themed(line_color=colour)
+            plot.add_layout(whisker)
+        marker = _MARKERS[curve.colour % len(_MARKERS)]
+        marks = plot.scatter("x", "y", source=source, marker=marker, size=7, **named)
+        marks.glyph.tags = themed(fill_color=colour, line_color=colour)
+        return
+    if curve.low:
+        band = plot.varea("x", "low", "high", source=source, fill_alpha=0.2)
+        band.glyph.tags = themed(fill_color=colour)
+    line = plot.line("x", "y", source=source, line_dash=curve.dash, line_width=1.5, **named)
+    line.glyph.tags = themed(line_color=colour)

@@ -1,0 +1,120 @@
+"""The study of the area: the page is that of the data, and known laws come back."""
+
+import math
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from studies.area.findings import MIDDLE, main_samples
+from studies.area.kappa import (
+    AREAS,
+    BANDS,
+    HERE,
+    HURSTS,
+    exponent,
+    grid_shift,
+    kappa,
+    kappa_in_cells,
+    log_kappa,
+    plan,
+    sample,
+    size_shift,
+    unsolved_loads,
+)
+from studies.area.page import page
+
+AGAIN = "the page is not that of the data any more: run make published"
+TRIALS = 200
+PRESSURES = 0.002 * 10 ** (np.arange(9) / 5)
+
+
+def areas(count, rng, slope=2.2, power=0.97):
+    """Areas A = slope p^power / 0.01^(power - 1) that scatter as those of surfaces."""
+    mean = slope * PRESSURES * (PRESSURES / 0.01) ** (power - 1)
+    common = rng.standard_normal((count, 1)) + 0.3 * rng.standard_normal((count, PRESSURES.size))
+    scatter = 0.15 * (PRESSURES / PRESSURES[0]) ** -0.4
+    return mean * np.exp(scatter * common - scatter**2 * 1.09 / 2)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [20, 100])
+def test_a_known_kappa_comes_back_within_its_interval(count):
+    """In 95 % of 200 trials, less the standard error of that count, at light and heavy loads."""
+    rng, power = np.random.default_rng(3), 0.97
+    hits = dict.fromkeys((0.01, 0.05, 0.15), 0)
+    for _ in range(TRIALS):
+        table = areas(count, rng, power=power)
+        for level in hits:
+            pressure = 0.01 * (level / 0.022) ** (1 / power)
+            found = log_kappa(table, PRESSURES, level).interval_estimate().exp()
+            hits[level] += found.low <= level / pressure <= found.high
+    assert min(hits.values()) >= 0.95 * TRIALS - math.sqrt(0.05 * 0.95 * TRIALS), hits
+
+
+def test_half_of_the_surfaces_widen_an_interval_by_the_square_root_of_two():
+    ratios = []
+    for one in main_samples():
+        whole, half = (kappa(each, MIDDLE) for each in (one, one.first(one.count // 2)))
+        ratios.append((half.high - half.low) / (whole.high - whole.low))
+    assert np.mean(ratios) == pytest.approx(math.sqrt(2), rel=0.1)
+
+
+def test_the_page_is_that_of_the_data():
+    assert (HERE.parents[1] / "docs" / "area.md").read_text("utf-8") == page(), AGAIN
+
+
+def test_no_load_is_left_out():
+    unsolved, loads = unsolved_loads()
+    assert unsolved == 0
+    assert loads == sum(each.cases * len(each.force_bars) for each in plan().ensembles)
+
+
+def test_a_surface_of_the_data_is_what_the_library_gives():
+    """The cheapest spectrum: 128 x 128 points, to single precision."""
+    ensemble = plan().ensemble("main-4-2.5")
+    surface = ensemble.spectrum(2.5).surface(ensemble.n, ensemble.seed_of(7))
+    curve = rl.press(surface, E_star=1.0, forces=ensemble.force_bars, periodic=True)
+    one = sample("main", 4, 0.5)
+    # certified to 1e-6 on every machine: single cells may be in contact or not
+    assert one.area[7] == pytest.approx(curve.area_fraction_corrected, rel=2e-3)
+    assert one.cells[7] == pytest.approx(curve.area_fraction, rel=2e-3)
+
+
+def test_nayak_and_slope_are_those_of_the_surfaces():
+    """Moments of the spectrum on its lattice, against the waves of a generated surface."""
+    for band, hurst in ((4, 0.2), (16, 0.8)):
+        ensemble = plan().ensemble(f"main-{band}-{3 - hurst:g}")
+        surface = ensemble.spectrum(3 - hurst).surface(ensemble.n, ensemble.seed_of(0))
+        n = ensemble.n
+        power = np.abs(np.fft.fft2(surface.heights - surface.heights.mean()) / n**2) ** 2
+        q = 2 * math.pi * np.fft.fftfreq(n, 1 / n)
+        q_x, q_y = q[:, np.newaxis], q[np.newaxis, :]
+        m_0, m_2, m_4 = ((q_x**order * power).sum() for order in (0, 2, 4))
+        along_y = (q_y**2 * power).sum(), (q_y**4 * power).sum()
+        m_2, m_4 = (m_2 + along_y[0]) / 2, (m_4 + along_y[1]) / 2
+        one = sample("main", band, hurst)
+        assert one.nayak == pytest.approx(m_0 * m_4 / m_2**2, rel=0.02)
+        slope = ensemble.force_bars[0] / one.pressure[0]
+        assert slope == pytest.approx(math.sqrt(2 * m_2), rel=1e-6)
+
+
+def test_sentences_without_numbers_are_true_too():
+    # "less under heavier loads"
+    for one in main_samples():
+        levels = [level for level in AREAS if one.area.mean(axis=0)[0] < level]
+        assert (np.diff([kappa(one, level).value for level in levels]) < 0).all()
+        assert exponent(one, (0.005, 0.15)).value < 1
+        # the area in cells is larger, the more so the longer its outline
+        assert kappa_in_cells(one, MIDDLE) > kappa(one, MIDDLE).value
+    for hurst in HURSTS:
+        # finer grids raise kappa, by less than a per cent
+        for band in (4, 8, 16):
+            assert 0 < grid_shift(band, hurst, MIDDLE).value < 0.01
+        # larger surfaces have the same kappa
+        for band in (4, 16):
+            found = size_shift(band, hurst, MIDDLE)
+            assert found.low < 0 < found.high
+        # kappa falls from each band to the next
+        kappas = [kappa(sample("main", band, hurst), MIDDLE).value for band in BANDS]
+        assert (np.diff(kappas) < 0).all()
