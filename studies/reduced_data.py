@@ -116,7 +116,9 @@ def read_groups(path: Path, plan: Plan) -> dict[str, xarray.Dataset]:
             try:
                 with xarray.open_dataset(path, engine="h5netcdf", group=ensemble.name) as data:
                     read[ensemble.name] = data.load()
-            except KeyError as error:
+            except OSError as error:
+                if "group not found" not in str(error):
+                    raise
                 raise StoreError(
                     f"{path} has no ensemble {ensemble.name!r}, which the plan has: {_AGAIN}"
                 ) from error
