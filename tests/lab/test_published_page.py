@@ -4,6 +4,7 @@ import pytest
 
 import roughline as rl
 from lab.looks import asked, faint, tabbed
+from roughline.paper.studies import study_summaries
 from roughline.units import decimal
 
 HEADER = "published-stiffness-3D"
@@ -99,6 +100,26 @@ def test_a_point_of_the_trust_map_says_what_it_means(paper):
     assert len(said.inner_text()) > 40
     assert paper.is_checked('#published [data-key="roll_off"][value="4"]')
     assert float(paper.input_value("#published-map_F-text")) == pytest.approx(0.01, rel=0.2)
+
+
+def test_the_studies_have_their_place(paper):
+    for study in study_summaries():
+        section = paper.locator(f"#study-{study.name}")
+        section.scroll_into_view_if_needed()
+        assert section.locator("h2").inner_text() == study.title
+        assert section.locator(".lead").inner_text() == study.answer
+        for i in range(len(study.panels)):
+            paper.wait_for_function(
+                """(plot) => globalThis.Bokeh?.documents.some((each) =>
+                    each.get_model_by_name(plot)?.inner_width > 0)""",
+                arg=f"study-{study.name}-{i}",
+            )
+        section.locator("summary").click()
+        rows = section.locator("tbody tr")
+        assert rows.count() == len(study.rows)
+        assert rows.first.locator("td").all_inner_texts() == list(study.rows[0])
+        assert section.locator("td[data-verdict]").count() >= len(study.rows) / 2
+        section.locator("summary").click()
 
 
 def test_the_claims_are_shown_by_verdict(paper):

@@ -8,6 +8,7 @@ from bokeh.plotting import figure
 from roughline.lab.plots import embedded, linear_figure, semilog_figure, themed
 from roughline.paper.studies import StudyCurve, StudyPanel, study_summaries
 
+_COLUMNS = 3  # of the legend
 _MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus")
 
 
@@ -33,18 +34,19 @@ def _drawn(panel: StudyPanel) -> figure:
     plot = empty(panel.x_label, panel.y_label, (left, right), (bottom, top))
     for curve in panel.curves:
         _draw(plot, curve)
-    if plot.legend:
-        plot.legend.location, plot.legend.click_policy = "top_left", "hide"
+    legend = plot.legend[0]
+    legend.ncols = _COLUMNS
+    plot.center.remove(legend)
+    plot.add_layout(legend, "below")  # inside it would lie on the curves
     return plot
 
 
 def _draw(plot: figure, curve: StudyCurve) -> None:
     """Draw a curve with its band, or marks with whiskers."""
-    source = ColumnDataSource({"x": list(curve.x), "y": list(curve.y)})
+    names = ("x", "y", "low", "high") if curve.low else ("x", "y")
+    source = ColumnDataSource({name: list(getattr(curve, name)) for name in names})
     colour = "text" if curve.colour < 0 else f"ramp-{curve.colour}"
     named = {"legend_label": curve.name} if curve.name else {}
-    if curve.low:
-        source.data |= {"low": list(curve.low), "high": list(curve.high)}
     if curve.marks:
         if curve.low:
             whisker = Whisker(base="x", lower="low", upper="high", source=source)

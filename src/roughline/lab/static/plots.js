@@ -181,6 +181,7 @@ function recolour(made) {
   };
   for (const model of made.all_models) {
     if (looks[model.type]) model.setv(looks[model.type]);
+    if (model.type === "Legend" && model.ncols !== "auto") model.spacing = 12; // between its columns
     for (const {colours} of model.tags.filter((tag) => tag.colours)) {
       model.setv(Object.fromEntries(Object.entries(colours).map(([key, name]) => [key, colour(name)])));
     }
