@@ -128,7 +128,8 @@ def _exponent(window: Window, geometric: bool, means: Real) -> tuple[Real, Real]
     for place, share in ((right - 1, 1 - part), (right, part)):
         np.add.at(gradient, (rows, place), -weights * slope * share)
         np.add.at(gradient, (rows, place + x.shape[1]), weights * share)
+    gradient[~covers] = 0.0
     if not geometric:
-        gradient /= np.maximum(table, _NOTHING)
+        gradient /= np.where(table > _NOTHING, table, 1.0)
     shape = means.shape[:-1]
     return exponents.reshape(shape), gradient.reshape(means.shape)

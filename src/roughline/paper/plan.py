@@ -64,7 +64,7 @@ def paper_plan(scale: StudyScale, seed: int = 2012) -> Plan:
     )
     gallery = Gallery(
         fractal_dimensions=(2.0, 7 / 3, 8 / 3, 3.0),
-        n=256 if quick else 1024,
+        n=n,
         n_line=2**12,
         force_bar=0.3,
         seed=seed,

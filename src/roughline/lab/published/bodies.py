@@ -17,7 +17,7 @@ from roughline.paper.plan import paper_plan
 from roughline.report.shading import shaded
 from roughline.server.tasks import Progress
 
-_POINTS = 512  # along a side; the paper's own plan has 1024
+_POINTS = 512  # along a side; the paper's own plan has 2048
 
 
 def body(arguments: Mapping[str, Any], progress: Progress) -> bytes:
