@@ -7,7 +7,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations area averaging published architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -87,6 +87,7 @@ fuzz: $(VENV)/installed
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
 	$(BIN)/python -m studies.paper.reduce out/study.zarr
+	$(BIN)/python -m studies.paper.gallery
 	$(BIN)/python -m studies.paper.times
 
 correlations: $(VENV)/installed
@@ -94,9 +95,21 @@ correlations: $(VENV)/installed
 	$(BIN)/python -m studies.correlations.reduce out/correlations.zarr
 	$(BIN)/python -m studies.correlations.publish
 
+area: $(VENV)/installed
+	$(BIN)/roughline campaign run studies/area/plan.toml --store out/area.zarr
+	$(BIN)/python -m studies.area.reduce out/area.zarr
+	$(BIN)/python -m studies.area.publish
+
+# Of the data of the paper's study, which come with the package.
+averaging: $(VENV)/installed
+	$(BIN)/python -m studies.averaging.reduce
+	$(BIN)/python -m studies.averaging.publish
+
 published: $(VENV)/installed
 	$(BIN)/python -m studies.paper.publish
 	$(BIN)/python -m studies.correlations.publish
+	$(BIN)/python -m studies.area.publish
+	$(BIN)/python -m studies.averaging.publish
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py

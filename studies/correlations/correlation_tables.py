@@ -95,7 +95,7 @@ def root_sum_table() -> Table:
 def area_table() -> Table:
     """Return the real area over p / H, and the conductance over that of Holm's spot."""
     header = (
-        *("H/(E*∇h)", "Hurst"),
+        "H/(E*∇h)",
         *(f"(A/A_0)/(p/H), p/H = {pressure:g}" for pressure in PRESSURES),
         *(f"over Holm's, p/H = {pressure:g}" for pressure in PRESSURES),
     )
@@ -105,7 +105,6 @@ def area_table() -> Table:
         rows.append(
             [
                 f"{hardness:g}",
-                _hurst(one),
                 *_cells(one, over_bearing_area(one), PRESSURES),
                 *_cells(one, over_holm(one), PRESSURES, 1),
             ]

@@ -10,6 +10,7 @@ from roughline.paper.pictures import draw_pictures
 from roughline.paper.results import PaperResults
 from roughline.paper.sensitivity import sensitivities
 from roughline.paper.tables import (
+    automatic_windows_table,
     constant_table,
     exponent_table,
     paper_grid_table,
@@ -102,6 +103,10 @@ def _completeness(results: PaperResults) -> str:
 
 def _sensitivity_section(results: PaperResults) -> Section:
     dimensions = results.full.fractal_dimension.values
+    found = {
+        "1D": sensitivities(results.reduced, dimensions, WINDOWS_REDUCED),
+        "3D": sensitivities(results.full, dimensions, WINDOWS_FULL),
+    }
     return Section(
         "How much α depends on the window and on the averaging",
         [
@@ -113,8 +118,8 @@ def _sensitivity_section(results: PaperResults) -> Section:
             "with fewer than ten springs or cells in some realisation are not in it."
         ],
         tables=[
-            sensitivity_table("1D", sensitivities(results.reduced, dimensions, WINDOWS_REDUCED)),
-            sensitivity_table("3D", sensitivities(results.full, dimensions, WINDOWS_FULL)),
+            *(sensitivity_table(model, rows) for model, rows in found.items()),
+            automatic_windows_table(found),
         ],
     )
 

@@ -92,18 +92,25 @@ def sensitivity_table(model: str, rows: list[Sensitivity]) -> Table:
     header = ["D_f"]
     for law in rows[0].arithmetic:
         header += [f"α {model}, {law.window[0]:g} to {law.window[1]:g}", "geometric", "fixed level"]
-    header += ["automatic window", "α there", "loads left out"]
     cells = []
     for row in rows:
         fits = zip(row.arithmetic, row.geometric, row.at_level, strict=True)
-        cells.append(
-            [
-                f"{row.fractal_dimension:.1f}",
-                *(cell for fit in fits for cell in _fit_cells(*fit)),
-                *_automatic_cells(row.automatic),
-                str(row.unresolved),
-            ]
-        )
+        found = [cell for fit in fits for cell in _fit_cells(*fit)]
+        cells.append([f"{row.fractal_dimension:.1f}", *found])
+    return Table(header, cells, numbers=range(len(header)))
+
+
+def automatic_windows_table(rows: dict[str, list[Sensitivity]]) -> Table:
+    """Return the longest windows in which a power law is not rejected, by model."""
+    header = ["D_f"]
+    for model in rows:
+        header += [f"window {model}", "α there", "loads left out"]
+    cells = []
+    for same in zip(*rows.values(), strict=True):
+        found = [
+            cell for each in same for cell in (*_automatic_cells(each.automatic), each.unresolved)
+        ]
+        cells.append([f"{same[0].fractal_dimension:.1f}", *map(str, found)])
     return Table(header, cells, numbers=range(len(header)))
 
 
