@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from roughline.report.page import Table
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Verdict, joint_verdict, verdict
 
@@ -66,6 +67,51 @@ class Judgement:
         if not self.what_would_decide:
             return str(self.verdict)
         return f"{self.verdict} ({self.what_would_decide})"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A statement, what was found, and the verdict.
+
+    Attributes
+    ----------
+    statement, found, interval : str
+        What is said, what was found, and its 95 % interval.
+    judgement : Judgement
+        On it.
+    where : str
+        For which spectra the verdict is not the commonest one, if they differ.
+    """
+
+    statement: str
+    found: str
+    interval: str
+    judgement: Judgement
+    where: str
+
+
+def findings_table(findings: Sequence[Finding]) -> Table:
+    """Return statements with their verdicts as a table."""
+    rows = [
+        (
+            each.statement,
+            each.found,
+            each.interval,
+            each.judgement.in_words + (f"; {each.where}" if each.where else ""),
+        )
+        for each in findings
+    ]
+    return Table(("What is said", "Found here", "95 % interval", "Verdict"), rows, (), 3)
+
+
+def where_others(parts: Sequence[tuple[str, Judgement]]) -> str:
+    """Name the cases of every verdict but the commonest."""
+    cases: dict[Verdict, list[str]] = {}
+    for name, part in parts:
+        cases.setdefault(part.verdict, []).append(name)
+    commonest = max(cases, key=lambda each: len(cases[each]))
+    others = {found: names for found, names in cases.items() if found is not commonest}
+    return "; ".join(f"{found} for {', '.join(names)}" for found, names in others.items())
 
 
 def number_in_words(enough: float) -> str:

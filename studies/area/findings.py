@@ -10,7 +10,6 @@ import numpy as np
 
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Verdict
 from roughline.theories import bush_gibson_thomas, persson
 from studies.area.kappa import (
     BANDS,
@@ -26,7 +25,14 @@ from studies.area.kappa import (
     sample,
     widened_kappa,
 )
-from studies.judged import Judgement, WidenedInterval, judged, judged_together
+from studies.judged import (
+    Finding,
+    Judgement,
+    WidenedInterval,
+    judged,
+    judged_together,
+    where_others,
+)
 
 TOLERANCE = 0.05
 """How near kappa must come to a number to confirm it."""
@@ -66,27 +72,6 @@ class CommonLaw:
     def __call__(self, nayak: float) -> float:
         """Evaluate the law."""
         return self.at_ten + self.per_decade * (math.log10(nayak) - 1)
-
-
-@dataclass(frozen=True)
-class Finding:
-    """A statement, what was found, and the verdict.
-
-    Attributes
-    ----------
-    statement, found, interval : str
-        What is said, what was found, and its 95 % interval.
-    judgement : Judgement
-        On it.
-    where : str
-        For which spectra the verdict is not the commonest one, if they differ.
-    """
-
-    statement: str
-    found: str
-    interval: str
-    judgement: Judgement
-    where: str
 
 
 def main_samples() -> list[Sample]:
@@ -216,7 +201,7 @@ def _of_samples(
         f"{min(each.low for each in intervals):{form}} to "
         f"{max(each.high for each in intervals):{form}}",
         judged_together(parts),
-        _where(_by_band(parts)),
+        where_others(_by_band(parts)),
     )
 
 
@@ -237,18 +222,8 @@ def _of_hursts(
         f"{what}: {', '.join(f'{each.value:+.1%}' for each in found.values())} at Hurst {hursts}",
         ", ".join(f"{each.low:+.1%} to {each.high:+.1%}" for each in found.values()),
         judged_together(list(parts.values())),
-        _where([(f"Hurst {hurst:g}", part) for hurst, part in parts.items()]),
+        where_others([(f"Hurst {hurst:g}", part) for hurst, part in parts.items()]),
     )
-
-
-def _where(parts: Sequence[tuple[str, Judgement]]) -> str:
-    """Name the cases of every verdict but the commonest."""
-    cases: dict[Verdict, list[str]] = {}
-    for name, part in parts:
-        cases.setdefault(part.verdict, []).append(name)
-    commonest = max(cases, key=lambda each: len(cases[each]))
-    others = {found: names for found, names in cases.items() if found is not commonest}
-    return "; ".join(f"{found} for {', '.join(names)}" for found, names in others.items())
 
 
 def _by_band(judgements: Sequence[Judgement]) -> list[tuple[str, Judgement]]:

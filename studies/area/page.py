@@ -27,6 +27,7 @@ from studies.area.kappa import (
     size_shift,
     unsolved_loads,
 )
+from studies.judged import findings_table
 
 TITLE = "How large is the real contact area?"
 FOLDER = "figures/area"
@@ -115,16 +116,7 @@ def _method() -> Section:
 
 def verdict_table() -> Table:
     """Return the statements with their verdicts."""
-    rows = [
-        (
-            each.statement,
-            each.found,
-            each.interval,
-            each.judgement.in_words + (f"; {each.where}" if each.where else ""),
-        )
-        for each in findings()
-    ]
-    return Table(("What is said", "Found here", "95 % interval", "Verdict"), rows, (), 3)
+    return findings_table(findings())
 
 
 def _verdicts() -> Section:

@@ -32,10 +32,14 @@ PLAN, DATA = HERE / "plan.toml", HERE / "data.nc"
 Geometry = Literal["periodic", "free", "lines"]
 GEOMETRIES: tuple[Geometry, ...] = ("periodic", "free", "lines")
 HURSTS = (0.8, 0.5, 0.2)
-SIZES = {16: (1, 2, 4, 8, 16, 32), 64: (1, 2, 4)}
-"""Roll-off waves along a side, by the band q_high / q_roll."""
+BAND, WIDE = 16, 64
+"""q_high / q_roll."""
+SIZES = {BAND: (1, 2, 4, 8, 16, 32), WIDE: (1, 2, 4)}
+"""Roll-off waves along a side, by the band."""
 FINE_SIZES = (2, 8)
 """Those pressed with eight cells for the shortest wave too, periodic, band 16."""
+RESOLVED = 0.95
+"""Share of the bodies that must have ten cells or springs in contact."""
 NEAR_PUNCH = 0.9
 """Share of the punch's stiffness up to which a free surface shows that of its interface."""
 
@@ -52,19 +56,23 @@ class Sample:
         q_high / q_roll, and L / lambda_r.
     hurst : float
         H.
+    slope : float
+        Rms slope of the spectrum on its lattice, over h / L.
     force : ndarray, shape (loads,)
         F / (E* h lambda_r).
     stiffness : ndarray, shape (realisations, loads)
         k / (E* lambda_r); of a free surface that of its interface, 1 / (1/k - 1/k_s).
     left_out : int
-        Loads of the plan that are not here: a body was not solved, or has fewer than ten cells or
-        springs in contact, or the mean of free surfaces is more than 90 % as stiff as the punch.
+        Loads of the plan that are not here: a body was not solved, or more than one of twenty have
+        fewer than ten cells or springs in contact, or free surfaces are in the mean more than 90 %
+        as stiff as the punch.
     """
 
     geometry: Geometry
     band: int
     size: int
     hurst: float
+    slope: float
     force: Real
     stiffness: Real
     left_out: int
@@ -78,6 +86,16 @@ class Sample:
     def force_bar(self) -> Real:
         """F / (E* h L), shape (loads,)."""
         return self.force / self.size
+
+    @property
+    def pressure(self) -> Real:
+        """P / (E* g), shape (loads,)."""
+        return self.force_bar / self.slope
+
+    @property
+    def gamma(self) -> Real:
+        """F / (k h) of the mean stiffness, shape (loads,)."""
+        return self.force / self.stiffness.mean(axis=0)
 
     def first(self, count: int) -> Sample:
         """Return the first realisations alone."""
@@ -99,7 +117,7 @@ def data() -> dict[str, xarray.Dataset]:
 @cache
 def sample(geometry: Geometry, band: int, size: int, hurst: float, fine: bool = False) -> Sample:
     """Return the bodies of one spectrum, size and geometry."""
-    name = f"fine-{size}" if fine else f"{'wide-' if band > 16 else ''}{geometry}-{size}"
+    name = f"fine-{size}" if fine else f"{'wide-' if band == WIDE else ''}{geometry}-{size}"
     ensemble = plan().ensemble(name)
     one = data()[name].sel(fractal_dimension=3 - hurst)
     stiffness, usable = one.stiffness.values, _usable(one)
@@ -112,6 +130,9 @@ def sample(geometry: Geometry, band: int, size: int, hurst: float, fine: bool = 
         band=band,
         size=size,
         hurst=hurst,
+        slope=ensemble.spectrum(3 - hurst).lattice(ensemble.n).rms_slope
+        if geometry != "lines"
+        else sample("periodic", band, size, hurst).slope,
         force=one.force_bar.values[usable] * size,
         stiffness=stiffness[:, usable] * size,
         left_out=int(np.count_nonzero(~usable)),
@@ -125,12 +146,20 @@ def samples(geometry: Geometry, band: int, hurst: float) -> list[Sample]:
 
 def persson(one: Sample) -> Real:
     """Stiffness of Persson's theory at the loads of a sample, k / (E* lambda_r)."""
-    name = f"{'wide-' if one.band > 16 else ''}periodic-{one.size}"
+    name = f"{'wide-' if one.band == WIDE else ''}periodic-{one.size}"
     ensemble = plan().ensemble(name)
     lattice = ensemble.spectrum(3 - one.hurst).lattice(ensemble.n)
     return rl.theory("persson", lattice, 1.0, one.force_bar).stiffness * one.size
 
 
 def _usable(one: xarray.Dataset) -> Mask:
-    """Whether a load is solved and resolved in all realisations, shape (loads,)."""
-    return ((one.status.values == Status.CONVERGED) & (one.resolved.values == 1)).all(axis=0)
+    """Whether a load is solved in all bodies and resolved in nearly all, shape (loads,)."""
+    solved = (one.status.values == Status.CONVERGED).all(axis=0)
+    return solved & ((one.resolved.values == 1).mean(axis=0) >= RESOLVED)
+
+
+def unsolved_loads() -> tuple[int, int]:
+    """Return how many loads of all bodies have no certified solution, and how many there are."""
+    status = [each.status.values for each in data().values()]
+    unsolved = sum(int((each != Status.CONVERGED).sum()) for each in status)
+    return unsolved, sum(each.size for each in status)

@@ -1,0 +1,308 @@
+"""What the study finds: where the power law ends, where the linear law begins, and in between."""
+
+from __future__ import annotations
+
+import math
+
+from roughline.paper.stated import EXPONENT_TOLERANCE
+from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.statistics.verdict import Verdict
+from studies.finite_size.crossover import scaling_exponent_of
+from studies.finite_size.measures import (
+    crossing,
+    decades_of_linear_law,
+    exponent_in,
+    over_persson,
+    reduced_over_full,
+)
+from studies.finite_size.samples import BAND, HURSTS, SIZES, WIDE, Sample, sample
+from studies.judged import (
+    Finding,
+    Judgement,
+    WidenedInterval,
+    judged,
+    judged_together,
+    where_others,
+)
+
+MANY = 8
+"""Roll-off waves along a side from which on there are many."""
+SINGLE = (0.006, 0.06)
+"""F / (E* h lambda_r) of the power law of a single wave."""
+BETWEEN = (0.5, 5.0)
+"""F / (E* h lambda_r) between the two laws."""
+SUMMITS = 0.9
+"""Exponent between the two laws."""
+GAMMAS = (0.4, 0.5)
+DECADE = 1.0
+NEAR = 0.2
+"""How near a stiffness must come to a theory's."""
+_MEDIUM, _SAME = 0.3, 0.1  # F / (E* h lambda_r) and tolerance of the comparison of models
+_BELOW = {0: "at the load of γ", 1: "a decade below", 2: "two decades below"}
+
+
+def findings() -> list[Finding]:
+    """Return all statements with their verdicts."""
+    return [
+        _single_wave(),
+        _finite_size(),
+        _linear_law(),
+        _gamma(),
+        _between(),
+        _persson(),
+        _reduced(),
+    ]
+
+
+def _single_wave() -> Finding:
+    """Judge the power law of surfaces of one roll-off wave."""
+    cases = {
+        f"{geometry}, Hurst {hurst:g}": (sample(geometry, WIDE, 1, hurst), hurst)
+        for geometry in ("periodic", "free")
+        for hurst in HURSTS
+    }
+    found = {name: exponent_in(one, SINGLE) for name, (one, _) in cases.items()}
+    parts = {
+        name: _near(found[name], scaling_exponent_of(hurst), one.count)
+        for name, (one, hurst) in cases.items()
+    }
+    return _finding(
+        "A surface of one roll-off wave: k ~ F^(1/(1+H)) under light loads (eq. 14; Pastewka and "
+        f"others), to ±{EXPONENT_TOLERANCE:g}",
+        f"exponent from F/(E* h λ_r) = {SINGLE[0]:g} to {SINGLE[1]:g}",
+        found,
+        parts,
+        ".3f",
+    )
+
+
+def _finite_size() -> Finding:
+    """Judge that the power law ends at lower loads on larger surfaces."""
+    small, large = 1, max(SIZES[WIDE])
+    found, parts = {}, {}
+    for hurst in HURSTS:
+        first, last = (
+            _over_size(crossing("periodic", WIDE, size, hurst).leaves.force, size)
+            for size in (small, large)
+        )
+        name = f"Hurst {hurst:g}"
+        found[name] = (first, last)
+        parts[name] = _below(last, first, sample("periodic", WIDE, large, hurst).count)
+    return Finding(
+        "The power law is an effect of finite size: on larger surfaces it ends under lower loads "
+        "(Pastewka and others)",
+        f"end at F/(E* h L) with {small} and with {large} roll-off waves along a side: "
+        + ", ".join(
+            f"{_known(first)} and {_known(last)} at {name}" for name, (first, last) in found.items()
+        ),
+        ", ".join(f"{_ends(first)} and {_ends(last)}" for first, last in found.values()),
+        judged_together(list(parts.values())),
+        where_others(list(parts.items())),
+    )
+
+
+def _linear_law() -> Finding:
+    """Judge that stiffness is linear in the force over a decade."""
+    found = {
+        f"{size} waves, Hurst {hurst:g}": decades_of_linear_law(
+            sample("periodic", BAND, size, hurst)
+        )
+        for size in SIZES[BAND]
+        if size >= MANY
+        for hurst in HURSTS
+    }
+    parts = {name: _at_least(each, DECADE) for name, each in found.items()}
+    least, most = min(sure for sure, _ in found.values()), max(most for _, most in found.values())
+    return Finding(
+        f"With {MANY} waves or more, k = p/(γ h) over a decade of loads or more (Persson; Pastewka "
+        "and others)",
+        f"the exponent is 1 within {EXPONENT_TOLERANCE:g} over {least:.2f} to {most:.2f} decades",
+        f"{least:.2f} to {most:.2f}",
+        judged_together(list(parts.values())),
+        where_others(list(parts.items())),
+    )
+
+
+def _gamma() -> Finding:
+    """Judge gamma where the exponent is 1."""
+    found = {
+        f"{size} waves, {geometry}, Hurst {hurst:g}": (
+            crossing(geometry, BAND, size, hurst).gamma,
+            sample(geometry, BAND, size, hurst).count,
+        )
+        for geometry in ("periodic", "free")
+        for size in SIZES[BAND]
+        for hurst in HURSTS
+    }
+    parts = {
+        name: judged(WidenedInterval.of(each), count, *GAMMAS)
+        for name, (each, count) in found.items()
+    }
+    return _spread(
+        f"γ = F/(k h) is {GAMMAS[0]:g} to {GAMMAS[1]:g} where the law is linear (Pastewka and "
+        "others)",
+        "γ where the exponent is 1, for all sizes, geometries and Hurst exponents",
+        [each for each, _ in found.values()],
+        parts,
+        ".3f",
+    )
+
+
+def _between() -> Finding:
+    """Judge the exponent between the two laws."""
+    cases = _many()
+    found = {name: exponent_in(one, BETWEEN) for name, one in cases.items()}
+    parts = {name: _near(found[name], SUMMITS, one.count) for name, one in cases.items()}
+    return _spread(
+        f"With {MANY} waves or more, k ~ F^{SUMMITS:g} between the two laws (here), to "
+        f"±{EXPONENT_TOLERANCE:g}",
+        f"exponent from F/(E* h λ_r) = {BETWEEN[0]:g} to {BETWEEN[1]:g}",
+        list(found.values()),
+        parts,
+        ".3f",
+    )
+
+
+def _persson() -> Finding:
+    """Judge Persson's theory under the load of gamma, and lighter ones."""
+    cases = _many()
+    found = {below: [over_persson(one, below) for one in cases.values()] for below in (0, 1, 2)}
+    parts = {
+        f"{_BELOW[below]} ({name})": judged(WidenedInterval.of(each), one.count, 1 - NEAR, 1 + NEAR)
+        for below, ratios in found.items()
+        for each, (name, one) in zip(ratios, cases.items(), strict=True)
+    }
+    by_load = [
+        f"{min(each.value for each in ratios):.2f} to {max(each.value for each in ratios):.2f} "
+        f"{_BELOW[below]}"
+        for below, ratios in found.items()
+    ]
+    every = [each for ratios in found.values() for each in ratios]
+    return Finding(
+        f"With {MANY} waves or more, Persson's theory gives k to {NEAR:.0%}",
+        f"k over the theory's: {', '.join(by_load)}",
+        f"{min(each.low for each in every):.2f} to {max(each.high for each in every):.2f}",
+        judged_together(list(parts.values())),
+        _by_load(parts),
+    )
+
+
+def _by_load(parts: dict[str, Judgement]) -> str:
+    """Say for which loads all cases agree, where the statement as a whole is another."""
+    said = []
+    for name in _BELOW.values():
+        verdicts = {part.verdict for case, part in parts.items() if case.startswith(name)}
+        said.append(f"{' or '.join(sorted(verdicts))} {name}")
+    return "; ".join(said)
+
+
+def _reduced() -> Finding:
+    """Judge the reduced model beside periodic surfaces of all sizes."""
+    found = {
+        f"{size} waves, Hurst {hurst:g}": reduced_over_full(size, hurst, _MEDIUM)
+        for size in SIZES[BAND]
+        for hurst in HURSTS
+    }
+    parts = {
+        name: judged(WidenedInterval.of(each), _count(name), -_SAME, _SAME)
+        for name, each in found.items()
+    }
+    return _spread(
+        f"The reduced model has the stiffness of the surface, to {_SAME:.0%} (the founding paper)",
+        f"stiffness of lines over that of periodic surfaces, less 1, at F/(E* h λ_r) = {_MEDIUM:g}",
+        list(found.values()),
+        parts,
+        "+.0%",
+    )
+
+
+def _count(name: str) -> int:
+    return sample("periodic", BAND, int(name.split()[0]), HURSTS[0]).count
+
+
+def _many() -> dict[str, Sample]:
+    """Return the periodic surfaces of many waves."""
+    return {
+        f"{size} waves, Hurst {hurst:g}": sample("periodic", BAND, size, hurst)
+        for size in SIZES[BAND]
+        if size >= MANY
+        for hurst in HURSTS
+    }
+
+
+def _below(first: IntervalEstimate, second: IntervalEstimate, count: int) -> Judgement:
+    """Judge that a load is below another."""
+    if first.high < second.low:
+        return Judgement(Verdict.CONFIRMED, math.nan)
+    if first.low > second.high:
+        return Judgement(Verdict.REFUTED, math.nan)
+    apart = math.log(second.value / first.value)
+    widths = math.log(first.high / first.value) + math.log(second.value / second.low)
+    enough = count * (widths / apart) ** 2 if apart > 0 else math.nan
+    return Judgement(Verdict.UNDECIDED, enough)
+
+
+def _at_least(decades: tuple[float, float], wanted: float) -> Judgement:
+    """Judge a range that is surely, and perhaps, some decades long."""
+    sure, perhaps = decades
+    if sure >= wanted:
+        return Judgement(Verdict.CONFIRMED, math.nan)
+    return Judgement(Verdict.REFUTED if perhaps < wanted else Verdict.UNDECIDED, math.nan)
+
+
+def _over_size(force: IntervalEstimate, size: int) -> IntervalEstimate:
+    """A load over E* h L from one over E* h lambda_r."""
+    return IntervalEstimate(force.value / size, force.low / size, force.high / size)
+
+
+def _known(load: IntervalEstimate) -> str:
+    if not math.isnan(load.value):
+        return f"{load.value:.2g}"
+    return f"less than {load.high:.2g}" if math.isnan(load.low) else f"more than {load.low:.2g}"
+
+
+def _ends(load: IntervalEstimate) -> str:
+    low = "-" if math.isnan(load.low) else f"{load.low:.2g}"
+    high = "-" if math.isnan(load.high) else f"{load.high:.2g}"
+    return f"{low} to {high}"
+
+
+def _near(found: IntervalEstimate, value: float, count: int) -> Judgement:
+    ends = (value - EXPONENT_TOLERANCE, value + EXPONENT_TOLERANCE)
+    return judged(WidenedInterval.of(found), count, *ends)
+
+
+def _spread(
+    statement: str,
+    what: str,
+    found: list[IntervalEstimate],
+    parts: dict[str, Judgement],
+    form: str,
+) -> Finding:
+    """Put a statement about many cases together, with the range of what was found."""
+    return Finding(
+        statement,
+        f"{what}: {min(each.value for each in found):{form}} to "
+        f"{max(each.value for each in found):{form}}",
+        f"{min(each.low for each in found):{form}} to {max(each.high for each in found):{form}}",
+        judged_together(list(parts.values())),
+        where_others(list(parts.items())),
+    )
+
+
+def _finding(
+    statement: str,
+    what: str,
+    found: dict[str, IntervalEstimate],
+    parts: dict[str, Judgement],
+    form: str,
+) -> Finding:
+    """Put a statement about several cases together."""
+    return Finding(
+        statement,
+        f"{what}: {', '.join(f'{each.value:{form}}' for each in found.values())} "
+        f"({'; '.join(found)})",
+        ", ".join(f"{each.low:{form}} to {each.high:{form}}" for each in found.values()),
+        judged_together(list(parts.values())),
+        where_others(list(parts.items())),
+    )

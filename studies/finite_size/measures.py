@@ -1,0 +1,86 @@
+"""What is read off the samples: exponents in windows, the linear law's range, other models."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+
+from roughline.paper.stated import EXPONENT_TOLERANCE
+from roughline.statistics import bootstrap
+from roughline.statistics.averages import average, relative_difference
+from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
+from roughline.statistics.power_law import exponent_weights
+from studies.finite_size.crossover import LINEAR, CrossOver, cross_over, local_exponents
+from studies.finite_size.samples import BAND, Geometry, Sample, persson, sample
+
+
+@cache
+def crossing(geometry: Geometry, band: int, size: int, hurst: float) -> CrossOver:
+    """Return where the laws of one sample end and begin."""
+    one = sample(geometry, band, size, hurst)
+    return cross_over(one.force, one.stiffness, hurst)
+
+
+def exponent_in(one: Sample, window: tuple[float, float]) -> IntervalEstimate:
+    """Return the exponent of a sample in a window of F / (E* h lambda_r)."""
+    weights = exponent_weights(one.force, window)
+    if not np.isfinite(weights).all():
+        return NO_ESTIMATE
+    return bootstrap.sum_of_log_means(one.stiffness, weights).interval_estimate()
+
+
+def decades_of_linear_law(one: Sample) -> tuple[float, float]:
+    """Return over how many decades of the load the exponent surely, and perhaps, is 1 within 0.05.
+
+    Surely: the whole interval lies within. Perhaps: a part of it does.
+    """
+    local = local_exponents(one.force, one.stiffness)
+    low, high = LINEAR - EXPONENT_TOLERANCE, LINEAR + EXPONENT_TOLERANCE
+    step = math.log10(local.force[1] / local.force[0])
+    sure = np.count_nonzero((local.low >= low) & (local.high <= high))
+    perhaps = np.count_nonzero((local.high >= low) & (local.low <= high))
+    return sure * step, perhaps * step
+
+
+def over_persson(one: Sample, decades_below: float) -> IntervalEstimate:
+    """Return k over that of Persson's theory, some decades below the load of gamma."""
+    top = crossing(one.geometry, one.band, one.size, one.hurst).gamma_force
+    place = int(np.argmin(np.abs(np.log(one.force / (top / 10**decades_below)))))
+    mean = average(one.stiffness[:, place : place + 1])
+    expected = persson(one)[place]
+    return IntervalEstimate(
+        *(float(each[0] / expected) for each in (mean.mean, mean.low, mean.high))
+    )
+
+
+def reduced_over_full(size: int, hurst: float, force: float) -> IntervalEstimate:
+    """Return the stiffness of the reduced model over that of the periodic surface, less 1.
+
+    At the load nearest to F / (E* h lambda_r) = `force`; NaN where one of them has none.
+    """
+    lines, surfaces = (sample(each, BAND, size, hurst) for each in ("lines", "periodic"))
+    shared = np.intersect1d(lines.force, surfaces.force)
+    nearest = shared[np.argmin(np.abs(np.log(shared / force)))]
+    values = [one.stiffness[:, one.force == nearest] for one in (lines, surfaces)]
+    ends = relative_difference(*values, paired=False)
+    return IntervalEstimate(*(float(each[0]) for each in ends))
+
+
+def grid_shift(size: int, hurst: float, force: float | None) -> IntervalEstimate:
+    """Return by how much the stiffness is higher with eight cells a wave than with four.
+
+    The wave is the shortest. The same periodic surfaces are compared, at the load nearest to
+    F / (E* h lambda_r) = `force`, or at that of gamma if `force` is None.
+    """
+    fine, coarse = (sample("periodic", BAND, size, hurst, fine=each) for each in (True, False))
+    wanted = crossing("periodic", BAND, size, hurst).gamma_force if force is None else force
+    shared = np.intersect1d(fine.force, coarse.force)
+    nearest = shared[np.argmin(np.abs(np.log(shared / wanted)))]
+    values = [
+        one.stiffness[: fine.count, one.force == nearest]
+        for one in (fine, coarse.first(fine.count))
+    ]
+    ends = relative_difference(*values, paired=True)
+    return IntervalEstimate(*(float(each[0]) for each in ends))

@@ -1,0 +1,320 @@
+"""The page on finite size: every number in it comes from the data."""
+
+from __future__ import annotations
+
+import math
+
+from roughline._version import __version__
+from roughline.report.page import Section, Table, render_markdown
+from roughline.statistics.bootstrap import IntervalEstimate
+from studies.finite_size.crossover import Passing
+from studies.finite_size.findings import BETWEEN, MANY, findings
+from studies.finite_size.measures import (
+    crossing,
+    exponent_in,
+    grid_shift,
+    over_persson,
+    reduced_over_full,
+)
+from studies.finite_size.samples import (
+    BAND,
+    FINE_SIZES,
+    HURSTS,
+    RESOLVED,
+    SIZES,
+    WIDE,
+    Geometry,
+    plan,
+    sample,
+    unsolved_loads,
+)
+from studies.judged import findings_table
+
+TITLE = "Where the power law ends and the linear law begins"
+FOLDER = "figures/finite_size"
+_FORCES = (0.1, 0.3, 1.0, 3.0)
+_DECADES = (0, 1, 2)
+
+
+def page() -> str:
+    """Return the page as Markdown; its figure lies in a folder beside it."""
+    sections = [
+        _question(),
+        _known(),
+        _method(),
+        _figure(),
+        _verdicts(),
+        *(_crossings(geometry) for geometry in ("periodic", "free")),
+        _wide(),
+        _others(),
+        _grid(),
+        _repeat(),
+        _references(),
+    ]
+    return render_markdown(TITLE, lead(), sections, FOLDER)
+
+
+def lead() -> str:
+    """Return the answer in a few sentences."""
+    gammas = [crossing("periodic", BAND, size, hurst).gamma for size, hurst in _cases(1)]
+    tops = [
+        crossing("periodic", BAND, size, hurst).gamma_force
+        / size
+        / sample("periodic", BAND, size, hurst).slope
+        for size, hurst in _cases(2)
+    ]
+    middle = [
+        exponent_in(sample("periodic", BAND, size, hurst), BETWEEN).value
+        for size, hurst in _cases(MANY)
+    ]
+    return (
+        "The stiffness of a rough contact follows a power law, k ~ F^(1/(1+H)), while a single "
+        "wave of the roll-off length carries the load, and is said to be proportional to it, "
+        "k = p/(γ h), when many do. Both ends of the way between them are found here, and each "
+        "collapses in its own unit. The power law ends where a few waves touch, whatever the size "
+        "of the surface, so it ends under lower mean pressures on larger surfaces. "
+        f"Then k ~ F^{min(middle):.2f} to F^{max(middle):.2f}, over more decades the larger the "
+        "surface is. The exponent reaches 1 only where the mean pressure is "
+        f"{min(tops):.2f} to {max(tops):.2f} of E*∇h, whatever the size, and there γ is "
+        f"{min(each.value for each in gammas):.3f} to {max(each.value for each in gammas):.3f}."
+    )
+
+
+def _cases(least: int) -> list[tuple[int, float]]:
+    """Return the sizes from some number of waves on, with every Hurst exponent."""
+    return [(size, hurst) for size in SIZES[BAND] if size >= least for hurst in HURSTS]
+
+
+def _question() -> Section:
+    return Section(
+        "What was asked",
+        [
+            "Is the sub-linear power law of the founding paper a property of rough surfaces, or of "
+            "surfaces on which a single roll-off wave fits? Where does it end, where does the "
+            "linear law begin, and what is γ?",
+        ],
+    )
+
+
+def _known() -> Section:
+    return Section(
+        "What is known",
+        notes=[
+            "The founding paper, and Pohrt, Popov and Filippov (2012): k ~ F^(1/(1+H)) from "
+            "F/(E* h L) = 1e-4 to 0.1, on surfaces without a roll-off.",
+            "Persson (2007): k = p/(γ h), from the exponential tail of the mean gap.",
+            "Pastewka and others (2013): the power law is an effect of finite size, and its end "
+            "falls as the system grows; γ is 0.4 to 0.5.",
+        ],
+    )
+
+
+def _method() -> Section:
+    counts = ", ".join(f"{sample('periodic', BAND, size, 0.5).count}" for size in SIZES[BAND])
+    unsolved, loads = unsolved_loads()
+    return Section(
+        "Method",
+        notes=[
+            f"Gaussian isotropic surfaces with L/λ_r = {', '.join(map(str, SIZES[BAND]))} roll-off "
+            f"waves along a side and waves down to λ_r/{BAND}, four cells for the shortest; Hurst "
+            f"exponents {', '.join(f'{hurst:g}' for hurst in HURSTS)}. {counts} surfaces for each; "
+            f"beside them waves down to λ_r/{WIDE}, for up to {max(SIZES[WIDE])} roll-off waves.",
+            "Periodic half-space; free half-space, of whose stiffness that of the interface is "
+            "shown, 1/(1/k − 1/k_s); and lines on springs with the same waves (reduced model).",
+            "The local exponent is the slope of ln mean k over ln F at three neighbouring loads, "
+            "half a decade. The power law ends where it is for good more than 0.05 above "
+            "1/(1+H), the linear law begins where it is less than 0.05 below 1.",
+            "γ is F/(k h) where it is largest, which is where the exponent is 1. Intervals are "
+            "studentised, from resampled surfaces; that of a load reaches from the last load up to "
+            "which all intervals of the exponent lie below to the first from which all lie above.",
+            f"{loads - unsolved:,} of {loads:,} loads are certified to 1e-6. Loads count from "
+            f"which on {RESOLVED:.0%} of the surfaces have ten cells in contact.",
+        ],
+    )
+
+
+def _figure() -> Section:
+    return Section(
+        "The cross-over",
+        [
+            f"![Local exponents, and F/(k h) over the pressure]({FOLDER}/crossover.png)",
+            "Above: the local exponent over the force in units of one roll-off wave, in which the "
+            "end of the power law collapses; grey: 1/(1+H) and 1. Below: F/(k h) over the mean "
+            "pressure, in which the linear law collapses; grey: 0.4 to 0.5. Bands are 95 % "
+            "intervals of periodic surfaces.",
+        ],
+    )
+
+
+def _verdicts() -> Section:
+    return Section(
+        "Verdicts",
+        [
+            "Confirmed: the whole 95 % interval lies within the tolerance in every case. Refuted: "
+            "it lies outside in some. Undecided: else; how many surfaces would decide is told from "
+            "the scatter, if the mean stays where it is.",
+        ],
+        tables=[findings_table(findings())],
+    )
+
+
+def _crossings(geometry: Geometry) -> Section:
+    names = {"periodic": "Periodic surfaces", "free": "Free surfaces, the interface alone"}
+    return Section(
+        names[geometry],
+        [
+            "The end of the power law over E* h λ_r and over E* h L, the exponent from "
+            f"F/(E* h λ_r) = {BETWEEN[0]:g} to {BETWEEN[1]:g}, the beginning of the linear law, γ "
+            "and the pressure where it is found.",
+        ],
+        tables=[_crossing_table(geometry, BAND)],
+    )
+
+
+def _wide() -> Section:
+    return Section(
+        "Four times as wide a band of waves",
+        [
+            f"The same with waves down to λ_r/{WIDE}, periodic: lighter loads are resolved.",
+        ],
+        tables=[_crossing_table("periodic", WIDE)],
+    )
+
+
+def _crossing_table(geometry: Geometry, band: int) -> Table:
+    header = (
+        "Hurst",
+        "L/λ_r",
+        "end, F/(E* h λ_r)",
+        "end, F/(E* h L)",
+        "between",
+        "begin, F/(E* h λ_r)",
+        "begin, p/(E*∇h)",
+        "γ",
+        "p/(E*∇h) there",
+    )
+    rows = []
+    for hurst in HURSTS:
+        for size in SIZES[band]:
+            one, found = sample(geometry, band, size, hurst), crossing(geometry, band, size, hurst)
+            per_pressure = size * one.slope
+            rows.append(
+                (
+                    f"{hurst:g}",
+                    f"{size}",
+                    _load(found.leaves, 1),
+                    _load(found.leaves, size),
+                    _cell(exponent_in(one, BETWEEN), ".2f"),
+                    _load(found.reaches, 1),
+                    _load(found.reaches, per_pressure),
+                    _cell(found.gamma, ".3f"),
+                    f"{found.gamma_force / per_pressure:.2g}",
+                )
+            )
+    return Table(header, rows, range(len(header)))
+
+
+def _others() -> Section:
+    header = (
+        "Hurst",
+        "L/λ_r",
+        *(f"k over Persson's, {'at γ' if not each else f'1e-{each} of it'}" for each in _DECADES),
+        *(f"lines, F/(E* h λ_r) = {force:g}" for force in _FORCES),
+    )
+    rows = [
+        (
+            f"{hurst:g}",
+            f"{size}",
+            *(
+                _cell(over_persson(sample("periodic", BAND, size, hurst), each), ".2f")
+                for each in _DECADES
+            ),
+            *(_percent(reduced_over_full(size, hurst, force)) for force in _FORCES),
+        )
+        for hurst in HURSTS
+        for size in SIZES[BAND]
+    ]
+    return Section(
+        "Persson's theory and the reduced model",
+        [
+            "The stiffness of periodic surfaces over that of Persson's theory, under the load of γ "
+            "and one and two decades lighter ones; and that of lines on springs over that of the "
+            "surfaces, less 1. A line saturates at E* L, and has no linear law.",
+        ],
+        tables=[Table(header, rows, range(len(header)))],
+    )
+
+
+def _grid() -> Section:
+    header = ("Hurst", "L/λ_r", *(f"F/(E* h λ_r) = {force:g}" for force in _FORCES), "γ")
+    rows = [
+        (
+            f"{hurst:g}",
+            f"{size}",
+            *(_percent(grid_shift(size, hurst, force)) for force in _FORCES),
+            _percent(grid_shift(size, hurst, None)),
+        )
+        for hurst in HURSTS
+        for size in FINE_SIZES
+    ]
+    return Section(
+        "The grid",
+        [
+            "How much higher the stiffness is with eight cells for the shortest wave than with "
+            "four, of the same periodic surfaces; γ is lower by as much as k is higher.",
+        ],
+        tables=[Table(header, rows, range(len(header)))],
+    )
+
+
+def _repeat() -> Section:
+    return Section(
+        "Data, and how to repeat",
+        [
+            "The plan, the reduction and the data lie in `studies/finite_size`: stiffnesses and "
+            "statuses of every body and load as NetCDF, in single precision. Body i has the seed "
+            f"`SeedSequence({plan().ensembles[0].seed}, spawn_key=(i,))`. `make finite-size` "
+            "computes everything anew and goes on where it stopped. Made with roughline "
+            f"{__version__}.",
+        ],
+    )
+
+
+def _references() -> Section:
+    return Section(
+        "References",
+        notes=[
+            "R. Pohrt, V. L. Popov and A. E. Filippov, Normal contact stiffness of elastic solids "
+            "with fractal rough surfaces for one- and three-dimensional systems, Phys. Rev. E 86, "
+            "026710 (2012).",
+            "B. N. J. Persson, Relation between interfacial separation and load: a general theory "
+            "of contact mechanics, Phys. Rev. Lett. 99, 125502 (2007).",
+            "L. Pastewka, N. Prodanov, B. Lorenz, M. H. Müser, M. O. Robbins and B. N. J. Persson, "
+            "Finite-size scaling in the interfacial stiffness of rough elastic contacts, Phys. "
+            "Rev. E 87, 062809 (2013).",
+        ],
+    )
+
+
+def _load(passed: Passing, unit: float) -> str:
+    """Write a load with its interval; an open end is left out."""
+    force = passed.force
+    value, low, high = (each / unit for each in (force.value, force.low, force.high))
+    if passed.always:
+        return f"< {high:.2g}" if not math.isnan(high) else "below all"
+    if passed.never:
+        return f"> {low:.2g}" if not math.isnan(low) else "above all"
+    ends = ("" if math.isnan(each) else f"{each:.2g}" for each in (low, high))
+    return f"{value:.2g} ({'-'.join(ends)})"
+
+
+def _cell(estimate: IntervalEstimate, form: str) -> str:
+    if math.isnan(estimate.value):
+        return "-"
+    return f"{estimate.value:{form}} ({estimate.low:{form}}-{estimate.high:{form}})"
+
+
+def _percent(estimate: IntervalEstimate) -> str:
+    if math.isnan(estimate.value):
+        return "-"
+    return f"{estimate.value:+.1%} ({estimate.low:+.1%} to {estimate.high:+.1%})"
