@@ -71,7 +71,7 @@ def test_the_published_page_has_grids_and_times(results, tmp_path):
         results,
         gallery=None,
         grids={24: results.full, 48: results.full},
-        paper_grid=results.full,
+        other_grid=results.full,
         core_seconds={"reduced": 0.02, "full, 2048²": 100.0},
     )
     with pytest.MonkeyPatch.context() as patch:

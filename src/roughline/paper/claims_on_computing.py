@@ -54,7 +54,7 @@ def reduced_within_minutes(results: PaperResults) -> list[Claim]:
 
 def full_takes_weeks(results: PaperResults) -> list[Claim]:
     """Judge whether a study of surfaces takes weeks; no claim where times are not known."""
-    data = results.paper_grid
+    data = results.other_grid
     if data is None or row_of_grid(PAPER_GRID) not in results.core_seconds:
         return []
     seconds = results.core_seconds[row_of_grid(PAPER_GRID)]

@@ -133,16 +133,16 @@ def saturates_early(results: PaperResults) -> Claim:
         "contact, in cells"
     )
     every = [area for _, area in areas]
-    if (fine := results.paper_grid) is not None:
-        finer = [
-            (float(d), saturation(fine.sel(fractal_dimension=d)))
-            for d in fine.fractal_dimension.values
+    if (other := results.other_grid) is not None:
+        there = [
+            (float(d), saturation(other.sel(fractal_dimension=d)))
+            for d in other.fractal_dimension.values
         ]
         found += (
-            f"; on {fine.attrs['n']}² {numbers_by_dimension(finer, '.1%')}: except at D_f = 2 a "
+            f"; on {other.attrs['n']}² {numbers_by_dimension(there, '.1%')}: except at D_f = 2 a "
             "number of the grid, less the finer it is"
         )
-        every += [area for _, area in finer]
+        every += [area for _, area in there]
     judged = joint_verdict(verdict(area.low, area.high, 0, _SMALL_AREA) for area in every)
     return Claim(
         "3D: a relatively small real area suffices for the saturated stiffness (§3, §5; small: "

@@ -13,9 +13,9 @@ from roughline.paper.tables import (
     automatic_windows_table,
     constant_table,
     exponent_table,
-    paper_grid_table,
     sensitivity_table,
     settings_table,
+    two_grids_table,
     write_data,
 )
 from roughline.paper.windows import (
@@ -63,7 +63,7 @@ def compose(results: PaperResults, out: Path) -> tuple[str, str, list[Section]]:
         claims_section(claims),
         _exponents_section(results),
         _sensitivity_section(results),
-        *_paper_grid_sections(results),
+        *_other_grid_sections(results),
         Section("Figures", pictures=pictures),
         _methods_section(results),
     ]
@@ -124,19 +124,18 @@ def _sensitivity_section(results: PaperResults) -> Section:
     )
 
 
-def _paper_grid_sections(results: PaperResults) -> list[Section]:
-    """Return the section about the paper's grid, if the study has surfaces on it."""
-    if results.paper_grid is None:
+def _other_grid_sections(results: PaperResults) -> list[Section]:
+    """Return the section about another grid, if the study has surfaces on one."""
+    if results.other_grid is None:
         return []
     return [
         Section(
-            "The paper's grid",
+            "The same surfaces on two grids",
             [
-                "The same surfaces (same phases, more detail) on the grid of the ensemble and on "
-                "the paper's. Mean, least and greatest of the ratio; α of their mean in the window "
-                "of the full model."
+                "Same phases, and on the finer grid more detail. Ratios of means with 95 % "
+                "intervals, from resampled pairs; α of the mean in the window of the full model."
             ],
-            tables=[paper_grid_table(results.full, results.paper_grid)],
+            tables=[two_grids_table(results.full, results.other_grid)],
         )
     ]
 

@@ -53,8 +53,8 @@ class PaperResults:
         Single bodies for Figures 1 and 2.
     grids : dict of Dataset
         The same surfaces on other grids, by points along a side.
-    paper_grid : Dataset or None
-        Surfaces on the paper's grid.
+    other_grid : Dataset or None
+        Some of the surfaces of `full` on another grid, with the waves that it carries.
     core_seconds : dict of float
         Computing time of one body with all its loads, on one core, by the name of its row. [s]
     """
@@ -67,7 +67,7 @@ class PaperResults:
     exponents: xarray.Dataset
     gallery: xarray.Dataset | None = None
     grids: dict[int, xarray.Dataset] = field(default_factory=dict)
-    paper_grid: xarray.Dataset | None = None
+    other_grid: xarray.Dataset | None = None
     core_seconds: dict[str, float] = field(default_factory=dict)
 
     @cached_property
@@ -124,7 +124,7 @@ def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:
         exponents=_read_netcdf(folder / "exponents.nc"),
         gallery=_read_netcdf(folder / "gallery.nc"),
         grids=grids | {PAPER_GRID: paper_grid},
-        paper_grid=paper_grid,
+        other_grid=paper_grid,
         core_seconds={
             ROW_REDUCED: times[ENSEMBLE_REDUCED],
             ROW_MATCHED: times[ENSEMBLE_MATCHED],

@@ -21,6 +21,7 @@ from roughline.paper.results import (
 from roughline.paper.sensitivity import Sensitivity
 from roughline.paper.windows import OTHER_WINDOWS_REDUCED, WINDOW_FULL
 from roughline.report.page import Table
+from roughline.statistics.averages import relative_difference
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import (
     PowerLaw,
@@ -131,39 +132,42 @@ def _automatic_cells(law: PowerLaw | None) -> list[str]:
     ]
 
 
-def paper_grid_table(full: xarray.Dataset, fine: xarray.Dataset) -> Table:
-    """Return ratios of the same surfaces on the paper's grid and on that of the ensemble."""
-    n, n_fine = full.attrs["n"], fine.attrs["n"]
+def two_grids_table(full: xarray.Dataset, other: xarray.Dataset) -> Table:
+    """Return ratios of the same surfaces on two grids, the finer over the coarser."""
+    coarse, fine = sorted((full, other), key=lambda data: int(data.attrs["n"]))
+    n, n_fine = (data.attrs["n"] for data in (coarse, fine))
     header = ["D_f", "surfaces"]
     header += [f"k, {n_fine}² over {n}², F̄ = {force:g}" for force in _GRID_FORCES]
     header += [f"α, {n}²", f"α, {n_fine}²", f"A, {n_fine}² over {n}², F̄ = 0.1"]
+    shared = np.intersect1d(coarse.force_bar, fine.force_bar)
     rows = []
-    for dimension in fine.fractal_dimension.values:
-        same_bodies = {"fractal_dimension": dimension, "realisation": fine.realisation}
-        shared = np.intersect1d(full.force_bar, fine.force_bar)
-        coarse = full.sel(same_bodies).sel(force_bar=shared)
-        finer = fine.sel(fractal_dimension=dimension).sel(force_bar=shared)
-        stiffness_ratio = finer.stiffness / coarse.stiffness
-        area_ratio = finer.area_fraction_corrected / coarse.area_fraction_corrected
+    for dimension in np.intersect1d(coarse.fractal_dimension, fine.fractal_dimension):
+        count = min(coarse.sizes["realisation"], fine.sizes["realisation"])
+        finer, coarser = (
+            data.sel(fractal_dimension=dimension, force_bar=shared).isel(realisation=slice(count))
+            for data in (fine, coarse)
+        )
         laws = [
-            fit_power_law(shared, data.stiffness.values, WINDOW_FULL) for data in (coarse, finer)
+            fit_power_law(shared, data.stiffness.values, WINDOW_FULL) for data in (coarser, finer)
         ]
         rows.append(
             [
                 f"{dimension:.1f}",
-                f"{fine.sizes['realisation']}",
-                *(_spread_cell(stiffness_ratio, force) for force in _GRID_FORCES),
+                f"{count}",
+                *(_ratio_cell(finer.stiffness, coarser.stiffness, force) for force in _GRID_FORCES),
                 *(f"{law.exponent:.3f}" for law in laws),
-                _spread_cell(area_ratio, 0.1),
+                _ratio_cell(finer.area_fraction_corrected, coarser.area_fraction_corrected, 0.1),
             ]
         )
     return Table(header, rows, numbers=range(len(header)))
 
 
-def _spread_cell(ratio: xarray.DataArray, force_bar: float) -> str:
-    """Mean, least and greatest of a ratio at a load."""
-    values = ratio.sel(force_bar=force_bar, method="nearest").values
-    return f"{values.mean():.3f} ({values.min():.3f}-{values.max():.3f})"
+def _ratio_cell(fine: xarray.DataArray, coarse: xarray.DataArray, force_bar: float) -> str:
+    """Write the ratio of the means of pairs at a load, with its interval."""
+    nearest = {"force_bar": [force_bar]}
+    values = (each.sel(nearest, method="nearest").values for each in (fine, coarse))
+    (ratio,), (low,), (high,) = relative_difference(*values, paired=True)
+    return estimate_cell(IntervalEstimate(1 + ratio, 1 + low, 1 + high))
 
 
 def estimate_cell(number: IntervalEstimate) -> str:
