@@ -1,0 +1,21 @@
+"""Draw the page on finite size and its figure.
+
+    python -m studies.finite_size.publish
+
+reads ``data.nc`` and ``plan.toml`` beside it, and writes ``docs/finite_size.md``,
+``docs/figures/finite_size``, and what the lab shows of the study.
+"""
+
+from studies.finite_size.figures import crossover_figure
+from studies.finite_size.page import page
+from studies.finite_size.summary import summary
+from studies.publishing import publish
+
+
+def main() -> None:
+    """Draw everything anew."""
+    publish("finite_size", page, {"crossover": crossover_figure}, summary)
+
+
+if __name__ == "__main__":
+    main()
