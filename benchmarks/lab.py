@@ -18,7 +18,7 @@ import numpy as np
 from playwright.sync_api import sync_playwright
 
 from roughline._version import __version__
-from roughline.computing.fft import available_cores
+from roughline.computing.cores import available_cores, processor_name
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from lab_in_browser import Pages, RunningLab, launched
@@ -160,7 +160,7 @@ def table(times, browser):
     return f"""# How soon the lab answers, measured
 
 Written by `make lab-benchmark`: roughline {__version__}, {available_cores()} cores, \
-{platform.machine()}{model()}, {memory():.0f} GB of memory, Python {platform.python_version()}, \
+{processor_name()}, {memory():.0f} GB of memory, Python {platform.python_version()}, \
 NumPy {np.__version__}, headless Chromium {browser} without a graphics card, on the same machine.
 
 | from, to | median | 95th percentile | longest | measured | wanted (median) |
@@ -184,16 +184,6 @@ def shown(milliseconds):
 def memory():
     """Return the memory of this machine. [GB]"""
     return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9
-
-
-def model():
-    """Return the name of the processor where the system tells it."""
-    try:
-        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-    except OSError:
-        return ""
-    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return f" ({names[0]})" if names else ""
 
 
 if __name__ == "__main__":

@@ -27,7 +27,7 @@ from peer_programs import (
     versions,
 )
 
-from roughline.computing.cores import available_cores
+from roughline.computing.cores import available_cores, processor_name
 
 TABLE = Path(__file__).parents[1] / "docs" / "peers-table.md"
 SHORT = 2.0  # what takes less is run again, and never stopped for the sake of another engine [s]
@@ -78,7 +78,7 @@ def machine(cores):
     flags = facts.get("flags", "").split()
     units = [unit for unit in ("avx2", "avx512f") if unit in flags]
     return {
-        "processor": facts.get("model name", platform.processor() or platform.machine()),
+        "processor": processor_name(),
         "cores": cores,
         "vectors": " and ".join(units) or "vector units unknown",
         "python": platform.python_version(),

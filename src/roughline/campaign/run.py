@@ -16,7 +16,7 @@ from roughline.campaign.dispatch import Dispatch
 from roughline.campaign.plan import Plan
 from roughline.campaign.progress import EnsembleProgress, Summary
 from roughline.campaign.writer import writing
-from roughline.computing.cores import available_cores
+from roughline.computing.cores import available_cores, processor_name
 from roughline.errors import InputError
 
 
@@ -162,6 +162,7 @@ def _log(store: Path, started: float, dispatch: Dispatch) -> None:
     entry = {
         "started": datetime.fromtimestamp(started, UTC).isoformat(timespec="seconds"),
         "seconds": round(time.time() - started, 1),
+        "processor": processor_name(),
         "cores": dispatch.cores,
         "threads": dispatch.threads,
         "roughline_version": __version__,
