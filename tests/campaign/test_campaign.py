@@ -284,7 +284,9 @@ def test_the_cost_is_told_before_the_work(plan, finished, tmp_path):
     assert told[0].startswith("small: 12 cases to compute; about ")
     assert "GB of memory each, up to" in told[0]
     assert told[1].startswith("dashboard: http://127.0.0.1:")
-    spent = json.loads(log_of(finished).read_text())["core_seconds"]
+    entry = json.loads(log_of(finished).read_text())
+    assert entry["processor"]
+    spent = entry["core_seconds"]
     cost = cost_of(plan, {"lines": 180, "surfaces": 186})
     # good to a factor of two or three, and machines are noisy
     assert 0.2 < cost.core_seconds / sum(spent.values()) < 5
