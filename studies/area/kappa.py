@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,6 +22,9 @@ from roughline.statistics.bootstrap import IntervalEstimate, Resampled
 from roughline.statistics.power_law import exponent_weights
 from studies.judged import WidenedInterval
 from studies.reduced_data import read_groups
+
+if TYPE_CHECKING:
+    import xarray
 
 HERE = Path(__file__).parent
 PLAN, DATA = HERE / "plan.toml", HERE / "data.nc"
@@ -100,7 +104,7 @@ def sample(kind: str, band: int, hurst: float) -> Sample:
 
 
 @cache
-def _data() -> dict[str, campaign.store.xarray.Dataset]:
+def _data() -> dict[str, xarray.Dataset]:
     return read_groups(DATA, plan())
 
 

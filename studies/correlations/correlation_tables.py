@@ -30,7 +30,7 @@ from studies.correlations.findings import (
     over_holm,
     over_root_sum,
 )
-from studies.correlations.judgement import TOLERANCES, Ratio, grid_shift, judge
+from studies.correlations.judgement import TOLERANCES, grid_shift, judge
 
 IN_WINDOW = PRESSURES[1:]
 
@@ -137,8 +137,10 @@ def grid_table() -> Table:
 
 def band_table() -> Table:
     """Return the ratios over the band of waves, at a pressure of 0.01."""
-    header = ("q_high/q_roll", "Hurst", "Nayak's α", "elastic, over Mikic's")
-    header += ("fully plastic, over CMY's", "the same at 0.1")
+    header = (
+        *("q_high/q_roll", "Hurst", "Nayak's α", "elastic, over Mikic's"),
+        *("fully plastic, over CMY's", "the same at 0.1"),
+    )
     rows = []
     for width, prefix in BANDS.items():
         for dimension in dimensions_of(prefix):
@@ -195,8 +197,10 @@ def boundary_table() -> Table:
 
 def ensembles_table() -> Table:
     """Return what was computed: an ensemble in each row."""
-    header = ("Ensemble", "Points", "q_roll/q_0", "q_high/q_0", "Boundary", "H/(E*∇h)", "Hurst")
-    header += ("Surfaces each", "Loads")
+    header = (
+        *("Ensemble", "Points", "q_roll/q_0", "q_high/q_0", "Boundary", "H/(E*∇h)", "Hurst"),
+        *("Surfaces each", "Loads"),
+    )
     rows = [
         [
             each.name,
@@ -218,8 +222,12 @@ def _main(hardness_bar: float) -> list[Sample]:
     return [sample("main", hardness_bar, dimension) for dimension in DIMENSIONS]
 
 
-_ratio: Ratio = Sample.ratio.fget
-_to_mikic: Ratio = Sample.over_mikic.fget
+def _ratio(one: Sample) -> Real:
+    return one.ratio
+
+
+def _to_mikic(one: Sample) -> Real:
+    return one.over_mikic
 
 
 def _hurst(one: Sample) -> str:

@@ -6,7 +6,6 @@ writes ``data.npz``: arrays of the store by "ENSEMBLE/VARIABLE", in single preci
 Gaussian the heights are. What the ensembles are stands in ``plan.toml``.
 """
 
-import sys
 import time
 from pathlib import Path
 from statistics import NormalDist
@@ -15,9 +14,9 @@ import numpy as np
 
 from roughline import campaign
 from roughline.campaign.batch import evaluate_case
-from roughline.campaign.layout import DONE
 from roughline.computing import fft
 from roughline.computing.arrays import Real
+from studies.reduced_data import finished, run
 
 HERE = Path(__file__).parent
 DATA = HERE / "data.npz"
@@ -33,18 +32,14 @@ def main(path: Path) -> None:
     arrays = {}
     for ensemble in plan.ensembles:
         name = ensemble.name
-        data = store.dataset(name).isel(realisation=slice(ensemble.realisations))
-        data = data.sel(fractal_dimension=list(ensemble.fractal_dimensions))
-        done = int((data.case_status == DONE).sum())
-        if done < ensemble.cases:
-            sys.exit(f"{name}: {ensemble.cases - done} of {ensemble.cases} cases are not done")
+        data = finished(store, ensemble)
         for variable in (each for each in KEPT if each in data):
             precision = data[variable].dtype if variable == "status" else np.float32
             arrays[f"{name}/{variable}"] = data[variable].values.astype(precision)
         arrays[f"{name}/rms_slope"] = data.rms_slope.values
         arrays[f"{name}/core_seconds"] = np.array(seconds_of(ensemble))
     arrays |= {f"heights/{name}": values for name, values in heights_of(plan.ensembles[0]).items()}
-    np.savez_compressed(DATA, **arrays)
+    np.savez_compressed(DATA, **arrays)  # type: ignore[arg-type]
 
 
 def seconds_of(ensemble: campaign.Ensemble) -> float:
@@ -79,6 +74,4 @@ def heights_of(ensemble: campaign.Ensemble) -> dict[str, Real]:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(Path(sys.argv[1]))
+    run(main, __doc__)

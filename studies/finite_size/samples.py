@@ -149,7 +149,9 @@ def persson(one: Sample) -> Real:
     name = f"{'wide-' if one.band == WIDE else ''}periodic-{one.size}"
     ensemble = plan().ensemble(name)
     lattice = ensemble.spectrum(3 - one.hurst).lattice(ensemble.n)
-    return rl.theory("persson", lattice, 1.0, one.force_bar).stiffness * one.size
+    stiffness = rl.theory("persson", lattice, 1.0, one.force_bar).stiffness
+    assert stiffness is not None  # of this theory
+    return stiffness * one.size
 
 
 def _usable(one: xarray.Dataset) -> Mask:

@@ -5,7 +5,6 @@
 writes the data and the map of the package.
 """
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -14,14 +13,17 @@ import pandas as pd
 import xarray
 
 import roughline as rl
+from roughline import campaign
 from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
 from roughline.comparison.trust import COLUMNS
 from roughline.paper.exponents import exponents_of
 from roughline.paper.windows import WINDOWS_REDUCED
 from roughline.statistics.averages import relative_difference
+from studies.reduced_data import finished, run
 
 HERE = Path(__file__).parent
+PLAN = HERE / "plan.toml"
 PACKAGE = HERE.parents[1] / "src" / "roughline"
 DATA = PACKAGE / "paper" / "data"
 MAP = PACKAGE / "comparison" / "trust_map.csv"
@@ -30,10 +32,8 @@ MAP = PACKAGE / "comparison" / "trust_map.csv"
 def main(path: Path) -> None:
     """Reduce a finished store."""
     store = Store(path)
-    for name in store.names:
-        done, failed, total = store.counts(name)
-        if done < total:
-            sys.exit(f"{name}: {total - done} of {total} cases are not done, {failed} failed")
+    for ensemble in campaign.read_plan(PLAN).ensembles:
+        finished(store, ensemble)
     DATA.mkdir(exist_ok=True)
     lines, surfaces = store.dataset("lines"), store.dataset("surfaces")
     write_netcdf(exponents_of(lines, WINDOWS_REDUCED), DATA / "exponents.nc")
@@ -84,6 +84,4 @@ def write_map(store: Store, name: str, roll_offs: Sequence[int], path: Path) -> 
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(Path(sys.argv[1]))
+    run(main, __doc__)
