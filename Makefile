@@ -7,7 +7,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations area averaging published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations finite-size area averaging published architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -48,7 +48,12 @@ grid-error: $(VENV)/installed
 coverage: $(VENV)/installed
 	$(BIN)/python benchmarks/interval_coverage.py
 
-contact-area: $(VENV)/installed
+contact-finite-size: $(VENV)/installed
+	$(BIN)/roughline campaign run studies/finite_size/plan.toml --store out/finite-size.zarr
+	$(BIN)/python -m studies.finite_size.reduce out/finite-size.zarr
+	$(BIN)/python -m studies.finite_size.publish
+
+area: $(VENV)/installed
 	$(BIN)/python benchmarks/contact_area.py
 
 persson: $(VENV)/installed
