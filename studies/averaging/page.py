@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from roughline._version import __version__
@@ -31,6 +33,7 @@ FORCE, LEVEL = Choice("force", "arithmetic"), Choice("level", "arithmetic")
 GEOMETRIC, DEPTH = Choice("force", "geometric"), Choice("depth", "arithmetic")
 USUAL: dict[str, Window] = {"surfaces": (1e-2, 1e-1), "lines": (1e-4, 1e-2)}
 """Windows of the page "The paper, recomputed"."""
+_CHOSEN = ("F̄", "averaged at", "mean")
 _MODELS = {"surfaces": "Full model, 3D", "lines": "Reduced model, 1D"}
 
 
@@ -119,17 +122,22 @@ def _figure() -> Section:
 
 def verdict_table(bodies: str) -> Table:
     """Return what every window and mean reproduces."""
-    rows = [
-        (
-            _window(window),
-            f"fixed {choice.fixed}",
-            choice.averaging,
-            *(_reproduced(bodies, window, choice, law) for law in PUBLISHED),
-        )
+    return Table(
+        (*_CHOSEN, *PUBLISHED),
+        _rows(
+            bodies,
+            lambda window, choice: [_reproduced(bodies, window, choice, law) for law in PUBLISHED],
+        ),
+    )
+
+
+def _rows(bodies: str, cells: Callable[[Window, Choice], list[str]]) -> list[tuple[str, ...]]:
+    """Return a row for every window and mean."""
+    return [
+        (_window(window), f"fixed {choice.fixed}", choice.averaging, *cells(window, choice))
         for window in windows(bodies)
         for choice in choices()
     ]
-    return Table(("F̄", "averaged at", "mean", *PUBLISHED), rows)
 
 
 def _verdicts(bodies: str) -> Section:
@@ -206,17 +214,13 @@ def _largest(other: Choice) -> float:
 
 
 def _exponents(bodies: str) -> Section:
-    header = ("F̄", "averaged at", "mean", *(f"D_f = {each}" for each in DIMENSIONS))
-    rows = [
-        (
-            _window(window),
-            f"fixed {choice.fixed}",
-            choice.averaging,
-            *(_cell(bodies, window, choice, dimension) for dimension in DIMENSIONS),
-        )
-        for window in windows(bodies)
-        for choice in choices()
-    ]
+    header = (*_CHOSEN, *(f"D_f = {each}" for each in DIMENSIONS))
+    rows = _rows(
+        bodies,
+        lambda window, choice: [
+            _cell(bodies, window, choice, dimension) for dimension in DIMENSIONS
+        ],
+    )
     return Section(
         f"{_MODELS[bodies]}: the exponents",
         tables=[Table(header, rows, range(3, len(header)))],

@@ -45,35 +45,14 @@ def log_figure(
     x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float]
 ) -> figure:
     """Return an empty plot with two logarithmic axes."""
-    plot = figure(
-        x_axis_type="log",
-        y_axis_type="log",
-        x_range=x_range,
-        y_range=y_range,
-        tools=_TOOLS,
-        active_scroll="wheel_zoom",
-        sizing_mode="stretch_both",
-    )
-    plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
-    _plain(plot)
-    return plot
+    return _empty(x_label, y_label, x_range, y_range=y_range, x_axis_type="log", y_axis_type="log")
 
 
 def semilog_figure(
     x_label: str, y_label: str, x_range: tuple[float, float], y_range: tuple[float, float]
 ) -> figure:
     """Return an empty plot with a logarithmic x axis and a linear y axis."""
-    plot = figure(
-        x_axis_type="log",
-        x_range=x_range,
-        y_range=y_range,
-        tools=_TOOLS,
-        active_scroll="wheel_zoom",
-        sizing_mode="stretch_both",
-    )
-    plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
-    _plain(plot)
-    return plot
+    return _empty(x_label, y_label, x_range, y_range=y_range, x_axis_type="log")
 
 
 def linear_figure(
@@ -81,12 +60,16 @@ def linear_figure(
 ) -> figure:
     """Return an empty plot with two linear axes; without y_range it follows the data."""
     ranges = {} if y_range is None else {"y_range": y_range}
+    return _empty(x_label, y_label, x_range, **ranges)
+
+
+def _empty(x_label: str, y_label: str, x_range: tuple[float, float], **axes: Any) -> figure:
     plot = figure(
+        x_range=x_range,
         tools=_TOOLS,
         active_scroll="wheel_zoom",
-        x_range=x_range,
         sizing_mode="stretch_both",
-        **ranges,
+        **axes,
     )
     plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
     _plain(plot)

@@ -77,7 +77,7 @@ class StudySummary:
     title, answer : str
         Its question, and the answer in a few sentences.
     header, rows : sequence
-        The table of its verdicts; the last column holds these.
+        The table of its verdicts; a verdict begins with confirmed, refuted or undecided.
     panels : sequence of StudyPanel
         Its figure.
     """
