@@ -97,7 +97,6 @@ def write_groups(
                 attributes = variable.attrs
                 kept[variable.name] = variable.astype(np.float32).assign_attrs(attributes)
         packed = {str(name): _PACKED for name in kept if kept[name].nbytes > _SMALL}
-        kept = kept.drop_vars("realisation")  # they are counted from 0
         kept.to_netcdf(unwritten, engine="h5netcdf", mode="a", group=name, encoding=packed)
     unwritten.replace(path)
 
