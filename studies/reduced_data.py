@@ -91,7 +91,9 @@ def write_groups(
     root = xarray.Dataset(attrs={"study": plan.name, **(more or {})})
     root.to_netcdf(unwritten, engine="h5netcdf", mode="w")
     for name, data in groups.items():
-        kept = data[[each for each in names if each in data]]
+        kept = data[
+            [each for each in names if each in data]
+        ].drop_encoding()  # the chunks of the store
         for variable in kept.data_vars.values():
             if variable.dtype == np.float64:
                 attributes = variable.attrs
