@@ -115,7 +115,7 @@ class Pages:
             accept_downloads=True,
             **context,
         )
-        made.set_default_timeout(20_000)
+        made.set_default_timeout(60_000)
         self._contexts.append(made)
         page = made.new_page()
         page.on("console", self._console)

@@ -7,7 +7,7 @@ from urllib.parse import parse_qsl, urlsplit
 SMALL = "?view=explore&v=1&D_f=2.4&seed=3&n=64&F=0.2&cutoff=0.0625"
 
 
-def drawn(page, plot="contact", seconds=20, **wanted):
+def drawn(page, plot="contact", seconds=60, **wanted):
     """Wait until the picture of a plot is of these numbers (or `points`, `what`) at rest."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:

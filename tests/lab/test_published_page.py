@@ -175,3 +175,26 @@ def test_a_link_that_cannot_be_read_is_refused_in_one_sentence(pages, query):
     ready(page)
     assert error.is_visible()
     page.context.close()
+
+
+def test_figures_that_arrive_at_the_same_time_are_not_taken_for_each_other(pages):
+    page = pages.open("?view=explore")
+    named = page.evaluate(
+        """async (views) => {
+            const {embedded} = await import("/lab/plots.js");
+            document.querySelector("#published").hidden = false;
+            const coming = views.map(async (view) => (await fetch(`/figures/${view}`)).arrayBuffer());
+            const arrived = await Promise.all(coming);
+            window.fetch = async (address) => (
+                {ok: true, arrayBuffer: async () => arrived[views.indexOf(address.split("/").at(-1))]});
+            const made = await Promise.all(views.map(embedded));
+            return made.map(({made}) => made.roots().map(({name}) => name));
+        }""",
+        ["studies", "published", "bodies"],
+    )
+    page.context.close()
+    studies, published, bodies = map(set, named)
+    assert any("published-trust" in name for name in published)
+    assert not studies & published
+    assert not studies & bodies
+    assert not published & bodies

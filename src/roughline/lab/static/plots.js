@@ -14,9 +14,8 @@ export async function embedded(view) {
   const [response] = await Promise.all([fetch(`/figures/${view}`), bokeh]);
   if (!response.ok) throw new Error(await response.text());
   const {documents: content, items, palettes} = unpacked(await response.arrayBuffer());
-  const before = new Set(Bokeh.documents);
-  await Bokeh.embed.embed_items(content, items);
-  const made = Bokeh.documents.find((each) => !before.has(each));
+  const [views] = await Bokeh.embed.embed_items(content, items);
+  const made = views.roots[0].model.document; // others may be embedded meanwhile
   documents.push(made);
   recolour(made);
   for (const root of made.roots()) takeKeys(root);
