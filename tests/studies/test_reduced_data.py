@@ -56,7 +56,7 @@ def test_data_are_those_of_the_store(plan, store, data):
 
 
 @pytest.mark.slow
-def test_a_second_run_on_a_part_of_the_realisations_gives_the_same_bits(
+def test_a_second_run_on_a_part_of_the_realisations_gives_the_same_bytes(
     plan, store, data, tmp_path
 ):
     """Other workers, other realisations in the store; the part that both have is the same."""
@@ -69,11 +69,7 @@ def test_a_second_run_on_a_part_of_the_realisations_gives_the_same_bits(
     for name, source in (("again", tmp_path / "part.zarr"), ("whole", store)):
         files.append(tmp_path / f"{name}.nc")
         write_groups(files[-1], few, campaign.Store(source), KEPT)
-    for name in ("lines", "surfaces"):  # HDF5 itself may lay out equal contents in another order
-        first, second = (xarray.load_dataset(each, engine="h5netcdf", group=name) for each in files)
-        assert first.identical(second)
-        for variable in first.variables:
-            assert first[variable].values.tobytes() == second[variable].values.tobytes()
+    assert files[0].read_bytes() == files[1].read_bytes()
     whole, again = read_groups(data, plan), read_groups(files[0], few)
     three = whole["surfaces"].stiffness.values[:, :3]
     assert (again["surfaces"].stiffness.values == three).all()
