@@ -183,10 +183,10 @@ def test_figures_that_arrive_at_the_same_time_are_not_taken_for_each_other(pages
         """async (views) => {
             const {embedded} = await import("/lab/plots.js");
             document.querySelector("#published").hidden = false;
-            const coming = views.map(async (view) => (await fetch(`/figures/${view}`)).arrayBuffer());
-            const arrived = await Promise.all(coming);
-            window.fetch = async (address) => (
-                {ok: true, arrayBuffer: async () => arrived[views.indexOf(address.split("/").at(-1))]});
+            const bytes = async (view) => (await fetch(`/figures/${view}`)).arrayBuffer();
+            const arrived = await Promise.all(views.map(bytes));
+            const of = (address) => arrived[views.indexOf(address.split("/").at(-1))];
+            window.fetch = async (address) => ({ok: true, arrayBuffer: async () => of(address)});
             const made = await Promise.all(views.map(embedded));
             return made.map(({made}) => made.roots().map(({name}) => name));
         }""",
