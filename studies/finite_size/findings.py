@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import math
-
 from roughline.paper.stated import EXPONENT_TOLERANCE
-from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Verdict
 from studies.finite_size.crossover import scaling_exponent_of
 from studies.finite_size.measures import (
     crossing,
@@ -16,6 +12,16 @@ from studies.finite_size.measures import (
     reduced_over_full,
 )
 from studies.finite_size.samples import BAND, HURSTS, SIZES, WIDE, Sample, sample
+from studies.finite_size.statements import (
+    each_case,
+    judged_at_least,
+    judged_below,
+    judged_near,
+    load_in_words,
+    load_interval,
+    over_side,
+    range_of_cases,
+)
 from studies.judged import (
     Finding,
     Judgement,
@@ -63,10 +69,10 @@ def _single_wave() -> Finding:
     }
     found = {name: exponent_in(one, SINGLE) for name, (one, _) in cases.items()}
     parts = {
-        name: _near(found[name], scaling_exponent_of(hurst), one.count)
+        name: judged_near(found[name], scaling_exponent_of(hurst), one.count)
         for name, (one, hurst) in cases.items()
     }
-    return _finding(
+    return each_case(
         "A surface of one roll-off wave: k ~ F^(1/(1+H)) under light loads (eq. 14; Pastewka and "
         f"others), to ±{EXPONENT_TOLERANCE:g}",
         f"exponent from F/(E* h λ_r) = {SINGLE[0]:g} to {SINGLE[1]:g}",
@@ -82,20 +88,23 @@ def _finite_size() -> Finding:
     found, parts = {}, {}
     for hurst in HURSTS:
         first, last = (
-            _over_size(crossing("periodic", WIDE, size, hurst).leaves.force, size)
+            over_side(crossing("periodic", WIDE, size, hurst).leaves.force, size)
             for size in (small, large)
         )
         name = f"Hurst {hurst:g}"
         found[name] = (first, last)
-        parts[name] = _below(last, first, sample("periodic", WIDE, large, hurst).count)
+        parts[name] = judged_below(last, first, sample("periodic", WIDE, large, hurst).count)
     return Finding(
         "The power law is an effect of finite size: on larger surfaces it ends under lower loads "
         "(Pastewka and others)",
         f"end at F/(E* h L) with {small} and with {large} roll-off waves along a side: "
         + ", ".join(
-            f"{_known(first)} and {_known(last)} at {name}" for name, (first, last) in found.items()
+            f"{load_in_words(first)} and {load_in_words(last)} at {name}"
+            for name, (first, last) in found.items()
         ),
-        ", ".join(f"{_ends(first)} and {_ends(last)}" for first, last in found.values()),
+        ", ".join(
+            f"{load_interval(first)} and {load_interval(last)}" for first, last in found.values()
+        ),
         judged_together(list(parts.values())),
         where_others(list(parts.items())),
     )
@@ -111,7 +120,7 @@ def _linear_law() -> Finding:
         if size >= MANY
         for hurst in HURSTS
     }
-    parts = {name: _at_least(each, DECADE) for name, each in found.items()}
+    parts = {name: judged_at_least(each, DECADE) for name, each in found.items()}
     least, most = min(sure for sure, _ in found.values()), max(most for _, most in found.values())
     return Finding(
         f"With {MANY} waves or more, k = p/(γ h) over a decade of loads or more (Persson; Pastewka "
@@ -138,7 +147,7 @@ def _gamma() -> Finding:
         name: judged(WidenedInterval.of(each), count, *GAMMAS)
         for name, (each, count) in found.items()
     }
-    return _spread(
+    return range_of_cases(
         f"γ = F/(k h) is {GAMMAS[0]:g} to {GAMMAS[1]:g} where the law is linear (Pastewka and "
         "others)",
         "γ where the exponent is 1, for all sizes, geometries and Hurst exponents",
@@ -152,8 +161,8 @@ def _between() -> Finding:
     """Judge the exponent between the two laws."""
     cases = _many()
     found = {name: exponent_in(one, BETWEEN) for name, one in cases.items()}
-    parts = {name: _near(found[name], SUMMITS, one.count) for name, one in cases.items()}
-    return _spread(
+    parts = {name: judged_near(found[name], SUMMITS, one.count) for name, one in cases.items()}
+    return range_of_cases(
         f"With {MANY} waves or more, k ~ F^{SUMMITS:g} between the two laws (here), to "
         f"±{EXPONENT_TOLERANCE:g}",
         f"exponent from F/(E* h λ_r) = {BETWEEN[0]:g} to {BETWEEN[1]:g}",
@@ -207,7 +216,7 @@ def _reduced() -> Finding:
         name: judged(WidenedInterval.of(each), _count(name), -_SAME, _SAME)
         for name, each in found.items()
     }
-    return _spread(
+    return range_of_cases(
         f"The reduced model has the stiffness of the surface, to {_SAME:.0%} (the founding paper)",
         f"stiffness of lines over that of periodic surfaces, less 1, at F/(E* h λ_r) = {_MEDIUM:g}",
         list(found.values()),
@@ -228,81 +237,3 @@ def _many() -> dict[str, Sample]:
         if size >= MANY
         for hurst in HURSTS
     }
-
-
-def _below(first: IntervalEstimate, second: IntervalEstimate, count: int) -> Judgement:
-    """Judge that a load is below another."""
-    if first.high < second.low:
-        return Judgement(Verdict.CONFIRMED, math.nan)
-    if first.low > second.high:
-        return Judgement(Verdict.REFUTED, math.nan)
-    apart = math.log(second.value / first.value)
-    widths = math.log(first.high / first.value) + math.log(second.value / second.low)
-    enough = count * (widths / apart) ** 2 if apart > 0 else math.nan
-    return Judgement(Verdict.UNDECIDED, enough)
-
-
-def _at_least(decades: tuple[float, float], wanted: float) -> Judgement:
-    """Judge a range that is surely, and perhaps, some decades long."""
-    sure, perhaps = decades
-    if sure >= wanted:
-        return Judgement(Verdict.CONFIRMED, math.nan)
-    return Judgement(Verdict.REFUTED if perhaps < wanted else Verdict.UNDECIDED, math.nan)
-
-
-def _over_size(force: IntervalEstimate, size: int) -> IntervalEstimate:
-    """A load over E* h L from one over E* h lambda_r."""
-    return IntervalEstimate(force.value / size, force.low / size, force.high / size)
-
-
-def _known(load: IntervalEstimate) -> str:
-    if not math.isnan(load.value):
-        return f"{load.value:.2g}"
-    return f"less than {load.high:.2g}" if math.isnan(load.low) else f"more than {load.low:.2g}"
-
-
-def _ends(load: IntervalEstimate) -> str:
-    low = "-" if math.isnan(load.low) else f"{load.low:.2g}"
-    high = "-" if math.isnan(load.high) else f"{load.high:.2g}"
-    return f"{low} to {high}"
-
-
-def _near(found: IntervalEstimate, value: float, count: int) -> Judgement:
-    ends = (value - EXPONENT_TOLERANCE, value + EXPONENT_TOLERANCE)
-    return judged(WidenedInterval.of(found), count, *ends)
-
-
-def _spread(
-    statement: str,
-    what: str,
-    found: list[IntervalEstimate],
-    parts: dict[str, Judgement],
-    form: str,
-) -> Finding:
-    """Put a statement about many cases together, with the range of what was found."""
-    return Finding(
-        statement,
-        f"{what}: {min(each.value for each in found):{form}} to "
-        f"{max(each.value for each in found):{form}}",
-        f"{min(each.low for each in found):{form}} to {max(each.high for each in found):{form}}",
-        judged_together(list(parts.values())),
-        where_others(list(parts.items())),
-    )
-
-
-def _finding(
-    statement: str,
-    what: str,
-    found: dict[str, IntervalEstimate],
-    parts: dict[str, Judgement],
-    form: str,
-) -> Finding:
-    """Put a statement about several cases together."""
-    return Finding(
-        statement,
-        f"{what}: {', '.join(f'{each.value:{form}}' for each in found.values())} "
-        f"({'; '.join(found)})",
-        ", ".join(f"{each.low:{form}} to {each.high:{form}}" for each in found.values()),
-        judged_together(list(parts.values())),
-        where_others(list(parts.items())),
-    )

@@ -2,23 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from roughline._version import __version__
-from roughline.report.page import Section, Table, render_markdown
-from roughline.statistics.bootstrap import IntervalEstimate
-from studies.finite_size.crossover import Passing
+from roughline.report.page import Section, render_markdown
 from studies.finite_size.findings import BETWEEN, MANY, findings
-from studies.finite_size.measures import (
-    crossing,
-    exponent_in,
-    grid_shift,
-    over_persson,
-    reduced_over_full,
-)
+from studies.finite_size.measures import crossing, exponent_in
 from studies.finite_size.samples import (
     BAND,
-    FINE_SIZES,
     HURSTS,
     RESOLVED,
     SIZES,
@@ -28,12 +17,11 @@ from studies.finite_size.samples import (
     sample,
     unsolved_loads,
 )
+from studies.finite_size.tables import crossing_table, grid_table, others_table
 from studies.judged import findings_table
 
 TITLE = "Where the power law ends and the linear law begins"
 FOLDER = "figures/finite_size"
-_FORCES = (0.1, 0.3, 1.0, 3.0)
-_DECADES = (0, 1, 2)
 
 
 def page() -> str:
@@ -167,7 +155,7 @@ def _crossings(geometry: Geometry) -> Section:
             f"F/(E* h λ_r) = {BETWEEN[0]:g} to {BETWEEN[1]:g}, the beginning of the linear law, γ "
             "and the pressure where it is found.",
         ],
-        tables=[_crossing_table(geometry, BAND)],
+        tables=[crossing_table(geometry, BAND)],
     )
 
 
@@ -177,63 +165,11 @@ def _wide() -> Section:
         [
             f"The same with waves down to λ_r/{WIDE}, periodic: lighter loads are resolved.",
         ],
-        tables=[_crossing_table("periodic", WIDE)],
+        tables=[crossing_table("periodic", WIDE)],
     )
-
-
-def _crossing_table(geometry: Geometry, band: int) -> Table:
-    header = (
-        "Hurst",
-        "L/λ_r",
-        "end, F/(E* h λ_r)",
-        "end, F/(E* h L)",
-        "between",
-        "begin, F/(E* h λ_r)",
-        "begin, p/(E*∇h)",
-        "γ",
-        "p/(E*∇h) there",
-    )
-    rows = []
-    for hurst in HURSTS:
-        for size in SIZES[band]:
-            one, found = sample(geometry, band, size, hurst), crossing(geometry, band, size, hurst)
-            per_pressure = size * one.slope
-            rows.append(
-                (
-                    f"{hurst:g}",
-                    f"{size}",
-                    _load(found.leaves, 1),
-                    _load(found.leaves, size),
-                    _cell(exponent_in(one, BETWEEN), ".2f"),
-                    _load(found.reaches, 1),
-                    _load(found.reaches, per_pressure),
-                    _cell(found.gamma, ".3f"),
-                    f"{found.gamma_force / per_pressure:.2g}",
-                )
-            )
-    return Table(header, rows, range(len(header)))
 
 
 def _others() -> Section:
-    header = (
-        "Hurst",
-        "L/λ_r",
-        *(f"k over Persson's, {'at γ' if not each else f'1e-{each} of it'}" for each in _DECADES),
-        *(f"lines, F/(E* h λ_r) = {force:g}" for force in _FORCES),
-    )
-    rows = [
-        (
-            f"{hurst:g}",
-            f"{size}",
-            *(
-                _cell(over_persson(sample("periodic", BAND, size, hurst), each), ".2f")
-                for each in _DECADES
-            ),
-            *(_percent(reduced_over_full(size, hurst, force)) for force in _FORCES),
-        )
-        for hurst in HURSTS
-        for size in SIZES[BAND]
-    ]
     return Section(
         "Persson's theory and the reduced model",
         [
@@ -241,29 +177,18 @@ def _others() -> Section:
             "and one and two decades lighter ones; and that of lines on springs over that of the "
             "surfaces, less 1. A line saturates at E* L, and has no linear law.",
         ],
-        tables=[Table(header, rows, range(len(header)))],
+        tables=[others_table()],
     )
 
 
 def _grid() -> Section:
-    header = ("Hurst", "L/λ_r", *(f"F/(E* h λ_r) = {force:g}" for force in _FORCES), "γ")
-    rows = [
-        (
-            f"{hurst:g}",
-            f"{size}",
-            *(_percent(grid_shift(size, hurst, force)) for force in _FORCES),
-            _percent(grid_shift(size, hurst, None)),
-        )
-        for hurst in HURSTS
-        for size in FINE_SIZES
-    ]
     return Section(
         "The grid",
         [
             "How much higher the stiffness is with eight cells for the shortest wave than with "
             "four, of the same periodic surfaces; γ is lower by as much as k is higher.",
         ],
-        tables=[Table(header, rows, range(len(header)))],
+        tables=[grid_table()],
     )
 
 
@@ -294,27 +219,3 @@ def _references() -> Section:
             "Rev. E 87, 062809 (2013).",
         ],
     )
-
-
-def _load(passed: Passing, unit: float) -> str:
-    """Write a load with its interval; an open end is left out."""
-    force = passed.force
-    value, low, high = (each / unit for each in (force.value, force.low, force.high))
-    if passed.always:
-        return f"< {high:.2g}" if not math.isnan(high) else "below all"
-    if passed.never:
-        return f"> {low:.2g}" if not math.isnan(low) else "above all"
-    ends = ("" if math.isnan(each) else f"{each:.2g}" for each in (low, high))
-    return f"{value:.2g} ({'-'.join(ends)})"
-
-
-def _cell(estimate: IntervalEstimate, form: str) -> str:
-    if math.isnan(estimate.value):
-        return "-"
-    return f"{estimate.value:{form}} ({estimate.low:{form}}-{estimate.high:{form}})"
-
-
-def _percent(estimate: IntervalEstimate) -> str:
-    if math.isnan(estimate.value):
-        return "-"
-    return f"{estimate.value:+.1%} ({estimate.low:+.1%} to {estimate.high:+.1%})"

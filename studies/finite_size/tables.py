@@ -1,0 +1,119 @@
+"""The tables of the page."""
+
+from __future__ import annotations
+
+import math
+
+from roughline.report.page import Table
+from roughline.statistics.bootstrap import IntervalEstimate
+from studies.finite_size.crossover import Passing
+from studies.finite_size.findings import BETWEEN
+from studies.finite_size.measures import (
+    crossing,
+    exponent_in,
+    grid_shift,
+    over_persson,
+    reduced_over_full,
+)
+from studies.finite_size.samples import BAND, FINE_SIZES, HURSTS, SIZES, Geometry, sample
+
+_FORCES = (0.1, 0.3, 1.0, 3.0)
+_DECADES = (0, 1, 2)
+
+
+def crossing_table(geometry: Geometry, band: int) -> Table:
+    """Return where the laws of all sizes end and begin."""
+    header = (
+        "Hurst",
+        "L/λ_r",
+        "end, F/(E* h λ_r)",
+        "end, F/(E* h L)",
+        "between",
+        "begin, F/(E* h λ_r)",
+        "begin, p/(E*∇h)",
+        "γ",
+        "p/(E*∇h) there",
+    )
+    rows = []
+    for hurst in HURSTS:
+        for size in SIZES[band]:
+            one, found = sample(geometry, band, size, hurst), crossing(geometry, band, size, hurst)
+            per_pressure = size * one.slope
+            rows.append(
+                (
+                    f"{hurst:g}",
+                    f"{size}",
+                    _load(found.leaves, 1),
+                    _load(found.leaves, size),
+                    _cell(exponent_in(one, BETWEEN), ".2f"),
+                    _load(found.reaches, 1),
+                    _load(found.reaches, per_pressure),
+                    _cell(found.gamma, ".3f"),
+                    f"{found.gamma_force / per_pressure:.2g}",
+                )
+            )
+    return Table(header, rows, range(len(header)))
+
+
+def others_table() -> Table:
+    """Return the stiffness beside that of Persson's theory and of the reduced model."""
+    header = (
+        "Hurst",
+        "L/λ_r",
+        *(f"k over Persson's, {'at γ' if not each else f'1e-{each} of it'}" for each in _DECADES),
+        *(f"lines, F/(E* h λ_r) = {force:g}" for force in _FORCES),
+    )
+    rows = [
+        (
+            f"{hurst:g}",
+            f"{size}",
+            *(
+                _cell(over_persson(sample("periodic", BAND, size, hurst), each), ".2f")
+                for each in _DECADES
+            ),
+            *(_percent(reduced_over_full(size, hurst, force)) for force in _FORCES),
+        )
+        for hurst in HURSTS
+        for size in SIZES[BAND]
+    ]
+    return Table(header, rows, range(len(header)))
+
+
+def grid_table() -> Table:
+    """Return what finer grids change."""
+    header = ("Hurst", "L/λ_r", *(f"F/(E* h λ_r) = {force:g}" for force in _FORCES), "γ")
+    rows = [
+        (
+            f"{hurst:g}",
+            f"{size}",
+            *(_percent(grid_shift(size, hurst, force)) for force in _FORCES),
+            _percent(grid_shift(size, hurst, None)),
+        )
+        for hurst in HURSTS
+        for size in FINE_SIZES
+    ]
+    return Table(header, rows, range(len(header)))
+
+
+def _load(passed: Passing, unit: float) -> str:
+    """Write a load with its interval; an open end is left out."""
+    force = passed.force
+    value, low, high = (each / unit for each in (force.value, force.low, force.high))
+    if passed.always:
+        return f"< {high:.2g}" if not math.isnan(high) else "below all"
+    if passed.never:
+        return f"> {low:.2g}" if not math.isnan(low) else "above all"
+    ends = ("" if math.isnan(each) else f"{each:.2g}" for each in (low, high))
+    return f"{value:.2g} ({'-'.join(ends)})"
+
+
+def _cell(estimate: IntervalEstimate, form: str) -> str:
+    if math.isnan(estimate.value):
+        return "-"
+    return f"{estimate.value:{form}} ({estimate.low:{form}}-{estimate.high:{form}})"
+
+
+def _percent(estimate: IntervalEstimate) -> str:
+    if math.isnan(estimate.value):
+        return "-"
+    return f"{estimate.value:+.1%} ({estimate.low:+.1%} to {estimate.high:+.1%})"
