@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-
-import numpy as np
+from dataclasses import dataclass, replace
 
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.statistics.bootstrap import IntervalEstimate
@@ -22,6 +20,7 @@ from studies.area.kappa import (
     fall_with_nayak,
     grid_shift,
     kappa,
+    line_over_nayak,
     sample,
     widened_kappa,
 )
@@ -56,22 +55,22 @@ class CommonLaw:
     ----------
     level : float
         The share.
-    at_ten : float
+    at_ten : IntervalEstimate
         kappa where Nayak's parameter is 10.
-    per_decade : float
+    per_decade : IntervalEstimate
         By how much it changes to a parameter ten times as large.
     deviation : float
         Largest relative deviation of a mean from the line.
     """
 
     level: float
-    at_ten: float
-    per_decade: float
+    at_ten: IntervalEstimate
+    per_decade: IntervalEstimate
     deviation: float
 
     def __call__(self, nayak: float) -> float:
         """Evaluate the law."""
-        return self.at_ten + self.per_decade * (math.log10(nayak) - 1)
+        return self.at_ten.value + self.per_decade.value * (math.log10(nayak) - 1)
 
 
 def main_samples() -> list[Sample]:
@@ -82,11 +81,9 @@ def main_samples() -> list[Sample]:
 def common_law(level: float) -> CommonLaw:
     """Fit the law by least squares over all spectra, which count alike."""
     samples = main_samples()
-    x = np.log10([one.nayak for one in samples]) - 1
-    y = np.array([kappa(one, level).value for one in samples])
-    slope, offset = np.polyfit(x, y, 1)
-    deviation = float(np.abs(y / (offset + slope * x) - 1).max())
-    return CommonLaw(level, float(offset), float(slope), deviation)
+    line = CommonLaw(level, *line_over_nayak(samples, level), deviation=0.0)
+    ratios = [kappa(one, level).value / line(one.nayak) for one in samples]
+    return replace(line, deviation=max(abs(ratio - 1) for ratio in ratios))
 
 
 def grid_error(level: float) -> float:
@@ -164,6 +161,7 @@ def _logarithmically() -> Finding:
 def _nayak_alone() -> Finding:
     """Judge that the law of all spectra holds for each."""
     law = common_law(MIDDLE)
+    line = f"{law.at_ten.value:.3f} {law.per_decade.value:+.3f} log10(α/10)"
 
     def over_law(one: Sample) -> WidenedInterval:
         found, expected = kappa(one, MIDDLE, _OF_EACH), law(one.nayak)
@@ -173,7 +171,7 @@ def _nayak_alone() -> Finding:
 
     return _of_samples(
         f"Nayak's parameter alone says κ, whatever the Hurst exponent (here), to {SAME:.0%}",
-        f"κ at {MIDDLE:.0%} in contact over {law.at_ten:.3f} {law.per_decade:+.3f} log10(α/10)",
+        f"κ at {MIDDLE:.0%} in contact over {line}",
         over_law,
         (1 - SAME, 1 + SAME),
         ".3f",

@@ -217,11 +217,34 @@ def weighted_sum(
     samples: Sequence[Sample], level: float, weights: Real, confidence: float = 0.95
 ) -> IntervalEstimate:
     """Return a weighted sum of ln kappa over samples, which are resampled apart."""
-    parts = [log_kappa(one.area, one.pressure, level, rng) for rng, one in enumerate(samples)]
+    return _weighted(_log_kappas(samples, level), weights).interval_estimate(confidence)
+
+
+def line_over_nayak(
+    samples: Sequence[Sample], level: float
+) -> tuple[IntervalEstimate, IntervalEstimate]:
+    """Return kappa where Nayak's parameter is 10, and what ten times the parameter adds to it.
+
+    By least squares over samples that count alike and are resampled apart.
+    """
+    x = np.log10([one.nayak for one in samples]) - 1
+    at_ten, per_decade = np.linalg.pinv(np.stack([np.ones_like(x), x], axis=1))
+    kappas = [each.exp() for each in _log_kappas(samples, level)]
+    return (
+        _weighted(kappas, at_ten).interval_estimate(),
+        _weighted(kappas, per_decade).interval_estimate(),
+    )
+
+
+def _log_kappas(samples: Sequence[Sample], level: float) -> list[Resampled]:
+    return [log_kappa(one.area, one.pressure, level, rng) for rng, one in enumerate(samples)]
+
+
+def _weighted(parts: Sequence[Resampled], weights: Real) -> Resampled:
     total = _scaled(parts[0], weights[0])
     for part, weight in zip(parts[1:], weights[1:], strict=True):
         total = total - _scaled(part, -weight)
-    return total.interval_estimate(confidence)
+    return total
 
 
 def _scaled(one: Resampled, weight: float) -> Resampled:

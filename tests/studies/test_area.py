@@ -16,6 +16,7 @@ from studies.area.kappa import (
     grid_shift,
     kappa,
     kappa_in_cells,
+    line_over_nayak,
     log_kappa,
     plan,
     sample,
@@ -97,6 +98,20 @@ def test_nayak_and_slope_are_those_of_the_surfaces():
         assert one.nayak == pytest.approx(m_0 * m_4 / m_2**2, rel=0.02)
         slope = ensemble.force_bars[0] / one.pressure[0]
         assert slope == pytest.approx(math.sqrt(2 * m_2), rel=1e-6)
+
+
+def test_the_common_line_is_that_of_least_squares_and_its_interval_that_of_the_surfaces():
+    samples = main_samples()
+    x = np.log10([one.nayak for one in samples]) - 1
+    found = [kappa(one, MIDDLE) for one in samples]
+    slope, at_ten = np.polyfit(x, [each.value for each in found], 1)
+    line = line_over_nayak(samples, MIDDLE)
+    assert [line[0].value, line[1].value] == pytest.approx([at_ten, slope], rel=1e-9)
+    # independent errors of the fifteen means, carried through the weights of the line
+    weights = np.linalg.pinv(np.stack([np.ones_like(x), x], axis=1))
+    widths = np.array([each.high - each.low for each in found])
+    for each, weight in zip(line, weights, strict=True):
+        assert each.high - each.low == pytest.approx(np.hypot.reduce(weight * widths), rel=0.15)
 
 
 def test_sentences_without_numbers_are_true_too():

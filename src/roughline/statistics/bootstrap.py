@@ -82,6 +82,11 @@ class Resampled:
             self.freedom,
         )
 
+    def exp(self) -> Resampled:
+        """Return the exponential of the statistic."""
+        value, values = np.exp(self.value), np.exp(self.values)
+        return Resampled(value, self.error * value, values, self.errors * values, self.freedom)
+
     def __sub__(self, other: Resampled) -> Resampled:
         """Return the difference of two independent ensembles."""
         first, second = self.error**2, other.error**2
