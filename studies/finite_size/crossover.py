@@ -17,6 +17,8 @@ from roughline.statistics.power_law import line_weights
 
 LINEAR = 1.0
 """Exponent of the linear law."""
+BETWEEN_THEM = 0.9
+"""Exponent between the two laws, as it is found on surfaces of many waves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,13 +93,13 @@ def passing(exponents: LocalExponents, threshold: float) -> Passing:
 
     The exponent is made monotone by isotonic regression, with the squares of its intervals' widths
     as inverse weights; between two loads it is linear in ln F. The interval reaches from the last
-    load up to which all intervals lie below the threshold to the first from which on all lie above.
+    load whose interval lies below the threshold to the first from which on all lie above.
     """
     x = np.log(exponents.force)
     weights = 1 / (exponents.high - exponents.low) ** 2
     monotone = isotonic_regression(exponents.value, weights=weights).x
     below, above = exponents.high < threshold, exponents.low > threshold
-    first = int(np.argmin(below)) - 1 if not below.all() else below.size - 1
+    first = int(np.flatnonzero(below)[-1]) if below.any() else -1
     last = below.size - int(np.argmin(above[::-1])) if not above.all() else 0
     low = math.exp(x[first]) if first >= 0 else math.nan
     high = math.exp(x[last]) if last < x.size else math.nan
@@ -119,15 +121,19 @@ class CrossOver:
     ----------
     leaves : Passing
         The load from which on the exponent is more than 0.05 above 1 / (1 + H).
+    halfway : Passing
+        The load from which on it is above the middle of 1 / (1 + H) and 0.9.
     reaches : Passing
         The load from which on it is less than 0.05 below 1.
     gamma : IntervalEstimate
-        F / (k h) where it is largest, which is where the exponent is 1.
+        F / (k h) where it is largest, which is where the exponent is 1. Where it is largest under
+        the heaviest load heavier ones may show more: it is NaN there, and so is its upper end.
     gamma_force : float
         The load there.
     """
 
     leaves: Passing
+    halfway: Passing
     reaches: Passing
     gamma: IntervalEstimate
     gamma_force: float
@@ -136,18 +142,26 @@ class CrossOver:
 def cross_over(force: Real, stiffness: Real, hurst: float) -> CrossOver:
     """Return where the power law ends, where the linear law begins, and gamma.
 
-    Loads beyond that of the largest F / k are not used for the first two: there the surface nears
+    Loads beyond that of the largest F / k are not used for the laws' ends: there the surface nears
     full contact, and the exponent exceeds 1.
     """
     compliance = force / stiffness.mean(axis=0)
     top = int(np.argmax(compliance))
     there = average(stiffness[:, top : top + 1])
-    gamma = IntervalEstimate(
-        float(compliance[top]), float(force[top] / there.high[0]), float(force[top] / there.low[0])
+    low, high = float(force[top] / there.high[0]), float(force[top] / there.low[0])
+    is_inside = top < force.size - 1
+    gamma = (
+        IntervalEstimate(float(compliance[top]), low, high)
+        if is_inside
+        else IntervalEstimate(math.nan, low, math.nan)
     )
-    rising = local_exponents(force, stiffness).up_to(force[top])
+    rising, scaling = (
+        local_exponents(force, stiffness).up_to(force[top]),
+        scaling_exponent_of(hurst),
+    )
     return CrossOver(
-        leaves=passing(rising, scaling_exponent_of(hurst) + EXPONENT_TOLERANCE),
+        leaves=passing(rising, scaling + EXPONENT_TOLERANCE),
+        halfway=passing(rising, (scaling + BETWEEN_THEM) / 2),
         reaches=passing(rising, LINEAR - EXPONENT_TOLERANCE),
         gamma=gamma,
         gamma_force=float(force[top]),

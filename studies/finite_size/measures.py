@@ -24,9 +24,13 @@ def crossing(geometry: Geometry, band: int, size: int, hurst: float) -> CrossOve
 
 
 def exponent_in(one: Sample, window: tuple[float, float]) -> IntervalEstimate:
-    """Return the exponent of a sample in a window of F / (E* h lambda_r)."""
+    """Return the exponent of a sample in a window of F / (E* h lambda_r).
+
+    NaN where the loads do not cover the window, or where it reaches beyond the load of gamma.
+    """
     weights = exponent_weights(one.force, window)
-    if not np.isfinite(weights).all():
+    beyond = window[1] > crossing(one.geometry, one.band, one.size, one.hurst).gamma_force
+    if beyond or not np.isfinite(weights).all():
         return NO_ESTIMATE
     return bootstrap.sum_of_log_means(one.stiffness, weights).interval_estimate()
 

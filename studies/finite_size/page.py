@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from roughline._version import __version__
 from roughline.report.page import Section, render_markdown
+from studies.finite_size.crossover import BETWEEN_THEM
 from studies.finite_size.findings import BETWEEN, MANY, findings
 from studies.finite_size.measures import crossing, exponent_in
 from studies.finite_size.samples import (
@@ -22,6 +25,7 @@ from studies.judged import findings_table
 
 TITLE = "Where the power law ends and the linear law begins"
 FOLDER = "figures/finite_size"
+_LEAD_HURST = 0.8
 
 
 def page() -> str:
@@ -44,7 +48,7 @@ def page() -> str:
 
 def lead() -> str:
     """Return the answer in a few sentences."""
-    gammas = [crossing("periodic", BAND, size, hurst).gamma for size, hurst in _cases(1)]
+    gammas = [crossing("periodic", BAND, size, hurst).gamma.value for size, hurst in _cases(1)]
     tops = [
         crossing("periodic", BAND, size, hurst).gamma_force
         / size
@@ -55,16 +59,22 @@ def lead() -> str:
         exponent_in(sample("periodic", BAND, size, hurst), BETWEEN).value
         for size, hurst in _cases(MANY)
     ]
+    halves = [
+        crossing("periodic", BAND, size, _LEAD_HURST).halfway.force.value
+        for size in SIZES[BAND]
+        if size == 1 or size >= MANY
+    ]
     return (
         "The stiffness of a rough contact follows a power law, k ~ F^(1/(1+H)), while a single "
         "wave of the roll-off length carries the load, and is said to be proportional to it, "
         "k = p/(γ h), when many do. Both ends of the way between them are found here, and each "
-        "collapses in its own unit. The power law ends where a few waves touch, whatever the size "
-        "of the surface, so it ends under lower mean pressures on larger surfaces. "
-        f"Then k ~ F^{min(middle):.2f} to F^{max(middle):.2f}, over more decades the larger the "
+        "collapses in its own unit. The power law is a matter of the force on a single wave: at "
+        f"Hurst {_LEAD_HURST:g} it is half gone at F/(E* h λ_r) = {halves[0]:.2g} on surfaces of "
+        f"one wave and {min(halves[1:]):.2g} to {max(halves[1:]):.2g} on those of {MANY} to "
+        f"{max(SIZES[BAND])}, so under ever lower mean pressures. Then k ~ F^{min(middle):.2f} to F^{max(middle):.2f}, over more decades the larger the "
         "surface is. The exponent reaches 1 only where the mean pressure is "
         f"{min(tops):.2f} to {max(tops):.2f} of E*∇h, whatever the size, and there γ is "
-        f"{min(each.value for each in gammas):.3f} to {max(each.value for each in gammas):.3f}."
+        f"{np.nanmin(gammas):.3f} to {np.nanmax(gammas):.3f}."
     )
 
 
@@ -111,10 +121,12 @@ def _method() -> Section:
             "shown, 1/(1/k − 1/k_s); and lines on springs with the same waves (reduced model).",
             "The local exponent is the slope of ln mean k over ln F at three neighbouring loads, "
             "half a decade. The power law ends where it is for good more than 0.05 above "
-            "1/(1+H), the linear law begins where it is less than 0.05 below 1.",
-            "γ is F/(k h) where it is largest, which is where the exponent is 1. Intervals are "
-            "studentised, from resampled surfaces; that of a load reaches from the last load up to "
-            "which all intervals of the exponent lie below to the first from which all lie above.",
+            f"1/(1+H), it is half gone where it is above the middle of that and {BETWEEN_THEM:g}, "
+            "and the linear law begins where it is less than 0.05 below 1.",
+            "γ is F/(k h) where it is largest, which is where the exponent is 1; where it is "
+            "largest under the heaviest load it is more than that. Intervals are studentised, from "
+            "resampled surfaces; that of a load reaches from the last load at which the interval "
+            "of the exponent lies below to the first from which on all lie above.",
             f"{loads - unsolved:,} of {loads:,} loads are certified to 1e-6. Loads count from "
             f"which on {RESOLVED:.0%} of the surfaces have ten cells in contact.",
         ],
@@ -151,8 +163,8 @@ def _crossings(geometry: Geometry) -> Section:
     return Section(
         names[geometry],
         [
-            "The end of the power law over E* h λ_r and over E* h L, the exponent from "
-            f"F/(E* h λ_r) = {BETWEEN[0]:g} to {BETWEEN[1]:g}, the beginning of the linear law, γ "
+            f"The end of the power law, the load half way to exponent {BETWEEN_THEM:g} over "
+            f"E* h λ_r and over E* h L, the exponent from F/(E* h λ_r) = {BETWEEN[0]:g} to {BETWEEN[1]:g}, the beginning of the linear law, γ "
             "and the pressure where it is found.",
         ],
         tables=[crossing_table(geometry, BAND)],

@@ -27,7 +27,8 @@ def crossing_table(geometry: Geometry, band: int) -> Table:
         "Hurst",
         "L/λ_r",
         "end, F/(E* h λ_r)",
-        "end, F/(E* h L)",
+        "half way, F/(E* h λ_r)",
+        "half way, F/(E* h L)",
         "between",
         "begin, F/(E* h λ_r)",
         "begin, p/(E*∇h)",
@@ -44,11 +45,12 @@ def crossing_table(geometry: Geometry, band: int) -> Table:
                     f"{hurst:g}",
                     f"{size}",
                     _load(found.leaves, 1),
-                    _load(found.leaves, size),
+                    _load(found.halfway, 1),
+                    _load(found.halfway, size),
                     _cell(exponent_in(one, BETWEEN), ".2f"),
                     _load(found.reaches, 1),
                     _load(found.reaches, per_pressure),
-                    _cell(found.gamma, ".3f"),
+                    _gamma(found.gamma),
                     f"{found.gamma_force / per_pressure:.2g}",
                 )
             )
@@ -105,6 +107,11 @@ def _load(passed: Passing, unit: float) -> str:
         return f"> {low:.2g}" if not math.isnan(low) else "above all"
     ends = ("" if math.isnan(each) else f"{each:.2g}" for each in (low, high))
     return f"{value:.2g} ({'-'.join(ends)})"
+
+
+def _gamma(gamma: IntervalEstimate) -> str:
+    """Write gamma with its interval, or what it is more than."""
+    return f"> {gamma.low:.3f}" if math.isnan(gamma.value) else _cell(gamma, ".3f")
 
 
 def _cell(estimate: IntervalEstimate, form: str) -> str:
