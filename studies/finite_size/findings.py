@@ -97,7 +97,8 @@ def _finite_size() -> Finding:
     return Finding(
         "The power law is an effect of finite size: on larger surfaces it ends under lower loads "
         "(Pastewka and others)",
-        f"half way to exponent {BETWEEN_THEM:g} at F/(E* h L) with {small} and with {large} roll-off waves along a side: "
+        f"half way to exponent {BETWEEN_THEM:g} at F/(E* h L) with {small} and with {large} "
+        "roll-off waves along a side: "
         + ", ".join(
             f"{load_in_words(first)} and {load_in_words(last)} at {name}"
             for name, (first, last) in found.items()
