@@ -155,10 +155,8 @@ def cross_over(force: Real, stiffness: Real, hurst: float) -> CrossOver:
         if is_inside
         else IntervalEstimate(math.nan, low, math.nan)
     )
-    rising, scaling = (
-        local_exponents(force, stiffness).up_to(force[top]),
-        scaling_exponent_of(hurst),
-    )
+    rising = local_exponents(force, stiffness).up_to(force[top])
+    scaling = scaling_exponent_of(hurst)
     return CrossOver(
         leaves=passing(rising, scaling + EXPONENT_TOLERANCE),
         halfway=passing(rising, (scaling + BETWEEN_THEM) / 2),

@@ -71,10 +71,10 @@ def lead() -> str:
         "collapses in its own unit. The power law is a matter of the force on a single wave: at "
         f"Hurst {_LEAD_HURST:g} it is half gone at F/(E* h λ_r) = {halves[0]:.2g} on surfaces of "
         f"one wave and {min(halves[1:]):.2g} to {max(halves[1:]):.2g} on those of {MANY} to "
-        f"{max(SIZES[BAND])}, so under ever lower mean pressures. Then k ~ F^{min(middle):.2f} to F^{max(middle):.2f}, over more decades the larger the "
-        "surface is. The exponent reaches 1 only where the mean pressure is "
-        f"{min(tops):.2f} to {max(tops):.2f} of E*∇h, whatever the size, and there γ is "
-        f"{np.nanmin(gammas):.3f} to {np.nanmax(gammas):.3f}."
+        f"{max(SIZES[BAND])}, so under ever lower mean pressures. Then k ~ F^{min(middle):.2f} to "
+        f"F^{max(middle):.2f}, over more decades the larger the surface is. The exponent reaches 1 "
+        f"only where the mean pressure is {min(tops):.2f} to {max(tops):.2f} of E*∇h, whatever the "
+        f"size, and there γ is {np.nanmin(gammas):.3f} to {np.nanmax(gammas):.3f}."
     )
 
 
@@ -164,8 +164,10 @@ def _crossings(geometry: Geometry) -> Section:
         names[geometry],
         [
             f"The end of the power law, the load half way to exponent {BETWEEN_THEM:g} over "
-            f"E* h λ_r and over E* h L, the exponent from F/(E* h λ_r) = {BETWEEN[0]:g} to {BETWEEN[1]:g}, the beginning of the linear law, γ "
-            "and the pressure where it is found.",
+            f"E* h λ_r and over E* h L, the exponent from F/(E* h λ_r) = {BETWEEN[0]:g} to "
+            f"{BETWEEN[1]:g}, the beginning of the linear law, γ and the pressure where it is "
+            "found. A dash: not within the loads. At Hurst 0.2 the exponents of the two ranges "
+            "are so near each other that the end is told poorly.",
         ],
         tables=[crossing_table(geometry, BAND)],
     )
