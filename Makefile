@@ -48,12 +48,7 @@ grid-error: $(VENV)/installed
 coverage: $(VENV)/installed
 	$(BIN)/python benchmarks/interval_coverage.py
 
-contact-finite-size: $(VENV)/installed
-	$(BIN)/roughline campaign run studies/finite_size/plan.toml --store out/finite-size.zarr
-	$(BIN)/python -m studies.finite_size.reduce out/finite-size.zarr
-	$(BIN)/python -m studies.finite_size.publish
-
-area: $(VENV)/installed
+contact-area: $(VENV)/installed
 	$(BIN)/python benchmarks/contact_area.py
 
 persson: $(VENV)/installed
@@ -100,6 +95,11 @@ correlations: $(VENV)/installed
 	$(BIN)/python -m studies.correlations.reduce out/correlations.zarr
 	$(BIN)/python -m studies.correlations.publish
 
+finite-size: $(VENV)/installed
+	$(BIN)/roughline campaign run studies/finite_size/plan.toml --store out/finite-size.zarr
+	$(BIN)/python -m studies.finite_size.reduce out/finite-size.zarr
+	$(BIN)/python -m studies.finite_size.publish
+
 area: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/area/plan.toml --store out/area.zarr
 	$(BIN)/python -m studies.area.reduce out/area.zarr
@@ -115,6 +115,7 @@ published: $(VENV)/installed
 	$(BIN)/python -m studies.correlations.publish
 	$(BIN)/python -m studies.area.publish
 	$(BIN)/python -m studies.averaging.publish
+	$(BIN)/python -m studies.finite_size.publish
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py

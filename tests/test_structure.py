@@ -1,8 +1,12 @@
 """Limits of size and of coupling, which keep the code readable; `make architecture` prints them."""
 
+import re
+from pathlib import Path
+
 import pytest
 from architecture import arrows, circles, import_graph, large_functions, long_files, rooms
 
+ROOT = Path(__file__).parents[1]
 MOST_ROOMS = 25
 MOST_ARROWS = 110
 LARGEST_SHARE = 0.15
@@ -35,3 +39,14 @@ def test_no_file_is_too_long():
 
 def test_no_function_is_too_large():
     assert large_functions() == []
+
+
+def test_every_target_of_make_is_declared_once_and_its_programs_are_there():
+    text = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = re.findall(r"^([a-z-]+):", text, flags=re.MULTILINE)
+    assert len(targets) == len(set(targets))
+    (declared,) = re.findall(r"^\.PHONY: (.*)$", text, flags=re.MULTILINE)
+    assert set(declared.split()) == set(targets)
+    modules = [name.replace(".", "/") + ".py" for name in re.findall(r"-m (studies\.\S+)", text)]
+    for program in modules + re.findall(r"\S+/\S+\.(?:py|toml)\b", text):
+        assert program == "pyproject.toml" or (ROOT / program).is_file(), program
