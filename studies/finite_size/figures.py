@@ -7,13 +7,23 @@ from matplotlib.figure import Figure
 
 from roughline.report.style import PAGE, colours, new_figure
 from studies.finite_size.crossover import local_exponents, scaling_exponent_of
-from studies.finite_size.samples import BAND, GEOMETRIES, HURSTS, SIZES, Geometry, Sample, sample
+from studies.finite_size.samples import (
+    BAND,
+    GEOMETRIES,
+    HURSTS,
+    SIZES,
+    WIDE,
+    Geometry,
+    Sample,
+    sample,
+)
 
 _STYLES: dict[Geometry, str] = {"periodic": "-", "free": "--", "lines": ":"}
+_WIDE_STYLE = "-."
 _NAMES: dict[Geometry, str] = {
     "periodic": "periodic",
     "free": "free, interface",
-    "lines": "reduced model",
+    "lines": "reduced",
 }
 _EXPONENTS, _GAMMAS = (0.45, 1.15), (0.0, 0.6)
 
@@ -23,14 +33,15 @@ def crossover_figure() -> Figure:
     figure = new_figure(PAGE, 5.4)
     above, below = figure.subplots(2, len(HURSTS), sharey="row")
     for exponents, gammas, hurst in zip(above, below, HURSTS, strict=True):
-        for geometry in GEOMETRIES:
-            for size, colour in zip(SIZES[BAND], colours(len(SIZES[BAND])), strict=True):
-                one = sample(geometry, BAND, size, hurst)
-                _draw(exponents, gammas, one, colour)
+        for size, colour in zip(SIZES[BAND], colours(len(SIZES[BAND])), strict=True):
+            for geometry in GEOMETRIES:
+                _draw(exponents, gammas, sample(geometry, BAND, size, hurst), colour)
+            if size in SIZES[WIDE]:
+                _draw(exponents, gammas, sample("periodic", WIDE, size, hurst), colour)
         for value in (scaling_exponent_of(hurst), 1.0):
             exponents.axhline(value, color="0.5", linewidth=0.7, zorder=0)
         gammas.axhspan(0.4, 0.5, color="0.92", zorder=-10, linewidth=0)
-        exponents.set(title=f"Hurst {hurst:g}", ylim=_EXPONENTS, xlim=(0.02, 60))
+        exponents.set(title=f"Hurst {hurst:g}", ylim=_EXPONENTS, xlim=(0.003, 700))
         exponents.set(xlabel=r"$F\,/\,(E^* h \lambda_r)$")
         gammas.set(xlabel=r"$p\,/\,(E^* \nabla h)$", ylim=_GAMMAS)
     above[0].set_ylabel(r"$d \ln k\,/\,d \ln F$")
@@ -40,10 +51,11 @@ def crossover_figure() -> Figure:
 
 
 def _draw(exponents: Axes, gammas: Axes, one: Sample, colour: object) -> None:
-    look = {"color": colour, "linestyle": _STYLES[one.geometry], "linewidth": 1}
+    style = _WIDE_STYLE if one.band == WIDE else _STYLES[one.geometry]
+    look = {"color": colour, "linestyle": style, "linewidth": 1}
     local = local_exponents(one.force, one.stiffness)
     exponents.semilogx(local.force, local.value, **look)
-    if one.geometry == "periodic":
+    if style == "-":
         exponents.fill_between(
             local.force, local.low, local.high, color=colour, alpha=0.2, linewidth=0
         )
@@ -60,9 +72,12 @@ def _name(figure: Figure, axes: Axes) -> None:
         axes.plot([], [], color="k", linestyle=_STYLES[each], label=_NAMES[each])[0]
         for each in GEOMETRIES
     ]
+    wide = axes.plot([], [], color="k", linestyle=_WIDE_STYLE, label="wider band")
     figure.legend(
-        handles=[*sizes, *styles],
+        handles=[*sizes, *styles, *wide],
         title="roll-off waves along a side; geometry",
         loc="outside upper center",
-        ncols=9,
+        ncols=10,
+        columnspacing=1.2,
+        handlelength=1.6,
     )

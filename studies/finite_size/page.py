@@ -65,8 +65,8 @@ def lead() -> str:
         if size == 1 or size >= MANY
     ]
     return (
-        "The stiffness of a rough contact follows a power law, k ~ F^(1/(1+H)), while a single "
-        "wave of the roll-off length carries the load, and is said to be proportional to it, "
+        "The stiffness of a rough contact is said to follow a power law, k ~ F^(1/(1+H)), while a "
+        "single wave of the roll-off length carries the load, and to be proportional to it, "
         "k = p/(γ h), when many do. Both ends of the way between them are found here, and each "
         "collapses in its own unit. The power law is a matter of the force on a single wave: at "
         f"Hurst {_LEAD_HURST:g} it is half gone at F/(E* h λ_r) = {halves[0]:.2g} on surfaces of "
@@ -141,7 +141,8 @@ def _figure() -> Section:
             "Above: the local exponent over the force in units of one roll-off wave, in which the "
             "end of the power law collapses; grey: 1/(1+H) and 1. Below: F/(k h) over the mean "
             "pressure, in which the linear law collapses; grey: 0.4 to 0.5. Bands are 95 % "
-            "intervals of periodic surfaces.",
+            "intervals of periodic surfaces. The wider band is of periodic surfaces with waves "
+            f"down to λ_r/{WIDE}.",
         ],
     )
 

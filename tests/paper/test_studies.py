@@ -5,9 +5,10 @@ import pytest
 from roughline.paper.studies import StudySummary, study_summaries
 from studies.area.summary import summary as area
 from studies.averaging.summary import summary as averaging
+from studies.finite_size.summary import summary as finite_size
 
 AGAIN = "what the lab shows is not what the study found any more: run make published"
-STUDIES = {"area": area, "averaging": averaging}
+STUDIES = {"area": area, "averaging": averaging, "finite_size": finite_size}
 
 
 @pytest.mark.parametrize("name", STUDIES)

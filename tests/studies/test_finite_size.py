@@ -5,12 +5,30 @@ import math
 import numpy as np
 import pytest
 
+import roughline as rl
 from studies.finite_size.crossover import (
     EXPONENT_TOLERANCE,
     cross_over,
     local_exponents,
     scaling_exponent_of,
 )
+from studies.finite_size.findings import MANY
+from studies.finite_size.measures import crossing, over_persson, reduced_over_full
+from studies.finite_size.page import page
+from studies.finite_size.samples import (
+    BAND,
+    HERE,
+    HURSTS,
+    SIZES,
+    WIDE,
+    data,
+    persson,
+    plan,
+    sample,
+    unsolved_loads,
+)
+
+AGAIN = "the page is not that of the data any more: run make published"
 
 ASYMPTOTE, ONSET, SHARPNESS, FULL = 0.47, 0.3, 1.0, 1000.0
 FORCES = 10 ** (np.arange(-12, 11) / 4)
@@ -101,3 +119,84 @@ def test_gamma_is_not_told_where_heavier_loads_may_show_more():
     assert math.isnan(found.value)
     assert math.isnan(found.high)
     assert found.low == pytest.approx((FORCES / sample.mean(axis=0))[light][-1], rel=0.1)
+
+
+def test_the_page_is_that_of_the_data():
+    assert (HERE.parents[1] / "docs" / "finite_size.md").read_text("utf-8") == page(), AGAIN
+
+
+def test_no_load_is_left_out_silently():
+    unsolved, loads = unsolved_loads()
+    assert unsolved == 0
+    assert loads == sum(each.cases * len(each.force_bars) for each in plan().ensembles)
+    for geometry in ("periodic", "free", "lines"):
+        for band, sizes in SIZES.items():
+            for size in sizes:
+                one = sample(geometry, band, size, 0.5)
+                name = f"{'wide-' if band == WIDE else ''}{geometry}-{size}"
+                assert one.force.size + one.left_out == len(plan().ensemble(name).force_bars)
+                assert one.count == plan().ensemble(name).realisations
+
+
+def test_half_of_the_surfaces_of_the_data_widen_intervals_by_the_square_root_of_two():
+    ratios = []
+    for hurst in HURSTS:
+        for size in SIZES[BAND]:
+            one = sample("periodic", BAND, size, hurst)
+            half = one.first(one.count // 2)
+            whole, part = (local_exponents(each.force, each.stiffness) for each in (one, half))
+            ratios.append(np.median((part.high - part.low) / (whole.high - whole.low)))
+    assert np.mean(ratios) == pytest.approx(math.sqrt(2), rel=0.1)
+
+
+@pytest.mark.parametrize(("name", "body"), [("periodic-1", 17), ("free-2", 3), ("lines-4", 5)])
+def test_a_body_of_the_data_is_what_the_library_gives(name, body):
+    """To single precision; surfaces are certified to 1e-6."""
+    ensemble, hurst = plan().ensemble(name), 0.5
+    spectrum, seed = ensemble.spectrum(3 - hurst), ensemble.seed_of(body)
+    kept = data()[name].sel(fractal_dimension=3 - hurst).isel(realisation=body).stiffness.values
+    if ensemble.model == "reduced":
+        curve = rl.press(spectrum.line(ensemble.n, seed), E_star=1.0, forces=ensemble.force_bars)
+    else:
+        curve = rl.press(
+            spectrum.surface(ensemble.n, seed),
+            E_star=1.0,
+            forces=ensemble.force_bars,
+            periodic=ensemble.boundary == "periodic",
+        )
+    assert kept == pytest.approx(curve.stiffness_bar, rel=1e-4)
+
+
+def test_perssons_stiffness_is_that_of_the_mean_gap():
+    """The slope of the pressure over the mean gap, by differences."""
+    one = sample("periodic", BAND, 8, 0.8)
+    lattice = plan().ensemble("periodic-8").spectrum(2.2).lattice(512)
+    steps = 1e-4
+    up, down = (
+        rl.theory("persson", lattice, 1.0, one.force_bar * (1 + sign * steps)).mean_gap
+        for sign in (1, -1)
+    )
+    found = one.force_bar * 2 * steps / (down - up)
+    assert persson(one) / one.size == pytest.approx(found, rel=1e-3)
+
+
+def test_sentences_without_numbers_are_true_too():
+    for hurst in HURSTS:
+        found = {size: crossing("periodic", BAND, size, hurst) for size in SIZES[BAND]}
+        # "so under ever lower mean pressures"
+        halves = [found[size].halfway.force.value / size for size in (1, 2, 4, MANY)]
+        assert (np.diff(halves) < 0).all()
+        # "over more decades the larger the surface is"
+        begins = [found[size].reaches.force.value for size in SIZES[BAND]]
+        assert (np.diff(begins) > 0).all()
+        # "whatever the size": where the linear law begins, in units of the slope
+        slopes = [sample("periodic", BAND, size, hurst).slope for size in SIZES[BAND]]
+        pressures = np.array(begins) / (np.array(SIZES[BAND]) * slopes)
+        assert pressures[1:].max() < 2 * pressures[1:].min()
+        for size in SIZES[BAND]:
+            one = sample("periodic", BAND, size, hurst)
+            # lighter loads are further from Persson's theory
+            if size >= MANY:
+                assert np.diff([over_persson(one, below).value for below in (0, 1, 2)]).min() > 0
+            # "A line saturates at E* L, and has no linear law."
+            assert reduced_over_full(size, hurst, 3.0).value < -0.4
