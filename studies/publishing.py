@@ -33,6 +33,7 @@ def publish(
     summary : callable, optional
         Returns the study in short, which comes with the package.
     """
+    text = page()  # data that are refused leave everything as it is
     folder = DOCS / "figures" / name
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -40,6 +41,6 @@ def publish(
         for file_name, draw in figures.items():
             _, pdf = save(draw(), folder, file_name)
             pdf.unlink()
-    (DOCS / f"{name}.md").write_text(page(), encoding="utf-8")
+    (DOCS / f"{name}.md").write_text(text, encoding="utf-8")
     if summary is not None:
         write_summary(summary())

@@ -25,8 +25,15 @@ def run(main: Callable[[Path], None], usage: str) -> None:
     """Call a reduction with the store that the command line names; errors are one line each."""
     if len(sys.argv) != 2:
         sys.exit(usage)
-    try:
+    with errors_in_one_line():
         main(Path(sys.argv[1]))
+
+
+@contextmanager
+def errors_in_one_line() -> Iterator[None]:
+    """End the program with one line and exit code 2 where its data or its plan are refused."""
+    try:
+        yield
     except RoughlineError as error:
         print(f"error: {error}", file=sys.stderr)
         sys.exit(2)

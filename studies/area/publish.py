@@ -10,6 +10,7 @@ from studies.area.figures import kappa_figure
 from studies.area.page import page
 from studies.area.summary import summary
 from studies.publishing import publish
+from studies.reduced_data import errors_in_one_line
 
 
 def main() -> None:
@@ -18,4 +19,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    with errors_in_one_line():
+        main()

@@ -10,6 +10,7 @@ from studies.averaging.figures import exponents_figure
 from studies.averaging.page import page
 from studies.averaging.summary import summary
 from studies.publishing import publish
+from studies.reduced_data import errors_in_one_line
 
 
 def main() -> None:
@@ -18,4 +19,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    with errors_in_one_line():
+        main()

@@ -9,6 +9,7 @@ reads ``data.npz`` and ``plan.toml`` beside it, and writes ``docs/correlations.m
 from studies.correlations.correlations_figures import conductance_figure, ratio_figure
 from studies.correlations.correlations_page import page
 from studies.publishing import publish
+from studies.reduced_data import errors_in_one_line
 
 
 def main() -> None:
@@ -17,4 +18,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    with errors_in_one_line():
+        main()

@@ -10,6 +10,7 @@ from studies.finite_size.figures import crossover_figure
 from studies.finite_size.page import page
 from studies.finite_size.summary import summary
 from studies.publishing import publish
+from studies.reduced_data import errors_in_one_line
 
 
 def main() -> None:
@@ -18,4 +19,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    with errors_in_one_line():
+        main()

@@ -20,6 +20,7 @@ from roughline.paper.results import published_folder, published_results
 from roughline.paper.trust_page import trust_page
 from roughline.report.page import render_markdown
 from roughline.report.style import save, styled
+from studies.reduced_data import errors_in_one_line
 
 HERE = Path(__file__).parent
 DOCS = HERE.parents[1] / "docs"
@@ -57,4 +58,5 @@ def publish_map() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    with errors_in_one_line():
+        main()

@@ -11,7 +11,8 @@ import pytest
 import roughline as rl
 import small_campaign
 from roughline import campaign
-from studies.reduced_data import finished, read_groups, write_groups
+from studies import publishing
+from studies.reduced_data import errors_in_one_line, finished, read_groups, write_groups
 
 KEPT = ("stiffness", "area_fraction", "status")
 
@@ -140,3 +141,17 @@ def test_a_reduction_says_what_is_wrong_in_one_line(tmp_path):
     assert done.stderr.startswith("error: ")
     assert "does not exist" in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+def test_a_page_whose_data_are_refused_leaves_what_is_there(tmp_path, monkeypatch):
+    monkeypatch.setattr(publishing, "DOCS", tmp_path)
+    figure = tmp_path / "figures" / "small" / "old.png"
+    figure.parent.mkdir(parents=True)
+    figure.write_bytes(b"drawn before")
+
+    def page():
+        raise rl.StoreError("data.nc is damaged")
+
+    with pytest.raises(SystemExit, match="2"), errors_in_one_line():
+        publishing.publish("small", page, {})
+    assert figure.read_bytes() == b"drawn before"
