@@ -98,7 +98,7 @@ def write_groups(
     root = xarray.Dataset(attrs={"study": plan.name, **(more or {})})
     root.to_netcdf(unwritten, engine="h5netcdf", mode="w")
     for name, data in groups.items():
-        kept = _in_order(data[[each for each in names if each in data]])
+        kept = data[[each for each in names if each in data]].drop_encoding()
         for variable in kept.data_vars.values():
             if variable.dtype == np.float64:
                 attributes = variable.attrs
@@ -202,22 +202,6 @@ def _other(place: str, what: str, key: str, found: Any, wanted: Any) -> StoreErr
 def _short(value: Any) -> str:
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
-
-
-def _in_order(data: xarray.Dataset) -> xarray.Dataset:
-    """Return data whose coordinates and attributes come by name: the folders of a store do not.
-
-    The chunks that it had in the store are forgotten.
-    """
-
-    def plain(variable: xarray.DataArray) -> tuple[Any, ...]:
-        return variable.dims, variable.values, dict(sorted(variable.attrs.items()))
-
-    return xarray.Dataset(
-        {str(name): plain(each) for name, each in data.data_vars.items()},
-        coords={name: plain(data[name]) for name in sorted(map(str, data.coords))},
-        attrs=dict(sorted(data.attrs.items())),
-    )
 
 
 def _in_double(data: xarray.Dataset) -> xarray.Dataset:

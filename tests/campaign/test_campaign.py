@@ -243,6 +243,14 @@ def test_export_to_netcdf_and_csv(finished, tmp_path):
         export(campaign.Store(finished), tmp_path / "taken")
 
 
+def test_what_is_exported_twice_is_the_same_byte_for_byte(finished, tmp_path):
+    first, *others = (
+        [path.read_bytes() for path in export(campaign.Store(finished), tmp_path / name)]
+        for name in ("one", "two", "three")
+    )
+    assert all(files == first for files in others)
+
+
 def test_batches_take_a_second_or_one_case():
     line = campaign.Ensemble("a", "reduced", (2.0, 2.5, 3.0), 2**12, 500, (0.1, 1.0), 0, "none")
     high, wide = chunk_shape(line)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -68,7 +69,7 @@ class Store:
         data = xarray.open_zarr(self.path, group=name, consolidated=False, chunks=None).load()
         data.attrs["failures"] = json.dumps(data.attrs["failures"])
         names = [key for key in (*VARIABLES, CASE_STATUS.name) if key in data]
-        return data[names].sortby("fractal_dimension")
+        return _in_order(data, names).sortby("fractal_dimension")
 
     @property
     def has_gallery(self) -> bool:
@@ -79,13 +80,24 @@ class Store:
         """Return the gallery over (fractal_dimension, x, y) and (fractal_dimension, s)."""
         import xarray
 
-        data = xarray.open_zarr(self.path, group=GALLERY, consolidated=False, chunks=None)
-        return data.load()
+        data = xarray.open_zarr(self.path, group=GALLERY, consolidated=False, chunks=None).load()
+        return _in_order(data, sorted(map(str, data)))
 
     def _group(self, name: str) -> Any:
         if name not in self._root:
             raise StoreError(f"{self.path} has no ensemble {name!r}; it has {self.names}")
         return self._root[name]
+
+
+def _in_order(data: xarray.Dataset, names: Sequence[str]) -> xarray.Dataset:
+    """Return variables in an order, with the coordinates by name.
+
+    Zarr lists them in another order every time, and files of the same bytes need the same.
+    """
+    import xarray  # here because it loads slowly
+
+    coordinates = {name: data[name].variable for name in sorted(map(str, data.coords))}
+    return xarray.Dataset({name: data[name].variable for name in names}, coordinates, data.attrs)
 
 
 def opened(path: Path, mode: Literal["r", "r+"]) -> Any:
