@@ -164,7 +164,7 @@ def test_a_body_of_the_data_is_what_the_library_gives(name, body):
             forces=ensemble.force_bars,
             periodic=ensemble.boundary == "periodic",
         )
-    assert kept == pytest.approx(curve.stiffness_bar, rel=1e-4)
+    assert kept == pytest.approx(curve.stiffness, rel=1e-4)
 
 
 def test_perssons_stiffness_is_that_of_the_mean_gap():
