@@ -35,7 +35,7 @@ def _drawn(panel: StudyPanel) -> figure:
     for curve in panel.curves:
         _draw(plot, curve)
     legend = plot.legend[0]
-    legend.ncols = _COLUMNS
+    legend.ncols, legend.spacing = _COLUMNS, 12
     plot.center.remove(legend)
     plot.add_layout(legend, "below")  # inside it would lie on the curves
     return plot

@@ -173,14 +173,13 @@ function recolour(made) {
     CategoricalAxis: labels,
     Grid: {grid_line_color: grid},
     Legend: {label_text_color: text, title_text_color: text, background_fill_color: paper, background_fill_alpha: 0.85,
-      border_line_color: null, label_text_font_size: "11px", spacing: 0, padding: 4},
+      border_line_color: null, label_text_font_size: "11px", padding: 4},
     ColorBar: {major_label_text_color: text, title_text_color: text, background_fill_color: null,
       title_text_font_style: "normal"},
     Title: {text_color: text},
   };
   for (const model of made.all_models) {
     if (looks[model.type]) model.setv(looks[model.type]);
-    if (model.type === "Legend" && model.ncols !== "auto") model.spacing = 12; // between its columns
     for (const {colours} of model.tags.filter((tag) => tag.colours)) {
       model.setv(Object.fromEntries(Object.entries(colours).map(([key, name]) => [key, colour(name)])));
     }
