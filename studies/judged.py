@@ -105,13 +105,16 @@ def findings_table(findings: Sequence[Finding]) -> Table:
 
 
 def where_others(parts: Sequence[tuple[str, Judgement]]) -> str:
-    """Name the cases of every verdict but the commonest."""
+    """Name the cases of every verdict but the commonest, and that one."""
     cases: dict[Verdict, list[str]] = {}
     for name, part in parts:
         cases.setdefault(part.verdict, []).append(name)
     commonest = max(cases, key=lambda each: len(cases[each]))
     others = {found: names for found, names in cases.items() if found is not commonest}
-    return "; ".join(f"{found} for {', '.join(names)}" for found, names in others.items())
+    if not others:
+        return ""
+    said = [f"{found} for {', '.join(names)}" for found, names in others.items()]
+    return "; ".join([*said, f"else {commonest}"])
 
 
 def number_in_words(enough: float) -> str:

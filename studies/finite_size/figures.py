@@ -43,7 +43,7 @@ def crossover_figure() -> Figure:
         gammas.axhspan(0.4, 0.5, color="0.92", zorder=-10, linewidth=0)
         exponents.set(title=f"Hurst {hurst:g}", ylim=_EXPONENTS, xlim=(0.003, 700))
         exponents.set(xlabel=r"$F\,/\,(E^* h \lambda_r)$")
-        gammas.set(xlabel=r"$p\,/\,(E^* \nabla h)$", ylim=_GAMMAS)
+        gammas.set(xlabel=r"$p \lambda_r\,/\,(E^* h)$", ylim=_GAMMAS)
     above[0].set_ylabel(r"$d \ln k\,/\,d \ln F$")
     below[0].set_ylabel(r"$F\,/\,(k h)$")
     _name(figure, above[0])

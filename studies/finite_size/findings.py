@@ -63,7 +63,7 @@ def findings() -> list[Finding]:
 def _single_wave() -> Finding:
     """Judge the power law of surfaces of one roll-off wave."""
     cases = {
-        f"{geometry}, Hurst {hurst:g}": (sample(geometry, WIDE, 1, hurst), hurst)
+        f"{geometry} at Hurst {hurst:g}": (sample(geometry, WIDE, 1, hurst), hurst)
         for geometry in ("periodic", "free")
         for hurst in HURSTS
     }
@@ -114,9 +114,7 @@ def _finite_size() -> Finding:
 def _linear_law() -> Finding:
     """Judge that stiffness is linear in the force over a decade."""
     found = {
-        f"{size} waves, Hurst {hurst:g}": decades_of_linear_law(
-            sample("periodic", BAND, size, hurst)
-        )
+        _case(size, hurst): decades_of_linear_law(sample("periodic", BAND, size, hurst))
         for size in SIZES[BAND]
         if size >= MANY
         for hurst in HURSTS
@@ -136,7 +134,7 @@ def _linear_law() -> Finding:
 def _gamma() -> Finding:
     """Judge gamma where the exponent is 1."""
     every = {
-        f"{size} waves, {geometry}, Hurst {hurst:g}": (
+        f"{_case(size, hurst)} ({geometry})": (
             crossing(geometry, BAND, size, hurst).gamma,
             sample(geometry, BAND, size, hurst).count,
         )
@@ -209,33 +207,33 @@ def _by_load(parts: dict[str, Judgement]) -> str:
 
 
 def _reduced() -> Finding:
-    """Judge the reduced model beside periodic surfaces of all sizes."""
-    found = {
-        f"{size} waves, Hurst {hurst:g}": reduced_over_full(size, hurst, _MEDIUM)
-        for size in SIZES[BAND]
-        for hurst in HURSTS
-    }
+    """Judge the reduced model beside free surfaces of all sizes."""
+    cases = {_case(size, hurst): (size, hurst) for size in SIZES[BAND] for hurst in HURSTS}
+    found = {name: reduced_over_full(*case, _MEDIUM) for name, case in cases.items()}
     parts = {
-        name: judged(WidenedInterval.of(each), _count(name), -_SAME, _SAME)
-        for name, each in found.items()
+        name: judged(
+            WidenedInterval.of(found[name]), sample("free", BAND, *case).count, -_SAME, _SAME
+        )
+        for name, case in cases.items()
     }
     return range_of_cases(
         f"The reduced model has the stiffness of the surface, to {_SAME:.0%} (the founding paper)",
-        f"stiffness of lines over that of periodic surfaces, less 1, at F/(E* h λ_r) = {_MEDIUM:g}",
+        f"stiffness of lines over that of free surfaces, less 1, at F/(E* h λ_r) = {_MEDIUM:g}",
         list(found.values()),
         parts,
         "+.0%",
     )
 
 
-def _count(name: str) -> int:
-    return sample("periodic", BAND, int(name.split()[0]), HURSTS[0]).count
+def _case(size: int, hurst: float) -> str:
+    """Name surfaces of one size and Hurst exponent."""
+    return f"{size} wave{'s' if size > 1 else ''} at Hurst {hurst:g}"
 
 
 def _many() -> dict[str, Sample]:
     """Return the periodic surfaces of many waves."""
     return {
-        f"{size} waves, Hurst {hurst:g}": sample("periodic", BAND, size, hurst)
+        _case(size, hurst): sample("periodic", BAND, size, hurst)
         for size in SIZES[BAND]
         if size >= MANY
         for hurst in HURSTS

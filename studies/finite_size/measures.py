@@ -60,14 +60,15 @@ def over_persson(one: Sample, decades_below: float) -> IntervalEstimate:
 
 
 def reduced_over_full(size: int, hurst: float, force: float) -> IntervalEstimate:
-    """Return the stiffness of the reduced model over that of the periodic surface, less 1.
+    """Return the stiffness of the reduced model over that of the free surface, less 1.
 
-    At the load nearest to F / (E* h lambda_r) = `force`; NaN where one of them has none.
+    The surface as it is pressed, punch and interface. At the load nearest to F / (E* h lambda_r) =
+    `force`; NaN where one of them has none.
     """
-    lines, surfaces = (sample(each, BAND, size, hurst) for each in ("lines", "periodic"))
+    lines, surfaces = (sample(each, BAND, size, hurst) for each in ("lines", "free"))
     shared = np.intersect1d(lines.force, surfaces.force)
     nearest = shared[np.argmin(np.abs(np.log(shared / force)))]
-    values = [one.stiffness[:, one.force == nearest] for one in (lines, surfaces)]
+    values = [one.whole[:, one.force == nearest] for one in (lines, surfaces)]
     ends = relative_difference(*values, paired=False)
     return IntervalEstimate(*(float(each[0]) for each in ends))
 

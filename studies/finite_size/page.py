@@ -49,11 +49,9 @@ def page() -> str:
 def lead() -> str:
     """Return the answer in a few sentences."""
     gammas = [crossing("periodic", BAND, size, hurst).gamma.value for size, hurst in _cases(1)]
-    tops = [
-        crossing("periodic", BAND, size, hurst).gamma_force
-        / size
-        / sample("periodic", BAND, size, hurst).slope
-        for size, hurst in _cases(2)
+    begins = [
+        crossing("periodic", BAND, size, hurst).reaches.force.value / size**2
+        for size, hurst in _cases(MANY)
     ]
     middle = [
         exponent_in(sample("periodic", BAND, size, hurst), BETWEEN).value
@@ -72,9 +70,10 @@ def lead() -> str:
         f"Hurst {_LEAD_HURST:g} it is half gone at F/(E* h λ_r) = {halves[0]:.2g} on surfaces of "
         f"one wave and {min(halves[1:]):.2g} to {max(halves[1:]):.2g} on those of {MANY} to "
         f"{max(SIZES[BAND])}, so under ever lower mean pressures. Then k ~ F^{min(middle):.2f} to "
-        f"F^{max(middle):.2f}, over more decades the larger the surface is. The exponent reaches 1 "
-        f"only where the mean pressure is {min(tops):.2f} to {max(tops):.2f} of E*∇h, whatever the "
-        f"size, and there γ is {np.nanmin(gammas):.3f} to {np.nanmax(gammas):.3f}."
+        f"F^{max(middle):.2f}, over more decades the larger the surface is. The linear "
+        f"law begins only where the mean pressure is {min(begins):.2f} to {max(begins):.2f} of "
+        "E* h/λ_r, whatever the size and the band of waves; there γ is "
+        f"{np.nanmin(gammas):.3f} to {np.nanmax(gammas):.3f}."
     )
 
 
@@ -140,9 +139,9 @@ def _figure() -> Section:
             f"![Local exponents, and F/(k h) over the pressure]({FOLDER}/crossover.png)",
             "Above: the local exponent over the force in units of one roll-off wave, in which the "
             "end of the power law collapses; grey: 1/(1+H) and 1. Below: F/(k h) over the mean "
-            "pressure, in which the linear law collapses; grey: 0.4 to 0.5. Bands are 95 % "
-            "intervals of periodic surfaces. The wider band is of periodic surfaces with waves "
-            f"down to λ_r/{WIDE}.",
+            "pressure, in which the linear law collapses, whatever size and band; grey: 0.4 to "
+            "0.5. Bands are 95 % intervals of periodic surfaces. The wider band is of periodic "
+            f"surfaces with waves down to λ_r/{WIDE}.",
         ],
     )
 
@@ -189,8 +188,9 @@ def _others() -> Section:
         "Persson's theory and the reduced model",
         [
             "The stiffness of periodic surfaces over that of Persson's theory, under the load of γ "
-            "and one and two decades lighter ones; and that of lines on springs over that of the "
-            "surfaces, less 1. A line saturates at E* L, and has no linear law.",
+            "and one and two decades lighter ones; and that of lines on springs over that of free "
+            "surfaces as they are pressed, less 1. A line saturates at E* L, and has no linear "
+            "law.",
         ],
         tables=[others_table()],
     )

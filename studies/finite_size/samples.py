@@ -56,12 +56,12 @@ class Sample:
         q_high / q_roll, and L / lambda_r.
     hurst : float
         H.
-    slope : float
-        Rms slope of the spectrum on its lattice, over h / L.
     force : ndarray, shape (loads,)
         F / (E* h lambda_r).
     stiffness : ndarray, shape (realisations, loads)
         k / (E* lambda_r); of a free surface that of its interface, 1 / (1/k - 1/k_s).
+    whole : ndarray, shape (realisations, loads)
+        The same as pressed, with the punch that a free surface is.
     left_out : int
         Loads of the plan that are not here: a body was not solved, or more than one of twenty have
         fewer than ten cells or springs in contact, or free surfaces are in the mean more than 90 %
@@ -72,9 +72,9 @@ class Sample:
     band: int
     size: int
     hurst: float
-    slope: float
     force: Real
     stiffness: Real
+    whole: Real
     left_out: int
 
     @property
@@ -89,8 +89,8 @@ class Sample:
 
     @property
     def pressure(self) -> Real:
-        """P / (E* g), shape (loads,)."""
-        return self.force_bar / self.slope
+        """P lambda_r / (E* h), shape (loads,)."""
+        return self.force / self.size**2
 
     @property
     def gamma(self) -> Real:
@@ -99,7 +99,7 @@ class Sample:
 
     def first(self, count: int) -> Sample:
         """Return the first realisations alone."""
-        return replace(self, stiffness=self.stiffness[:count])
+        return replace(self, stiffness=self.stiffness[:count], whole=self.whole[:count])
 
 
 @cache
@@ -120,21 +120,20 @@ def sample(geometry: Geometry, band: int, size: int, hurst: float, fine: bool = 
     name = f"fine-{size}" if fine else f"{'wide-' if band == WIDE else ''}{geometry}-{size}"
     ensemble = plan().ensemble(name)
     one = data()[name].sel(fractal_dimension=3 - hurst)
-    stiffness, usable = one.stiffness.values, _usable(one)
+    whole, usable = one.stiffness.values, _usable(one)
+    stiffness = whole
     if geometry == "free":
         punch = EXACT_PUNCH - PUNCH_GRID_ERROR / ensemble.n
-        usable &= np.nan_to_num(stiffness, nan=np.inf).mean(axis=0) < NEAR_PUNCH * punch
-        stiffness = interface_stiffness(stiffness, punch)
+        usable &= np.nan_to_num(whole, nan=np.inf).mean(axis=0) < NEAR_PUNCH * punch
+        stiffness = interface_stiffness(whole, punch)
     return Sample(
         geometry=geometry,
         band=band,
         size=size,
         hurst=hurst,
-        slope=ensemble.spectrum(3 - hurst).lattice(ensemble.n).rms_slope
-        if geometry != "lines"
-        else sample("periodic", band, size, hurst).slope,
         force=one.force_bar.values[usable] * size,
         stiffness=stiffness[:, usable] * size,
+        whole=whole[:, usable] * size,
         left_out=int(np.count_nonzero(~usable)),
     )
 

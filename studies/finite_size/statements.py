@@ -50,10 +50,15 @@ def load_in_words(load: IntervalEstimate) -> str:
 
 
 def load_interval(load: IntervalEstimate) -> str:
-    """Write the interval of a load; an open end is a dash."""
-    low = "-" if math.isnan(load.low) else f"{load.low:.2g}"
-    high = "-" if math.isnan(load.high) else f"{load.high:.2g}"
-    return f"{low} to {high}"
+    """Write the interval of a load."""
+    return between_ends(load.low, load.high, " to ")
+
+
+def between_ends(low: float, high: float, to: str = "-") -> str:
+    """Write the ends of an interval, of which one may be open."""
+    if math.isnan(low):
+        return "any" if math.isnan(high) else f"< {high:.2g}"
+    return f"> {low:.2g}" if math.isnan(high) else f"{low:.2g}{to}{high:.2g}"
 
 
 def judged_near(found: IntervalEstimate, value: float, count: int) -> Judgement:

@@ -11,7 +11,7 @@ from studies.finite_size.samples import BAND, SIZES, sample
 from studies.judged import findings_table
 
 _HURST = 0.8
-_FORCES, _PRESSURES = (0.02, 100.0), (1e-6, 1.0)
+_FORCES, _PRESSURES = (0.02, 700.0), (3e-5, 10.0)
 
 
 def summary() -> StudySummary:
@@ -55,7 +55,7 @@ def _gammas() -> StudyPanel:
         curves.append(StudyCurve(f"{value:g}", _PRESSURES, (value, value), dash=dash))
     return StudyPanel(
         f"F / (k h) over the pressure, Hurst {_HURST:g}",
-        "pressure p / (E* ∇h)",
+        "pressure p λ_r / (E* h)",
         "F / (k h)",
         _PRESSURES,
         (0.0, 0.6),

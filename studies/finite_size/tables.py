@@ -16,6 +16,7 @@ from studies.finite_size.measures import (
     reduced_over_full,
 )
 from studies.finite_size.samples import BAND, FINE_SIZES, HURSTS, SIZES, Geometry, sample
+from studies.finite_size.statements import between_ends
 
 _FORCES = (0.1, 0.3, 1.0, 3.0)
 _DECADES = (0, 1, 2)
@@ -31,15 +32,14 @@ def crossing_table(geometry: Geometry, band: int) -> Table:
         "half way, F/(E* h L)",
         "between",
         "begin, F/(E* h λ_r)",
-        "begin, p/(E*∇h)",
+        "begin, p λ_r/(E* h)",
         "γ",
-        "p/(E*∇h) there",
+        "p λ_r/(E* h) there",
     )
     rows = []
     for hurst in HURSTS:
         for size in SIZES[band]:
             one, found = sample(geometry, band, size, hurst), crossing(geometry, band, size, hurst)
-            per_pressure = size * one.slope
             rows.append(
                 (
                     f"{hurst:g}",
@@ -49,9 +49,9 @@ def crossing_table(geometry: Geometry, band: int) -> Table:
                     _load(found.halfway, size),
                     _cell(exponent_in(one, BETWEEN), ".2f"),
                     _load(found.reaches, 1),
-                    _load(found.reaches, per_pressure),
+                    _load(found.reaches, size**2),
                     _gamma(found.gamma),
-                    f"{found.gamma_force / per_pressure:.2g}",
+                    f"{found.gamma_force / size**2:.2g}",
                 )
             )
     return Table(header, rows, range(len(header)))
@@ -98,15 +98,14 @@ def grid_table() -> Table:
 
 
 def _load(passed: Passing, unit: float) -> str:
-    """Write a load with its interval; an open end is left out."""
+    """Write a load with its interval."""
     force = passed.force
     value, low, high = (each / unit for each in (force.value, force.low, force.high))
     if passed.always:
         return f"< {high:.2g}" if not math.isnan(high) else "below all"
     if passed.never:
         return f"> {low:.2g}" if not math.isnan(low) else "above all"
-    ends = ("" if math.isnan(each) else f"{each:.2g}" for each in (low, high))
-    return f"{value:.2g} ({'-'.join(ends)})"
+    return f"{value:.2g} ({between_ends(low, high)})"
 
 
 def _gamma(gamma: IntervalEstimate) -> str:

@@ -13,7 +13,7 @@ from studies.finite_size.crossover import (
     scaling_exponent_of,
 )
 from studies.finite_size.findings import MANY
-from studies.finite_size.measures import crossing, over_persson, reduced_over_full
+from studies.finite_size.measures import crossing, over_persson
 from studies.finite_size.page import page
 from studies.finite_size.samples import (
     BAND,
@@ -189,14 +189,16 @@ def test_sentences_without_numbers_are_true_too():
         # "over more decades the larger the surface is"
         begins = [found[size].reaches.force.value for size in SIZES[BAND]]
         assert (np.diff(begins) > 0).all()
-        # "whatever the size": where the linear law begins, in units of the slope
-        slopes = [sample("periodic", BAND, size, hurst).slope for size in SIZES[BAND]]
-        pressures = np.array(begins) / (np.array(SIZES[BAND]) * slopes)
-        assert pressures[1:].max() < 2 * pressures[1:].min()
+        # "whatever the size and the band of waves": the pressure where the linear law begins
+        pressures = np.array(begins) / np.square(SIZES[BAND])
+        assert pressures[2:].max() < 1.15 * pressures[2:].min()
+        wide = crossing("periodic", WIDE, 4, hurst).reaches.force.value / 4**2
+        assert wide == pytest.approx(pressures[2], rel=0.15)
         for size in SIZES[BAND]:
             one = sample("periodic", BAND, size, hurst)
             # lighter loads are further from Persson's theory
             if size >= MANY:
                 assert np.diff([over_persson(one, below).value for below in (0, 1, 2)]).min() > 0
             # "A line saturates at E* L, and has no linear law."
-            assert reduced_over_full(size, hurst, 3.0).value < -0.4
+            lines = sample("lines", BAND, size, hurst)
+            assert lines.whole.max() <= size * (1 + 1e-6)
