@@ -7,6 +7,7 @@ import math
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Verdict
+from roughline.units import decimal
 from studies.judged import (
     Finding,
     Judgement,
@@ -45,8 +46,10 @@ def over_side(force: IntervalEstimate, size: int) -> IntervalEstimate:
 def load_in_words(load: IntervalEstimate) -> str:
     """Write a load; where the exponent passes outside the loads, on which side."""
     if not math.isnan(load.value):
-        return f"{load.value:.2g}"
-    return f"less than {load.high:.2g}" if math.isnan(load.low) else f"more than {load.low:.2g}"
+        return decimal(load.value, 2)
+    if math.isnan(load.low):
+        return f"less than {decimal(load.high, 2)}"
+    return f"more than {decimal(load.low, 2)}"
 
 
 def load_interval(load: IntervalEstimate) -> str:
@@ -57,8 +60,10 @@ def load_interval(load: IntervalEstimate) -> str:
 def between_ends(low: float, high: float, to: str = "-") -> str:
     """Write the ends of an interval, of which one may be open."""
     if math.isnan(low):
-        return "any" if math.isnan(high) else f"< {high:.2g}"
-    return f"> {low:.2g}" if math.isnan(high) else f"{low:.2g}{to}{high:.2g}"
+        return "any" if math.isnan(high) else f"< {decimal(high, 2)}"
+    if math.isnan(high):
+        return f"> {decimal(low, 2)}"
+    return f"{decimal(low, 2)}{to}{decimal(high, 2)}"
 
 
 def judged_near(found: IntervalEstimate, value: float, count: int) -> Judgement:

@@ -6,6 +6,7 @@ import math
 
 from roughline.report.page import Table
 from roughline.statistics.bootstrap import IntervalEstimate
+from roughline.units import decimal
 from studies.finite_size.crossover import Passing
 from studies.finite_size.findings import BETWEEN
 from studies.finite_size.measures import (
@@ -51,7 +52,7 @@ def crossing_table(geometry: Geometry, band: int) -> Table:
                     _load(found.reaches, 1),
                     _load(found.reaches, size**2),
                     _gamma(found.gamma),
-                    f"{found.gamma_force / size**2:.2g}",
+                    f"{decimal(found.gamma_force / size**2, 2)}",
                 )
             )
     return Table(header, rows, range(len(header)))
@@ -102,10 +103,10 @@ def _load(passed: Passing, unit: float) -> str:
     force = passed.force
     value, low, high = (each / unit for each in (force.value, force.low, force.high))
     if passed.always:
-        return f"< {high:.2g}" if not math.isnan(high) else "below all"
+        return f"< {decimal(high, 2)}" if not math.isnan(high) else "below all"
     if passed.never:
-        return f"> {low:.2g}" if not math.isnan(low) else "above all"
-    return f"{value:.2g} ({between_ends(low, high)})"
+        return f"> {decimal(low, 2)}" if not math.isnan(low) else "above all"
+    return f"{decimal(value, 2)} ({between_ends(low, high)})"
 
 
 def _gamma(gamma: IntervalEstimate) -> str:
