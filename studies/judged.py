@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from roughline.report.page import Table
@@ -88,6 +88,20 @@ class Finding:
     interval: str
     judgement: Judgement
     where: str
+
+
+def finding_of_cases(
+    statement: str, found: str, interval: str, parts: Mapping[str, Judgement]
+) -> Finding:
+    """Put a statement about several cases together, which are judged one by one."""
+    judgements = list(parts.values())
+    where = where_others(list(parts.items()))
+    return Finding(statement, found, interval, judged_together(judgements), where)
+
+
+def confidence_of_each(cases: int, level: float = 0.95) -> float:
+    """Return what each of some intervals must hold for all to hold at a level (Bonferroni)."""
+    return 1 - (1 - level) / cases
 
 
 def findings_table(findings: Sequence[Finding]) -> Table:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+import numpy as np
 
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.statistics.bootstrap import IntervalEstimate
@@ -28,6 +30,7 @@ from studies.judged import (
     Finding,
     Judgement,
     WidenedInterval,
+    confidence_of_each,
     judged,
     judged_together,
     where_others,
@@ -42,9 +45,8 @@ STRAIGHT = 0.01
 LIGHT, MIDDLE, HEAVY = 0.005, 0.05, 0.15
 """Shares of the area at which statements are judged."""
 WINDOW = (LIGHT, HEAVY)
-LEVEL = 0.95
-_OF_EACH = 1 - (1 - LEVEL) / (len(BANDS) * len(HURSTS))  # Bonferroni: all spectra together
-_OF_HURSTS = 1 - (1 - LEVEL) / len(HURSTS)
+_OF_EACH = confidence_of_each(len(BANDS) * len(HURSTS))
+_OF_HURSTS = confidence_of_each(len(HURSTS))
 
 
 @dataclass(frozen=True)
@@ -81,9 +83,11 @@ def main_samples() -> list[Sample]:
 def common_law(level: float) -> CommonLaw:
     """Fit the law by least squares over all spectra, which count alike."""
     samples = main_samples()
-    line = CommonLaw(level, *line_over_nayak(samples, level), deviation=0.0)
-    ratios = [kappa(one, level).value / line(one.nayak) for one in samples]
-    return replace(line, deviation=max(abs(ratio - 1) for ratio in ratios))
+    at_ten, per_decade = line_over_nayak(samples, level)
+    x = np.log10([one.nayak for one in samples]) - 1
+    y = np.array([kappa(one, level).value for one in samples])
+    deviation = float(np.abs(y / (at_ten.value + per_decade.value * x) - 1).max())
+    return CommonLaw(level, at_ten, per_decade, deviation)
 
 
 def grid_error(level: float) -> float:

@@ -69,7 +69,7 @@ def scaling_exponent_of(hurst: float) -> float:
     return 1 / (1 + hurst)
 
 
-def local_exponents(force: Real, stiffness: Real) -> LocalExponents:
+def local_exponents(force: Real, stiffness: Real, confidence: float = 0.95) -> LocalExponents:
     """Return the local exponents of a mean stiffness.
 
     Parameters
@@ -78,12 +78,15 @@ def local_exponents(force: Real, stiffness: Real) -> LocalExponents:
         Rising forces.
     stiffness : ndarray, shape (realisations, loads)
         Stiffness under them.
+    confidence : float, optional
+        Of the intervals.
     """
     found = []
     for i in range(1, force.size - 1):
         three = slice(i - 1, i + 2)
         slope, _ = line_weights(np.log(force[three]))
-        found.append(bootstrap.sum_of_log_means(stiffness[:, three], slope).interval_estimate())
+        exponent = bootstrap.sum_of_log_means(stiffness[:, three], slope)
+        found.append(exponent.interval_estimate(confidence))
     value, low, high = np.array([(each.value, each.low, each.high) for each in found]).T
     return LocalExponents(force[1:-1], value, low, high)
 
@@ -139,7 +142,7 @@ class CrossOver:
     gamma_force: float
 
 
-def cross_over(force: Real, stiffness: Real, hurst: float) -> CrossOver:
+def cross_over(force: Real, stiffness: Real, hurst: float, confidence: float = 0.95) -> CrossOver:
     """Return where the power law ends, where the linear law begins, and gamma.
 
     Loads beyond that of the largest F / k are not used for the laws' ends: there the surface nears
@@ -147,7 +150,7 @@ def cross_over(force: Real, stiffness: Real, hurst: float) -> CrossOver:
     """
     compliance = force / stiffness.mean(axis=0)
     top = int(np.argmax(compliance))
-    there = average(stiffness[:, top : top + 1])
+    there = average(stiffness[:, top : top + 1], confidence=confidence)
     low, high = float(force[top] / there.high[0]), float(force[top] / there.low[0])
     is_inside = top < force.size - 1
     gamma = (
@@ -155,7 +158,7 @@ def cross_over(force: Real, stiffness: Real, hurst: float) -> CrossOver:
         if is_inside
         else IntervalEstimate(math.nan, low, math.nan)
     )
-    rising = local_exponents(force, stiffness).up_to(force[top])
+    rising = local_exponents(force, stiffness, confidence).up_to(force[top])
     scaling = scaling_exponent_of(hurst)
     return CrossOver(
         leaves=passing(rising, scaling + EXPONENT_TOLERANCE),

@@ -28,9 +28,10 @@ from studies.judged import (
     Finding,
     Judgement,
     WidenedInterval,
+    confidence_of_each,
+    finding_of_cases,
     judged,
     judged_together,
-    where_others,
 )
 
 MANY = 8
@@ -67,7 +68,8 @@ def _single_wave() -> Finding:
         for geometry in ("periodic", "free")
         for hurst in HURSTS
     }
-    found = {name: exponent_in(one, SINGLE) for name, (one, _) in cases.items()}
+    level = confidence_of_each(len(cases))
+    found = {name: exponent_in(one, SINGLE, level) for name, (one, _) in cases.items()}
     parts = {
         name: judged_near(found[name], scaling_exponent_of(hurst), one.count)
         for name, (one, hurst) in cases.items()
@@ -85,16 +87,17 @@ def _single_wave() -> Finding:
 def _finite_size() -> Finding:
     """Judge that the power law ends at lower loads on larger surfaces."""
     small, large = 1, max(SIZES[BAND])
+    level = confidence_of_each(2 * len(HURSTS))
     found, parts = {}, {}
     for hurst in HURSTS:
         first, last = (
-            over_side(crossing("periodic", BAND, size, hurst).halfway.force, size)
+            over_side(crossing("periodic", BAND, size, hurst, level).halfway.force, size)
             for size in (small, large)
         )
         name = f"Hurst {hurst:g}"
         found[name] = (first, last)
         parts[name] = judged_below(last, first, sample("periodic", BAND, large, hurst).count)
-    return Finding(
+    return finding_of_cases(
         "The power law is an effect of finite size: on larger surfaces it ends under lower loads "
         "(Pastewka and others)",
         f"half way to exponent {BETWEEN_THEM:g} at F/(E* h L) with {small} and with {large} "
@@ -106,36 +109,32 @@ def _finite_size() -> Finding:
         ", ".join(
             f"{load_interval(first)} and {load_interval(last)}" for first, last in found.values()
         ),
-        judged_together(list(parts.values())),
-        where_others(list(parts.items())),
+        parts,
     )
 
 
 def _linear_law() -> Finding:
     """Judge that stiffness is linear in the force over a decade."""
-    found = {
-        _case(size, hurst): decades_of_linear_law(sample("periodic", BAND, size, hurst))
-        for size in SIZES[BAND]
-        if size >= MANY
-        for hurst in HURSTS
-    }
+    cases = _many()
+    level = confidence_of_each(len(cases))
+    found = {name: decades_of_linear_law(one, level) for name, one in cases.items()}
     parts = {name: judged_at_least(each, DECADE) for name, each in found.items()}
     least, most = min(sure for sure, _ in found.values()), max(most for _, most in found.values())
-    return Finding(
+    return finding_of_cases(
         f"With {MANY} waves or more, k = p/(γ h) over a decade of loads or more (Persson; Pastewka "
         "and others)",
         f"the exponent is 1 within {EXPONENT_TOLERANCE:g} over {least:.2f} to {most:.2f} decades",
         f"{least:.2f} to {most:.2f}",
-        judged_together(list(parts.values())),
-        where_others(list(parts.items())),
+        parts,
     )
 
 
 def _gamma() -> Finding:
     """Judge gamma where the exponent is 1."""
+    level = confidence_of_each(2 * len(SIZES[BAND]) * len(HURSTS))
     every = {
         f"{_case(size, hurst)} ({geometry})": (
-            crossing(geometry, BAND, size, hurst).gamma,
+            crossing(geometry, BAND, size, hurst, level).gamma,
             sample(geometry, BAND, size, hurst).count,
         )
         for geometry in ("periodic", "free")
@@ -161,7 +160,8 @@ def _gamma() -> Finding:
 def _between() -> Finding:
     """Judge the exponent between the two laws."""
     cases = _many()
-    found = {name: exponent_in(one, BETWEEN) for name, one in cases.items()}
+    level = confidence_of_each(len(cases))
+    found = {name: exponent_in(one, BETWEEN, level) for name, one in cases.items()}
     parts = {name: judged_near(found[name], BETWEEN_THEM, one.count) for name, one in cases.items()}
     return range_of_cases(
         f"With {MANY} waves or more, k ~ F^{BETWEEN_THEM:g} between the two laws (here), to "
@@ -176,7 +176,8 @@ def _between() -> Finding:
 def _persson() -> Finding:
     """Judge Persson's theory under the load of gamma, and lighter ones."""
     cases = _many()
-    found = {below: [over_persson(one, below) for one in cases.values()] for below in (0, 1, 2)}
+    level = confidence_of_each(len(_BELOW) * len(cases))
+    found = {below: [over_persson(one, below, level) for one in cases.values()] for below in _BELOW}
     parts = {
         f"{_BELOW[below]} ({name})": judged(WidenedInterval.of(each), one.count, 1 - NEAR, 1 + NEAR)
         for below, ratios in found.items()
@@ -209,7 +210,8 @@ def _by_load(parts: dict[str, Judgement]) -> str:
 def _reduced() -> Finding:
     """Judge the reduced model beside free surfaces of all sizes."""
     cases = {_case(size, hurst): (size, hurst) for size in SIZES[BAND] for hurst in HURSTS}
-    found = {name: reduced_over_full(*case, _MEDIUM) for name, case in cases.items()}
+    level = confidence_of_each(len(cases))
+    found = {name: reduced_over_full(*case, _MEDIUM, level) for name, case in cases.items()}
     parts = {
         name: judged(
             WidenedInterval.of(found[name]), sample("free", BAND, *case).count, -_SAME, _SAME

@@ -17,13 +17,17 @@ from studies.finite_size.samples import BAND, Geometry, Sample, persson, sample
 
 
 @cache
-def crossing(geometry: Geometry, band: int, size: int, hurst: float) -> CrossOver:
+def crossing(
+    geometry: Geometry, band: int, size: int, hurst: float, confidence: float = 0.95
+) -> CrossOver:
     """Return where the laws of one sample end and begin."""
     one = sample(geometry, band, size, hurst)
-    return cross_over(one.force, one.stiffness, hurst)
+    return cross_over(one.force, one.stiffness, hurst, confidence)
 
 
-def exponent_in(one: Sample, window: tuple[float, float]) -> IntervalEstimate:
+def exponent_in(
+    one: Sample, window: tuple[float, float], confidence: float = 0.95
+) -> IntervalEstimate:
     """Return the exponent of a sample in a window of F / (E* h lambda_r).
 
     NaN where the loads do not cover the window, or where it reaches beyond the load of gamma.
@@ -32,15 +36,15 @@ def exponent_in(one: Sample, window: tuple[float, float]) -> IntervalEstimate:
     beyond = window[1] > crossing(one.geometry, one.band, one.size, one.hurst).gamma_force
     if beyond or not np.isfinite(weights).all():
         return NO_ESTIMATE
-    return bootstrap.sum_of_log_means(one.stiffness, weights).interval_estimate()
+    return bootstrap.sum_of_log_means(one.stiffness, weights).interval_estimate(confidence)
 
 
-def decades_of_linear_law(one: Sample) -> tuple[float, float]:
+def decades_of_linear_law(one: Sample, confidence: float = 0.95) -> tuple[float, float]:
     """Return over how many decades of the load the exponent surely, and perhaps, is 1 within 0.05.
 
     Surely: the whole interval lies within. Perhaps: a part of it does.
     """
-    local = local_exponents(one.force, one.stiffness)
+    local = local_exponents(one.force, one.stiffness, confidence)
     low, high = LINEAR - EXPONENT_TOLERANCE, LINEAR + EXPONENT_TOLERANCE
     step = math.log10(local.force[1] / local.force[0])
     sure = np.count_nonzero((local.low >= low) & (local.high <= high))
@@ -48,18 +52,20 @@ def decades_of_linear_law(one: Sample) -> tuple[float, float]:
     return sure * step, perhaps * step
 
 
-def over_persson(one: Sample, decades_below: float) -> IntervalEstimate:
+def over_persson(one: Sample, decades_below: float, confidence: float = 0.95) -> IntervalEstimate:
     """Return k over that of Persson's theory, some decades below the load of gamma."""
     top = crossing(one.geometry, one.band, one.size, one.hurst).gamma_force
     place = int(np.argmin(np.abs(np.log(one.force / (top / 10**decades_below)))))
-    mean = average(one.stiffness[:, place : place + 1])
+    mean = average(one.stiffness[:, place : place + 1], confidence=confidence)
     expected = persson(one)[place]
     return IntervalEstimate(
         *(float(each[0] / expected) for each in (mean.mean, mean.low, mean.high))
     )
 
 
-def reduced_over_full(size: int, hurst: float, force: float) -> IntervalEstimate:
+def reduced_over_full(
+    size: int, hurst: float, force: float, confidence: float = 0.95
+) -> IntervalEstimate:
     """Return the stiffness of the reduced model over that of the free surface, less 1.
 
     The surface as it is pressed, punch and interface. At the load nearest to F / (E* h lambda_r) =
@@ -69,7 +75,7 @@ def reduced_over_full(size: int, hurst: float, force: float) -> IntervalEstimate
     shared = np.intersect1d(lines.force, surfaces.force)
     nearest = shared[np.argmin(np.abs(np.log(shared / force)))]
     values = [one.whole[:, one.force == nearest] for one in (lines, surfaces)]
-    ends = relative_difference(*values, paired=False)
+    ends = relative_difference(*values, paired=False, confidence=confidence)
     return IntervalEstimate(*(float(each[0]) for each in ends))
 
 

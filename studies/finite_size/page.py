@@ -150,9 +150,10 @@ def _verdicts() -> Section:
     return Section(
         "Verdicts",
         [
-            "Confirmed: the whole 95 % interval lies within the tolerance in every case. Refuted: "
-            "it lies outside in some. Undecided: else; how many surfaces would decide is told from "
-            "the scatter, if the mean stays where it is.",
+            "Confirmed: the whole interval lies within the tolerance in every case. Refuted: it "
+            "lies outside in some. Undecided: else; how many surfaces would decide is told from "
+            "the scatter, if the mean stays where it is. The intervals hold at 95 % for all cases "
+            "of a row together; those of the tables below hold at 95 % each.",
         ],
         tables=[findings_table(findings())],
     )

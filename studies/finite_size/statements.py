@@ -12,9 +12,8 @@ from studies.judged import (
     Finding,
     Judgement,
     WidenedInterval,
+    finding_of_cases,
     judged,
-    judged_together,
-    where_others,
 )
 
 
@@ -60,7 +59,7 @@ def load_interval(load: IntervalEstimate) -> str:
 def between_ends(low: float, high: float, to: str = "-") -> str:
     """Write the ends of an interval, of which one may be open."""
     if math.isnan(low):
-        return "any" if math.isnan(high) else f"< {decimal(high, 2)}"
+        return "not told" if math.isnan(high) else f"< {decimal(high, 2)}"
     if math.isnan(high):
         return f"> {decimal(low, 2)}"
     return f"{decimal(low, 2)}{to}{decimal(high, 2)}"
@@ -80,13 +79,12 @@ def range_of_cases(
     form: str,
 ) -> Finding:
     """Put a statement about many cases together, with the range of what was found."""
-    return Finding(
+    return finding_of_cases(
         statement,
         f"{what}: {min(each.value for each in found):{form}} to "
         f"{max(each.value for each in found):{form}}",
         f"{min(each.low for each in found):{form}} to {max(each.high for each in found):{form}}",
-        judged_together(list(parts.values())),
-        where_others(list(parts.items())),
+        parts,
     )
 
 
@@ -98,11 +96,10 @@ def each_case(
     form: str,
 ) -> Finding:
     """Put a statement about several cases together."""
-    return Finding(
+    return finding_of_cases(
         statement,
         f"{what}: {', '.join(f'{each.value:{form}}' for each in found.values())} "
         f"({'; '.join(found)})",
         ", ".join(f"{each.low:{form}} to {each.high:{form}}" for each in found.values()),
-        judged_together(list(parts.values())),
-        where_others(list(parts.items())),
+        parts,
     )

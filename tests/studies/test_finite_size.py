@@ -7,6 +7,7 @@ import pytest
 
 import roughline as rl
 from studies.finite_size.crossover import (
+    BETWEEN_THEM,
     EXPONENT_TOLERANCE,
     cross_over,
     local_exponents,
@@ -77,8 +78,9 @@ def test_known_laws_come_back_within_their_intervals(hurst, count):
     """Exponents at single loads, the loads where they pass, and gamma, in 95 % of 200 trials."""
     rng = np.random.default_rng(17)
     leaves = load_of(scaling_exponent_of(hurst) + EXPONENT_TOLERANCE, hurst)
+    halfway = load_of((scaling_exponent_of(hurst) + BETWEEN_THEM) / 2, hurst)
     reaches = load_of(1 - EXPONENT_TOLERANCE, hurst)
-    hits = {"gamma": 0, "leaves": 0, "reaches": 0, "exponents": 0.0}
+    hits = {"gamma": 0, "leaves": 0, "halfway": 0, "reaches": 0, "exponents": 0.0}
     for _ in range(TRIALS):
         sample = surfaces(hurst, count, rng)
         found = cross_over(FORCES, sample, hurst)
@@ -86,7 +88,7 @@ def test_known_laws_come_back_within_their_intervals(hurst, count):
         true = exponents(hurst)
         hits["exponents"] += np.mean((local.low <= true) & (true <= local.high))
         hits["gamma"] += found.gamma.low <= gamma(hurst) <= found.gamma.high
-        for name, load in (("leaves", leaves), ("reaches", reaches)):
+        for name, load in (("leaves", leaves), ("halfway", halfway), ("reaches", reaches)):
             force = getattr(found, name).force
             hits[name] += not (force.low > load or force.high < load)  # an end may be open
     assert min(hits.values()) >= ENOUGH, hits
