@@ -7,7 +7,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations finite-size area averaging published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations finite-size area averaging published docs architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -116,6 +116,11 @@ published: $(VENV)/installed
 	$(BIN)/python -m studies.area.publish
 	$(BIN)/python -m studies.averaging.publish
 	$(BIN)/python -m studies.finite_size.publish
+
+# The handbook as a site, which opens from disk: out/docs/index.html.
+docs: $(VENV)/installed
+	$(BIN)/python -m sphinx -W --keep-going -q -b html docs out/docs
+	@echo "the handbook lies in out/docs/index.html"
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py
