@@ -1,6 +1,5 @@
 """The handbook's settings for Sphinx; ``make docs`` builds it into ``out/docs``."""
 
-import os
 import sys
 from pathlib import Path
 
@@ -47,7 +46,6 @@ sphinx_gallery_conf = {
     "show_memory": False,
     "write_computation_times": False,
 }
-os.environ["PYTHONWARNINGS"] = "error"  # of the workers of a campaign
 
 html_theme = "pydata_sphinx_theme"
 html_title = f"roughline {version}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import re
+import shutil
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -71,6 +72,7 @@ def write_pages(source: str | Path) -> None:
     """Write all made pages into the folder ``made`` of the handbook's source."""
     folder = Path(source) / "made"
     folder.mkdir(exist_ok=True)
+    shutil.rmtree(folder / "names", ignore_errors=True)  # pages of names that are no more
     pages = {
         "names.rst": page_of_names(),
         "commands.md": page_of_commands(),
@@ -211,7 +213,7 @@ def _commands(command: Any, name: str = "roughline") -> Iterable[tuple[str, Any]
 
 def _option(param: Any) -> tuple[str, str]:
     names = ", ".join(f"`{name}`" for name in (*param.opts, *param.secondary_opts))
-    text = re.sub(r"\s+", " ", param.help or "")
+    text = re.sub(r"(--[a-z-]+)", r"`\1`", re.sub(r"\s+", " ", param.help or ""))
     shown = param.default not in (None, False, (), []) and "default" not in text
     return names, f"{text} [default: {param.default}]" if shown else text
 
