@@ -61,3 +61,9 @@ def test_an_example_is_short_and_asks_a_question(name):
     assert title.endswith("?") or title.startswith("From ")
     assert set(lines[2]) == {"="}
     assert len(lines[2]) == len(title)
+
+
+def test_the_citation_is_of_this_version():
+    root = GALLERY.parents[1]
+    assert f"version = {{{rl.__version__}}}" in (root / "docs" / "cite.md").read_text("utf-8")
+    assert f"\nversion: {rl.__version__}\n" in (root / "CITATION.cff").read_text("utf-8")
