@@ -10,6 +10,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 PAGES = [page for page in PAGES if "made" not in page.parts]  # those that Sphinx checks
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
+OTHER_PROGRAMS = {"tamaas", "ContactMechanics", "aspher"}
 LINK = re.compile(r"\]\((?!https?:|#)([^)#\s]+)")
 
 
@@ -22,10 +23,16 @@ def name_of(page):
 )
 def test_snippets_run_in_order(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    namespace = {"__name__": "snippet"}
+    namespace, missing = {"__name__": "snippet"}, set()
     for block in PYTHON.findall(page.read_text("utf-8")):
-        exec(compile(block, name_of(page), "exec"), namespace)
+        try:
+            exec(compile(block, name_of(page), "exec"), namespace)
+        except ModuleNotFoundError as error:
+            assert error.name in OTHER_PROGRAMS
+            missing.add(error.name)
     pyplot.close("all")
+    if missing:
+        pytest.skip(f"what needs {', '.join(sorted(missing))} was left out, which is not installed")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
