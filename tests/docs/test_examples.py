@@ -11,6 +11,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").r
 PAGES = [page for page in PAGES if "made" not in page.parts]  # those that Sphinx checks
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 OTHER_PROGRAMS = {"tamaas", "ContactMechanics", "aspher"}
+FILE = re.compile(r"`((?:src|tests|studies|benchmarks|docs)/[\w/.-]+)`")
 LINK = re.compile(r"\]\((?!https?:|#)([^)#\s]+)")
 
 
@@ -34,6 +35,12 @@ def test_snippets_run_in_order(page, tmp_path, monkeypatch):
     pyplot.close("all")
     if missing:
         pytest.skip(f"what needs {', '.join(sorted(missing))} was left out, which is not installed")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_files_that_are_named_are_there(page):
+    for path in FILE.findall(page.read_text("utf-8")):
+        assert (ROOT / path).exists(), path
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
