@@ -14,7 +14,7 @@ import roughline as rl
 n, R = 256, 1.0
 x = (np.arange(n) + 0.5) / n - 0.5
 heights = -(x[:, None] ** 2 + x[None, :] ** 2) / (2 * R)
-depths = np.geomspace(0.002, 0.05, 12)
+depths = np.geomspace(0.001, 0.1, 12)
 curve = rl.press(rl.Surface(heights, (1.0, 1.0)), E_star=1.0, depths=depths)
 
 figure, (left, right) = pyplot.subplots(1, 2, figsize=(8, 3.2), layout="constrained")
