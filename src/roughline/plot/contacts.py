@@ -13,6 +13,7 @@ from roughline.errors import InputError
 from roughline.plot.bodies import draw_map, extent, label_sides
 from roughline.plot.style import drawing_on
 from roughline.plot.units import in_unit
+from roughline.topography.notebook import in_words
 from roughline.units import decimal
 
 if TYPE_CHECKING:
@@ -122,9 +123,7 @@ def yield_key(fields: Fields) -> str:
 
 def _title(curve: Curve, load: int, fields: Fields) -> str:
     assert curve.area_fraction_corrected is not None
-    label, factor = in_unit("", curve.force[load], "N" if curve.unit == "m" else None)
-    unit = label.strip(" []")
-    force = f"{decimal(float(curve.force[load]) * factor, 4)} {unit}".strip()
+    force = in_words(float(curve.force[load]), "N" if curve.unit == "m" else None)
     share = decimal(100 * float(curve.area_fraction_corrected[load]), 4)
     return f"corrected area {share}% at $F$ = {force}{yield_key(fields)}"
 
