@@ -28,6 +28,7 @@ PLACES = {
     "server": 7.6,
     "assessment": 4.0,
     "campaign": 7.2,
+    "plot": 1.1,
     "engineering": 1.1,
     "comparison": 6.1,
     "theories": 7.9,

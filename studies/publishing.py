@@ -9,7 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from roughline.paper.studies import StudySummary, write_summary
-from roughline.report.style import save, styled
+from roughline.plot.style import save, styled
 
 DOCS = Path(__file__).parents[1] / "docs"
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from roughline._version import __version__
 
 if TYPE_CHECKING:
+    from roughline import plot as plot
     from roughline.assessment.assess import assess_body as assess_body
     from roughline.assessment.assess_part import assess as assess
     from roughline.assessment.assess_part import assess_part as assess_part
@@ -22,13 +23,13 @@ if TYPE_CHECKING:
     from roughline.comparison.trust import trust_map as trust_map
     from roughline.computing.fft import set_threads as set_threads
     from roughline.contact.curve import Curve as Curve
-    from roughline.contact.curve import Status as Status
     from roughline.contact.estimates import Estimate as Estimate
     from roughline.contact.estimates import estimate as estimate
     from roughline.contact.fields import Fields as Fields
     from roughline.contact.press import press as press
     from roughline.contact.scaling import EXACT_PUNCH as EXACT_PUNCH
     from roughline.contact.scaling import PAPER_PUNCH as PAPER_PUNCH
+    from roughline.contact.status import Status as Status
     from roughline.engineering.materials import Material as Material
     from roughline.engineering.materials import material as material
     from roughline.engineering.pair import contact_modulus as contact_modulus
@@ -81,7 +82,7 @@ _HOMES = {
     "Material": "engineering.materials",
     "Curve": "contact.curve",
     "Fields": "contact.curve",
-    "Status": "contact.curve",
+    "Status": "contact.status",
     "Comparison": "comparison.models",
     "compare": "comparison.models",
     "average": "statistics.averages",
@@ -115,6 +116,8 @@ __all__ = ["__version__", *_HOMES]
 
 
 def __getattr__(name: str) -> Any:
+    if name == "plot":
+        return import_module("roughline.plot")
     if name not in _HOMES:
         raise AttributeError(f"module 'roughline' has no attribute {name!r}")
     value = getattr(import_module(f"roughline.{_HOMES[name]}"), name)
@@ -123,4 +126,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return sorted([*__all__, "plot"])

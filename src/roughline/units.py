@@ -21,6 +21,9 @@ _NUMBER_AND_UNIT = re.compile(
 _EXPONENT = re.compile(r"(?<=[^\W\d_])(-?\d+)\b")  # of "mm2", "m-3"
 _DECIMAL_COMMA = re.compile(r"\d+,\d+")
 
+SI = ("m", "N", "N/m", "Pa", "J")
+"""Units that get a prefix where values are shown."""
+
 _PREFIXES = {
     -18: "a",
     -15: "f",

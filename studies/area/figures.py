@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughline.computing.arrays import Real
-from roughline.report.style import MARKERS, PAGE, colours, new_figure
+from roughline.plot.style import MARKERS, PAGE, colours, new_figure
 from roughline.statistics.averages import average
 from roughline.theories import bush_gibson_thomas, persson
 from studies.area.findings import MIDDLE, common_law

@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughline.paper.windows import Window
-from roughline.report.style import PAGE, colours, new_figure
+from roughline.plot.style import PAGE, colours, new_figure
 from studies.averaging.exponents import (
     BODIES,
     DIMENSIONS,

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughline.report.style import MARKERS, PAGE, SHADE, colours, new_figure
+from roughline.plot.style import MARKERS, PAGE, SHADE, colours, new_figure
 from roughline.statistics.averages import average
 from studies.correlations.conductance import (
     BANDS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from roughline.report.style import PAGE, colours, new_figure
+from roughline.plot.style import PAGE, colours, new_figure
 from studies.finite_size.crossover import local_exponents, scaling_exponent_of
 from studies.finite_size.samples import (
     BAND,

@@ -18,8 +18,8 @@ import numpy as np
 import roughline as rl
 from roughline import campaign
 from roughline.computing.arrays import Mask, Real
-from roughline.contact.curve import Status
 from roughline.contact.scaling import EXACT_PUNCH, PUNCH_GRID_ERROR
+from roughline.contact.status import Status
 from roughline.engineering.formulas import interface_stiffness
 from studies.reduced_data import read_groups
 

@@ -19,8 +19,8 @@ from roughline.paper.added_figures import trust_map_figure
 from roughline.paper.page import compose
 from roughline.paper.results import published_dataset, published_folder, published_results
 from roughline.paper.trust_page import trust_page
+from roughline.plot.style import save, styled
 from roughline.report.page import render_markdown
-from roughline.report.style import save, styled
 from studies.reduced_data import errors_in_one_line, refuse_other_settings
 
 HERE = Path(__file__).parent

@@ -43,7 +43,7 @@ def smaller(plan, dimensions=None, realisations=None):
 def test_a_case_is_what_the_library_gives(plan, finished):
     data = campaign.Store(finished).dataset("surfaces")
     spectrum = rl.SelfAffine(fractal_dimension=2.4, rms_height=1.0)
-    surface = spectrum.surface(64, np.random.SeedSequence(5, spawn_key=(3,)))
+    surface = spectrum.surface(128, np.random.SeedSequence(5, spawn_key=(3,)))
     curve = rl.press(surface, E_star=1.0, forces=plan.ensemble("surfaces").force_bars)
     one = data.sel(fractal_dimension=2.4, realisation=3)
     assert (one.stiffness.values == curve.stiffness).all()
@@ -65,7 +65,7 @@ def test_xarray_reads_the_store_without_us(finished):
         assert data.stiffness.dims == ("fractal_dimension", "realisation", "force_bar")
         assert data.stiffness.attrs["long_name"] == "raw stiffness k / (E* L)"
         assert data.stiffness.attrs["units"] == "1"
-        assert (data.attrs["n"], data.attrs["seed"], data.attrs["boundary"]) == (64, 5, "free")
+        assert (data.attrs["n"], data.attrs["seed"], data.attrs["boundary"]) == (128, 5, "free")
         assert data.attrs["roughline_version"] == rl.__version__
         assert list(data.fractal_dimension.values) == [2.0, 2.4, 3.0]
 
@@ -80,10 +80,10 @@ def test_nothing_is_computed_twice(plan, finished, tmp_path):
     told = []
     summary = campaign.run(plan, finished, progress=lambda *args: told.append(args))
     assert (summary.done, summary.failed) == ({}, {})
-    assert told == [("lines", 180, 0, 180), ("surfaces", 186, 0, 186)]
+    assert told == [("lines", 180, 0, 180), ("surfaces", 42, 0, 42)]
     assert tree(finished) == before
     assert log_of(finished).read_text() == log
-    assert json.loads(log)["done"] == {"lines": 180, "surfaces": 186}
+    assert json.loads(log)["done"] == {"lines": 180, "surfaces": 42}
 
 
 @pytest.mark.parametrize(
@@ -112,7 +112,7 @@ def test_a_store_of_other_settings_is_refused_and_not_touched(plan, finished):
     before = tree(finished)
     lines, surfaces = plan.ensembles
     for changes, key in (
-        ({"n": 128}, "n is 64, the plan's is 128"),
+        ({"n": 64}, "n is 128, the plan's is 64"),
         ({"seed": 6}, "seed is 5, the plan's is 6"),
         ({"roll_off_ratio": 2.0}, "roll_off_ratio is 1.0"),
         ({"force_bars": surfaces.force_bars[:-1]}, "force_bars is"),
@@ -232,7 +232,7 @@ def test_export_to_netcdf_and_csv(finished, tmp_path):
         data.stiffness.mean("realisation").values.ravel()
     )
     assert (means.stiffness_low <= means.stiffness_mean).all()
-    assert (means.realisations_done == 62).all()
+    assert (means.realisations_done == 14).all()
     cases = pd.read_csv(tmp_path / "surfaces.csv")
     assert len(cases) == data.stiffness.size
     assert cases.stiffness.values == pytest.approx(data.stiffness.values.ravel())
@@ -295,7 +295,7 @@ def test_the_cost_is_told_before_the_work(plan, finished, tmp_path):
     entry = json.loads(log_of(finished).read_text())
     assert entry["processor"]
     spent = entry["core_seconds"]
-    cost = cost_of(plan, {"lines": 180, "surfaces": 186})
+    cost = cost_of(plan, {"lines": 180, "surfaces": 42})
     # good to a factor of two or three, and machines are noisy
     assert 0.2 < cost.core_seconds / sum(spent.values()) < 5
 

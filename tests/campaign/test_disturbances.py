@@ -37,7 +37,7 @@ def resume(plan, undisturbed, two_workers):
     return run_on
 
 
-def wait_for_results(store, process, count=5):
+def wait_for_results(store, process, count=3):
     """Wait until some batches of surfaces are written."""
     chunks = store / "surfaces" / "case_status" / "c"
     deadline = time.monotonic() + 60
@@ -64,7 +64,7 @@ def test_a_worker_killed(plan, undisturbed, tmp_path):
         workers_of(process)[0].kill()
     code, out, err = finish(process)
     assert code == 0, err
-    assert "366 cases computed, 0 failed" in out
+    assert "222 cases computed, 0 failed" in out
     assert tree(store) == undisturbed
 
 
@@ -77,7 +77,7 @@ def test_the_client_killed(plan, resume, tmp_path):
     finish(process)
     _, alive = psutil.wait_procs(workers, timeout=30)
     assert not alive, "workers outlive their client"
-    assert resume(store) < 366, "what was done is computed again"
+    assert resume(store) < 222, "what was done is computed again"
 
 
 def test_the_scheduler_killed(plan, resume, tmp_path, dask_cluster):

@@ -10,7 +10,7 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughline as rl
-from roughline.report.contact_figures import curve_figure, draw_contact
+from roughline.report.contact_figures import curve_figure, draw_last_contact
 from roughline.report.contact_tables import answer_table, curve_table, formula_table
 
 PAIR = ("--materials", "steel,copper")
@@ -130,7 +130,7 @@ def unloaded():
 
 def test_points_at_the_hardness_are_marked(unloaded):
     axes = Figure().subplots()
-    draw_contact(axes, unloaded.body, unloaded)
+    draw_last_contact(axes, unloaded.body, unloaded)
     (picture,) = axes.images
     shown = np.asarray(picture.get_array())
     fields = unloaded.fields

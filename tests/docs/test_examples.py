@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
+from matplotlib import pyplot
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -23,6 +24,7 @@ def test_snippets_run_in_order(page, tmp_path, monkeypatch):
     namespace = {"__name__": "snippet"}
     for block in PYTHON.findall(page.read_text("utf-8")):
         exec(compile(block, name_of(page), "exec"), namespace)
+    pyplot.close("all")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)

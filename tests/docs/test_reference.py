@@ -2,6 +2,7 @@
 
 import inspect
 import re
+from operator import attrgetter
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ REFERENCE = (ROOT / "docs" / "reference.md").read_text("utf-8")
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 SIGNATURES = {
     name: re.findall(r"\w+", re.sub(r"=[^,]*", "", parameters))
-    for name, parameters in re.findall(r"`rl\.(\w+)\((.*?)\)`", REFERENCE)[::-1]
+    for name, parameters in re.findall(r"`rl\.([\w.]+)\((.*?)\)`", REFERENCE)[::-1]
 }
 DOCUMENTED_PACKAGES = {"campaign", "engineering", "exact"}
 
@@ -32,9 +33,14 @@ def test_every_public_name_is_listed(name):
     assert re.search(rf"`rl\.{name}\b", REFERENCE)
 
 
+@pytest.mark.parametrize("name", rl.plot.__all__)
+def test_every_picture_is_listed(name):
+    assert f"plot.{name}" in SIGNATURES
+
+
 @pytest.mark.parametrize("name", SIGNATURES)
 def test_listed_parameters_are_those_of_the_code(name):
-    assert SIGNATURES[name] == list(inspect.signature(getattr(rl, name)).parameters)
+    assert SIGNATURES[name] == list(inspect.signature(attrgetter(name)(rl)).parameters)
 
 
 @pytest.mark.parametrize(("name", "command"), [*commands(typer.main.get_command(app))])

@@ -5,7 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughline as rl
-from roughline.report.contact_figures import draw_contact, draw_filled
+from roughline.report.contact_figures import draw_filled, draw_last_contact
 from roughline.report.contact_tables import quantity
 
 
@@ -14,7 +14,7 @@ def test_one_area_is_told_everywhere(rough):
         rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"], whole_curve=True)
     )
     axes = Figure().subplots()
-    draw_contact(axes, pressed.body, pressed)
+    draw_last_contact(axes, pressed.body, pressed)
     area = pressed.answers["contact_area_fraction"]
     told = quantity(area, 1).split("%")[0]
     assert axes.get_title() == f"corrected area {told}% at 10 N\nred: at the hardness"

@@ -15,6 +15,7 @@ from roughline.assessment.question import Question
 from roughline.assessment.slip import PartialSlip
 from roughline.assessment.source import Topography
 from roughline.computing.arrays import Indices
+from roughline.computing.summary import summary
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.contact.selection import at_loads
@@ -79,6 +80,8 @@ class Assessment:
     partial_slip: PartialSlip | None = None
     warnings: Sequence[str] = ()
     notes: Sequence[str] = ()
+
+    __repr__ = summary
 
     @property
     def area(self) -> float:

@@ -17,6 +17,7 @@ from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import profile_spectrum
 from roughline.spectra.scan_bins import ScanBins
 from roughline.topography.body import Line
+from roughline.topography.settings import as_body
 
 SCAN_LINES = 200
 _SPRINGS_A_WAVE = 8
@@ -108,7 +109,7 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> tuple[Curve, Real
             "lines": SCAN_LINES,
             "seed": seed,
             "spectrum": "of surfaces that the line scan may be cut from",
-            **scan.settings_as_body(),
+            **as_body(scan.settings),
         },
         warnings=(
             "a line scan shows one direction: a surface alike in all directions, and as large as "

@@ -11,6 +11,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.limits import Limits, within
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Real
+from roughline.computing.summary import summary
 from roughline.engineering.answer import Answer
 from roughline.statistics.places import average_of_places
 
@@ -134,6 +135,8 @@ class PartAssessment:
     elastic: Mapping[str, PartAnswer] = field(default_factory=dict)
     warnings: Sequence[str] = ()
     notes: Sequence[str] = ()
+
+    __repr__ = summary
 
     @property
     def interrupted(self) -> bool:

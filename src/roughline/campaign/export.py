@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.campaign.layout import CASE_STATUS, DONE, VARIABLES
 from roughline.campaign.store import Store
-from roughline.contact.curve import Status
+from roughline.contact.status import Status
 from roughline.errors import InputError, StoreError
 from roughline.statistics.averages import average
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.campaign.layout import CASE_STATUS, DONE, PENDING, VARIABLES
-from roughline.contact.curve import Status
+from roughline.contact.status import Status
 
 
 def mend(arrays: Mapping[str, Any]) -> None:

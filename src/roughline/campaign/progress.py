@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from roughline.campaign.batch import Batch, BatchResult
-from roughline.contact.curve import Status
+from roughline.contact.status import Status
 
 EnsembleProgress = Callable[[str, int, int, int], None]
 """Called with (ensemble, cases done, cases failed, cases in all)."""

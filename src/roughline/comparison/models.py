@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.comparison.single_surface import difference_of_one, scatter_of_surfaces
 from roughline.comparison.trust import Difference
-from roughline.computing.arrays import Mask, Real
 from roughline.contact.press import press
 from roughline.errors import InputError
 from roughline.spectra.isotropic import isotropic_spectrum
@@ -20,6 +20,10 @@ from roughline.statistics.averages import Average, average, relative_difference
 from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Body, Surface
 from roughline.topography.preparation import tilt_warnings
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Mask, Real
+from roughline.computing.summary import summary
 
 COMPARED_LINES = 200
 """Number of lines that are pressed beside the surfaces."""
@@ -65,6 +69,8 @@ class Comparison:
     surfaces: int
     lines: int
     warnings: tuple[str, ...] = ()
+
+    __repr__ = summary
 
     def differences(self) -> list[Difference]:
         """List the differences, load by load."""

@@ -14,12 +14,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.statistics.verdict import Verdict, verdict
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Mask, Real
+from roughline.computing.summary import summary
 
 COLUMNS = (
     "roll_off_ratio",
@@ -89,6 +93,8 @@ class TrustMap:
     high: Real
     scatter: Real
     resolved: Mask
+
+    __repr__ = summary
 
     @classmethod
     def from_rows(cls, rows: Real) -> TrustMap:

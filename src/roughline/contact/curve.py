@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import enum
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,43 +13,15 @@ from numpy.typing import NDArray
 from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
 from roughline.contact.fields import Fields, Indentation
+from roughline.contact.notebook import described, html_of_curve
 from roughline.contact.quantities import IN_FILES
 from roughline.contact.quantity import OVER_LOADS, Quantity, unit_of
+from roughline.contact.status import STATUS_FLAGS, Status
 from roughline.errors import InputError, StoreError
 from roughline.topography.body import Surface, with_heights
 
 if TYPE_CHECKING:
     import xarray
-
-
-class Status(enum.IntEnum):
-    """How the solution under one load ended."""
-
-    CONVERGED = 0
-    STALLED = 1
-    MAX_ITERATIONS = 2
-    NO_TANGENT = 3
-    INTERRUPTED = 4
-    UNKNOWN_SURFACE = 5
-
-    @property
-    def reason(self) -> str:
-        """What it means, for messages."""
-        return {
-            Status.CONVERGED: "converged: all residuals are within the tolerance",
-            Status.STALLED: "stalled: the residuals stopped falling above the tolerance",
-            Status.MAX_ITERATIONS: "max_iterations reached above the tolerance",
-            Status.NO_TANGENT: "the stiffness equations did not converge",
-            Status.INTERRUPTED: "not solved: interrupted before",
-            Status.UNKNOWN_SURFACE: "not solved: what a larger load before them left of the "
-            "surface is not known",
-        }[self]
-
-
-_STATUS_FLAGS: dict[str, Any] = {
-    "flag_values": [int(status) for status in Status],
-    "flag_meanings": " ".join(status.name.lower() for status in Status),
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,6 +120,9 @@ class Curve:
     surface: Surface | None = field(default=None, repr=False)
     dents: Sequence[Indentation | None] = field(default=(), repr=False)
 
+    __repr__ = described
+    _repr_html_ = html_of_curve
+
     @property
     def hardness(self) -> float | None:
         """The most that a point of the surface bears; None if it is elastic. [pressure]"""
@@ -225,7 +199,7 @@ class Curve:
         for quantity in IN_FILES:
             values = self._values(quantity)
             if values is not None:
-                flags = _STATUS_FLAGS if quantity.name == "status" else {}
+                flags = STATUS_FLAGS if quantity.name == "status" else {}
                 attributes = quantity.attributes(self.unit) | flags
                 variables[quantity.name] = (quantity.dims, values, attributes)
         attrs = {

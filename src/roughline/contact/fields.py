@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.summary import summary
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +36,8 @@ class Fields:
     contact: Mask
     plastic: Mask
     indentation: Real
+
+    __repr__ = summary
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,11 +10,12 @@ import numpy as np
 from roughline._version import __version__
 from roughline.computing import linear_algebra
 from roughline.contact.border import border_warnings
-from roughline.contact.curve import Curve, Status
+from roughline.contact.curve import Curve
 from roughline.contact.fields import Indentation
 from roughline.contact.load_result import LoadResult, columns
 from roughline.contact.loads import Loads
 from roughline.contact.scaled_surface import ScaledSurface
+from roughline.contact.status import Status
 from roughline.errors import Interrupted
 from roughline.halfspace.conditions import ContactConditions, UnilateralContact, YieldingContact
 from roughline.halfspace.half_space import HalfSpace
@@ -24,6 +25,7 @@ from roughline.halfspace.preconditioner import ApproximateInverse
 from roughline.halfspace.state import Load, Method, Problem
 from roughline.topography.body import Surface
 from roughline.topography.preparation import tilt_warnings
+from roughline.topography.settings import as_body
 
 
 def press_surface(
@@ -177,7 +179,7 @@ def _curve(
             "max_iterations": method.max_iterations,
             "precision": method.precision,
             **({} if hardness is None else {"hardness": hardness}),
-            **surface.settings_as_body(),
+            **as_body(surface.settings),
         },
         warnings=(*tilt_warnings(surface), *at_the_border),
         surface=surface,

@@ -12,11 +12,11 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.border import border_share
-from roughline.contact.curve import Status
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
 from roughline.contact.quantity import OVER_LOADS
 from roughline.contact.scaled_surface import ScaledSurface
+from roughline.contact.status import Status
 from roughline.halfspace.outline import overstated_cells
 from roughline.halfspace.state import Contact
 from roughline.halfspace.tangent import Response

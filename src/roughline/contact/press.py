@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
-from roughline.contact.curve import Curve, Status
+from roughline.contact.curve import Curve
 from roughline.contact.estimates import expected_area_fraction, memory_for
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
 from roughline.contact.loads import GivenLoads, Loads, surface_loads
 from roughline.contact.reduced import press_line
+from roughline.contact.status import Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
 from roughline.topography.body import Body, Line, Surface
 

@@ -11,6 +11,7 @@ from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Line
+from roughline.topography.settings import as_body
 
 
 def press_line(line: Line, E_star: float, given: GivenLoads) -> Curve:
@@ -61,6 +62,6 @@ def press_line(line: Line, E_star: float, given: GivenLoads) -> Curve:
             "roughline_version": __version__,
             "model": "reduced",
             "control": loads.control,
-            **line.settings_as_body(),
+            **as_body(line.settings),
         },
     )

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
-from roughline.contact.curve import Curve, Status
+from roughline.contact.curve import Curve
+from roughline.contact.status import Status
 
 _UNSOLVED = {"status": int(Status.INTERRUPTED)}  # of quantities that cannot be NaN; others are 0
 

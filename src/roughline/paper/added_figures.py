@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
-from roughline.comparison.trust import TrustMap
-from roughline.computing.arrays import Real
 from roughline.contact import scaling
 from roughline.paper.contact_area import mean_area
-from roughline.paper.laws import DimensionLaws
 from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
-from roughline.report.style import (
+from roughline.plot.models import add_bar, draw_trust
+from roughline.plot.style import (
     FORCE_LABEL,
     MARKERS,
     PAGE,
@@ -32,9 +28,10 @@ from roughline.theories import bush_gibson_thomas, persson
 if TYPE_CHECKING:
     import xarray
 
+    from roughline.comparison.trust import TrustMap
+    from roughline.paper.laws import DimensionLaws
+
 CONVERGENCE_DIMENSIONS = (2.0, 2.4, 2.8)
-TRUST_LEVELS = (-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4)
-"""Differences at which the colour of the trust map changes."""
 LINE_STYLES = (":", "-.", "--", "-")
 
 Colour = tuple[float, float, float, float]
@@ -171,35 +168,13 @@ def _draw_ratios_to_finest(
         )
 
 
-def trust_colours() -> Real:
-    """Return the colours below, between and above the levels of the trust map, shape (10, 4)."""
-    # colours change in equal steps on both sides of white, where the models agree
-    steps = np.concatenate([np.linspace(0.1, 0.4, 4), [0.5], np.linspace(0.6, 0.95, 5)])
-    return mpl.colormaps["RdBu_r"](steps)
-
-
 def trust_map_figure(trust: TrustMap) -> Figure:
     """Draw the relative difference of the two models, a panel for each roll-off ratio."""
-    count = trust.roll_off_ratios.size
     figure = new_figure(PAGE, 2.7)
-    panels = figure.subplots(1, count, sharey=True)
-    levels = np.array(TRUST_LEVELS)
-    scale = ListedColormap(trust_colours())
-    norm = BoundaryNorm(levels, levels.size + 1, extend="both")
-    for i, (panel, roll_off) in enumerate(zip(panels, trust.roll_off_ratios, strict=True)):
-        shown = panel.pcolormesh(
-            trust.force_bars, trust.fractal_dimensions, trust.difference[i], cmap=scale, norm=norm
-        )
-        panel.contourf(
-            trust.force_bars,
-            trust.fractal_dimensions,
-            trust.resolved[i],
-            levels=[-1, 0.5],
-            colors="none",
-            hatches=["////"],
-        )
-        panel.set(xscale="log", title=f"$q_r/q_0$ = {roll_off:g}", xlabel=r"$\bar F$")
+    panels = figure.subplots(1, trust.roll_off_ratios.size, sharey=True)
+    for i, panel in enumerate(panels):
+        shown = draw_trust(panel, trust, i)
+        panel.set(xlabel=r"$\bar F$")
     panels[0].set(ylabel="fractal dimension $D_f$")
-    bar = figure.colorbar(shown, ax=panels, label="3D over 1D, less 1", ticks=levels)
-    bar.ax.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+    add_bar(panels, shown)
     return figure

@@ -8,11 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Real
 from roughline.paper.exponents import converged_stiffness, exponent_estimate
-from roughline.paper.windows import Window
 from roughline.statistics import bootstrap
-from roughline.statistics.averages import Averaging
 from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
 from roughline.statistics.planes import at_depths, at_levels
 from roughline.statistics.power_law import fit_power_law, line_weights
@@ -20,6 +17,10 @@ from roughline.statistics.window import inside_window
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.computing.arrays import Indices, Real
+    from roughline.paper.windows import Window
+    from roughline.statistics.averages import Averaging
 
 Fixed = Literal["force", "depth", "level"]
 """What all realisations have in common where they are averaged."""

@@ -6,13 +6,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from roughline.paper.laws import DimensionLaws
-from roughline.paper.windows import Window
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Verdict, joint_verdict, verdict
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.paper.laws import DimensionLaws
+    from roughline.paper.windows import Window
 
 STIFFNESS_TOLERANCE = 0.10
 """How near stiffnesses must come, as a share."""

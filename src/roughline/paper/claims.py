@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from roughline.paper import claims_on_computing as on_computing
 from roughline.paper import claims_on_contact as on_contact
 from roughline.paper import claims_on_exponents as on_exponents
 from roughline.paper.claim import STIFFNESS_TOLERANCE, Claim
-from roughline.paper.results import PaperResults
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.report.page import Section, Table
+
+if TYPE_CHECKING:
+    from roughline.paper.results import PaperResults
 
 
 def judge_claims(results: PaperResults) -> list[Claim]:

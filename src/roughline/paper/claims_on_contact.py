@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from roughline.contact import scaling
@@ -20,13 +22,15 @@ from roughline.paper.claim import (
     numbers_by_dimension,
 )
 from roughline.paper.contact_area import SATURATED, saturation
-from roughline.paper.laws import DimensionLaws
-from roughline.paper.results import PaperResults
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.verdict import Verdict, joint_verdict, verdict
+
+if TYPE_CHECKING:
+    from roughline.paper.laws import DimensionLaws
+    from roughline.paper.results import PaperResults
 
 _SAME_SIZE = around(1, STIFFNESS_TOLERANCE)  # ratios of stiffnesses, and of heights
 _LINEAR = around(1, EXPONENT_TOLERANCE)  # exponents of a linear law

@@ -19,8 +19,6 @@ from roughline.paper.claim import (
     numbers_by_dimension,
 )
 from roughline.paper.exponents import LocalExponents, exponent_estimate
-from roughline.paper.laws import DimensionLaws
-from roughline.paper.results import PaperResults
 from roughline.paper.stated import (
     ENDS_OF_REDUCED,
     EXPONENT_TOLERANCE,
@@ -36,12 +34,15 @@ from roughline.paper.windows import (
     WINDOW_SAME_WAVES,
     Window,
 )
-from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 from roughline.statistics.verdict import Verdict
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.paper.laws import DimensionLaws
+    from roughline.paper.results import PaperResults
+    from roughline.statistics.bootstrap import IntervalEstimate
 
 _NO_CHANGE = around(0, EXPONENT_TOLERANCE)
 _BOTH_MODELS = (0.5 - EXPONENT_TOLERANCE, 0.8 + EXPONENT_TOLERANCE)  # of §7, for both

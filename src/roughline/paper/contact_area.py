@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
 from roughline.paper.windows import WINDOW_AREA
 from roughline.statistics import bootstrap
@@ -17,6 +16,8 @@ from roughline.statistics.window import inside_window
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.computing.arrays import Mask, Real
 
 SATURATED = 0.9
 """Share of the exact punch's stiffness at which the real area is read."""

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.paper.windows import MEDIUM_FORCE, WINDOW_SAME_WAVES, Window
 from roughline.statistics import bootstrap
@@ -18,6 +17,8 @@ from roughline.statistics.window import inside_window
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.computing.arrays import Real
 
 
 @dataclass(frozen=True)

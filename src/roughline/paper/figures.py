@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
-from roughline.paper.laws import DimensionLaws
 from roughline.paper.mean_curve import mean_curve
 from roughline.paper.windows import WINDOW_FULL, WINDOW_REDUCED, Window
-from roughline.report.style import (
+from roughline.plot.style import (
     COLUMN,
     FORCE_LABEL,
     MARKERS,
@@ -26,6 +24,9 @@ from roughline.statistics.power_law import linear_exponent, scaling_exponent
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.computing.arrays import Mask, Real
+    from roughline.paper.laws import DimensionLaws
 
 _INDENTED = 1  # which body of the gallery Figure 2 shows
 

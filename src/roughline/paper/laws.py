@@ -22,12 +22,13 @@ from roughline.paper.windows import (
     WINDOW_FULL,
     WINDOW_REDUCED,
 )
-from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import PowerLaw, fit_power_law
 from roughline.statistics.window import inside_window
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.statistics.bootstrap import IntervalEstimate
 
 
 @dataclass(frozen=True)

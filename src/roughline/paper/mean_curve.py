@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
-from roughline.statistics.averages import Averaging
-
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.computing.arrays import Mask, Real
+    from roughline.statistics.averages import Averaging
 
 
 @dataclass(frozen=True, eq=False)

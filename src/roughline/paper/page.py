@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from roughline._version import __version__
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.pictures import draw_pictures
-from roughline.paper.results import PaperResults
 from roughline.paper.sensitivity import sensitivities
 from roughline.paper.tables import (
     automatic_windows_table,
@@ -26,6 +26,9 @@ from roughline.paper.windows import (
     WINDOWS_REDUCED,
 )
 from roughline.report.page import Section, render
+
+if TYPE_CHECKING:
+    from roughline.paper.results import PaperResults
 
 
 def write_page(results: PaperResults, out: Path) -> Path:

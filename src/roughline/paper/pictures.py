@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
 from roughline.paper import added_figures, figures
-from roughline.paper.results import PaperResults
+from roughline.plot.style import save, styled
 from roughline.report.page import Picture
-from roughline.report.style import save, styled
+
+if TYPE_CHECKING:
+    from roughline.paper.results import PaperResults
 
 _OPEN_MARKS = (
     " Bands are the standard error of the mean; dashed or open where, in at least one realisation, "

@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.paper.averaging import exponent_of_means
 from roughline.paper.exponents import converged_stiffness
-from roughline.paper.windows import Window
-from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import PowerLaw, fit_power_law
 from roughline.statistics.window import find_window
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.computing.arrays import Real
+    from roughline.paper.windows import Window
+    from roughline.statistics.bootstrap import IntervalEstimate
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 from roughline.statistics.verdict import Verdict, verdict
+
+if TYPE_CHECKING:
+    from roughline.statistics.bootstrap import IntervalEstimate
 
 ModelLabel = Literal["1D", "3D"]
 

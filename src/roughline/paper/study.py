@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from roughline.campaign.progress import EnsembleProgress
 from roughline.campaign.run import run
 from roughline.campaign.store import Store
 from roughline.errors import StoreError
 from roughline.paper.page import write_page
 from roughline.paper.plan import StudyScale, paper_plan
 from roughline.paper.results import results_of_store
+
+if TYPE_CHECKING:
+    from roughline.campaign.progress import EnsembleProgress
 
 
 def recompute(

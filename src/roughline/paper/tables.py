@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.campaign.export import mean_table, write_netcdf
-from roughline.paper.claim import Claim
 from roughline.paper.exponents import exponent_estimate, prefactor_estimate
-from roughline.paper.laws import DimensionLaws
 from roughline.paper.results import (
     ROW_FULL,
     ROW_MATCHED,
@@ -19,7 +17,6 @@ from roughline.paper.results import (
     PaperResults,
     row_of_grid,
 )
-from roughline.paper.sensitivity import Sensitivity
 from roughline.paper.windows import OTHER_WINDOWS_REDUCED, WINDOW_FULL
 from roughline.report.page import Table
 from roughline.statistics.averages import relative_difference
@@ -33,6 +30,10 @@ from roughline.statistics.power_law import (
 
 if TYPE_CHECKING:
     import xarray
+
+    from roughline.paper.claim import Claim
+    from roughline.paper.laws import DimensionLaws
+    from roughline.paper.sensitivity import Sensitivity
 
 _GRID_FORCES = (0.01, 0.1, 1.0)
 

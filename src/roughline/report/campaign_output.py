@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
-from roughline.campaign.progress import Summary
-from roughline.campaign.store import Store
 from roughline.report.terminal import table
+
+if TYPE_CHECKING:
+    from roughline.campaign.progress import Summary
+    from roughline.campaign.store import Store
 
 
 def print_summary(summary: Summary, store: Path) -> None:

@@ -3,51 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
-from matplotlib.ticker import PercentFormatter
 
-from roughline.assessment.comparison import ModelComparison
-from roughline.comparison.models import Comparison
 from roughline.errors import StoreError
+from roughline.plot.models import comparison, difference
+from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.folder import make_folder
-from roughline.report.style import FORCE_LABEL, PAGE, SHADE, colours, new_figure, save, styled
+
+if TYPE_CHECKING:
+    from roughline.assessment.comparison import ModelComparison
+    from roughline.comparison.models import Comparison
 
 
 def comparison_figure(result: Comparison, tolerance: float) -> Figure:
     """Both curves, and their relative difference with its interval."""
     figure = new_figure(PAGE, 3.0)
     left, right = figure.subplots(1, 2)
-    force = result.force_bar
-    dark, light = colours(2)
-    count = result.surfaces
-    for mean, colour, label in (
-        (
-            result.full,
-            dark,
-            "full model" + (f", mean of {count} surfaces" if count > 1 else ", one surface"),
-        ),
-        (result.reduced, light, f"reduced model, mean of {result.lines} lines"),
-    ):
-        left.loglog(force, mean.mean, color=colour, marker="o", label=label)
-        left.fill_between(force, mean.low, mean.high, color=colour, alpha=0.25, linewidth=0)
-    left.set(xlabel=FORCE_LABEL, ylabel=r"raw stiffness $k\,/\,(E^* L)$")
-    left.legend()
-    right.axhspan(-tolerance, tolerance, **SHADE)
-    right.axhline(0, color="k", linewidth=0.7)
-    right.fill_between(force, result.low, result.high, color=dark, alpha=0.25, linewidth=0)
-    right.semilogx(force, result.difference, color=dark)
-    for sure, fill in ((result.resolved, "full"), (~result.resolved, "none")):
-        right.semilogx(
-            force[sure],
-            result.difference[sure],
-            color=dark,
-            marker="o",
-            linestyle="",
-            fillstyle=fill,
-        )
-    right.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
-    right.set(xlabel=FORCE_LABEL, ylabel="3D over 1D, less 1")
+    comparison(result, left)
+    difference(result, tolerance, right)
     return figure
 
 

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from roughline.assessment.comparison import ModelComparison
+from typing import TYPE_CHECKING
+
 from roughline.statistics.verdict import Verdict
+
+if TYPE_CHECKING:
+    from roughline.assessment.comparison import ModelComparison
 
 
 def comparison_table(compared: ModelComparison) -> tuple[list[str], list[list[str]]]:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from matplotlib.figure import Figure
 
-from roughline.assessment.assessment import Assessment
+from roughline.plot.bodies import draw_heights
+from roughline.plot.spectra import draw_spectrum
+from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.contact_figures import (
     draw_area,
-    draw_contact,
     draw_filled,
     draw_force,
-    draw_heights,
+    draw_last_contact,
     draw_partial_slip,
-    draw_spectrum,
     draw_stiffness,
     has_falling_loads,
     write_contact,
@@ -32,9 +33,11 @@ from roughline.report.contact_tables import (
 )
 from roughline.report.document import write_document
 from roughline.report.page import Picture, Section, Table
-from roughline.report.style import PAGE, new_figure, save, styled
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
 
 _ABREAST = 4  # loads that fit beside each other on a page
 
@@ -111,17 +114,17 @@ def _overview(assessment: Assessment) -> Figure:
     friction, falls = assessment.question.friction, has_falling_loads(assessment)
     figure = new_figure(PAGE, 4.6)
     panels = figure.subplots(2, 3 if friction is not None or falls else 2).ravel()
-    draw_heights(panels[0], assessment.body)
+    draw_heights(panels[0], assessment.body, "m")
     draw_filled(panels[0], assessment)
     remaining = list(panels[1:])
     if assessment.roughness is not None:
-        draw_spectrum(remaining.pop(0), assessment.roughness)
+        draw_spectrum(remaining.pop(0), assessment.roughness, "m")
     draw_stiffness(remaining.pop(0), assessment)
     if isinstance(assessment.body, Surface):
         if assessment.theories or (friction is not None) != falls:  # with both there is no room
             draw_area(remaining.pop(0), assessment)
         if remaining:
-            draw_contact(remaining.pop(0), assessment.body, assessment)
+            draw_last_contact(remaining.pop(0), assessment.body, assessment)
     if falls and remaining:
         draw_force(remaining.pop(0), assessment)
     if friction is not None and remaining:

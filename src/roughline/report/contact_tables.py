@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from roughline.assessment.assessment import Assessment
 from roughline.assessment.notes import change_in_words
-from roughline.computing.arrays import Real
-from roughline.contact.curve import Status
 from roughline.contact.quantities import QUANTITIES
-from roughline.engineering.answer import Answer
-from roughline.engineering.intervals import Ends
-from roughline.engineering.materials import Material
+from roughline.contact.status import Status
 from roughline.report.values import with_interval
 from roughline.units import engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
+    from roughline.computing.arrays import Real
+    from roughline.engineering.answer import Answer
+    from roughline.engineering.intervals import Ends
+    from roughline.engineering.materials import Material
 
 _SHARES = ("contact_area_fraction",)  # keys of what is written in per cent
 

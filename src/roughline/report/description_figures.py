@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from roughline.assessment.description import Description
 from roughline.files.netcdf import write
+from roughline.plot.style import save, styled
 from roughline.report.contact_figures import roughness_figure
 from roughline.report.folder import make_folder
 from roughline.report.measured_figures import measured_figure
-from roughline.report.style import save, styled
+
+if TYPE_CHECKING:
+    from roughline.assessment.description import Description
 
 
 def write_description(description: Description, out: Path) -> list[Path]:

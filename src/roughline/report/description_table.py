@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from roughline.assessment.description import Description
-from roughline.spectra.roughness import Roughness
 from roughline.topography.body import Surface
 from roughline.units import engineering, metres_per
+
+if TYPE_CHECKING:
+    from roughline.assessment.description import Description
+    from roughline.spectra.roughness import Roughness
 
 _MAPPED_FROM = 0.01  # share of missing points from which on a coarse map shows more than words
 _SHADES = ".+#"

@@ -5,16 +5,18 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from roughline._version import __version__
-from roughline.assessment.assessment import Assessment
-from roughline.assessment.comparison import ModelComparison
-from roughline.assessment.description import Description
-from roughline.contact.curve import Status
 from roughline.contact.quantities import IN_JSON
+from roughline.contact.status import Status
 from roughline.report.plain import plain
 from roughline.topography.body import Body, Surface
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
+    from roughline.assessment.comparison import ModelComparison
+    from roughline.assessment.description import Description
 
 
 def to_json(content: Mapping[str, Any]) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
@@ -9,11 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import EngFormatter, Formatter, ScalarFormatter
 from numpy.typing import NDArray
 
-from roughline.files.measurement import Measurement
-from roughline.report.pixels import any_marked, thinned
-from roughline.report.style import PAGE, new_figure
-from roughline.topography.missing import MissingPattern
+from roughline.plot.pixels import any_marked, thinned
+from roughline.plot.style import PAGE, new_figure
 from roughline.units import metres_per
+
+if TYPE_CHECKING:
+    from roughline.files.measurement import Measurement
+    from roughline.topography.missing import MissingPattern
 
 _MISSING = "tab:red"
 

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.plot.pixels import thinned
+from roughline.plot.style import PAGE, new_figure
 from roughline.report.contact_tables import unit_shown
 from roughline.report.part_tables import leading_keys_of
-from roughline.report.pixels import thinned
-from roughline.report.style import PAGE, new_figure
 from roughline.report.values import scale_of
 from roughline.topography.body import Surface
 from roughline.units import prefix
+
+if TYPE_CHECKING:
+    from roughline.assessment.part import PartAnswer, PartAssessment
 
 _ABREAST = 5  # maps of heights in a row
 _LOG_FROM = 5.0  # largest over smallest from which on an axis is logarithmic

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
-from roughline.assessment.part import PartAssessment
 from roughline.report.contact_tables import UNRESOLVED
 from roughline.report.json_output import of_assessment
 from roughline.report.part_tables import (
@@ -19,6 +18,9 @@ from roughline.report.part_tables import (
     star_is_shown_of,
 )
 from roughline.report.terminal import print_files, print_table
+
+if TYPE_CHECKING:
+    from roughline.assessment.part import PartAssessment
 
 _MOST_LOADS = 2  # whose answers fit on a screen beside each other
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from roughline.assessment.part import PartAssessment
+from roughline.plot.style import save, styled
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import assumptions_of, sentence, write_contact_report
 from roughline.report.contact_tables import (
@@ -27,8 +28,10 @@ from roughline.report.part_tables import (
     scatter_in_words,
     star_is_shown_of,
 )
-from roughline.report.style import save, styled
 from roughline.units import engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.part import PartAssessment
 
 ASSUMPTION_OF_PART = (
     "Intervals of the part hold the scatter between its places as well. They suppose that the "

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.report.contact_tables import (
     IF_ELASTIC,
     differs,
@@ -19,6 +19,9 @@ from roughline.report.contact_tables import (
 from roughline.report.values import with_interval
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.part import PartAnswer, PartAssessment
 
 NO_MEAN = "-"
 """Stands where maps have no common value."""

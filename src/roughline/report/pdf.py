@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
 
 from matplotlib import get_data_path
 
 from roughline.errors import StoreError
-from roughline.report.page import Section, Table
 from roughline.report.values import value_and_interval
+
+if TYPE_CHECKING:
+    from roughline.report.page import Section, Table
 
 _SIZE = 6.6  # of the text, so that a page holds it [points]
 _MARGIN = 36  # [points]

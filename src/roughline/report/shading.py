@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.topography.body import Surface
+if TYPE_CHECKING:
+    from roughline.topography.body import Surface
 
 _LIGHT = (315.0, 45.0)  # direction and height of the light [degree]
 _RELIEF = 0.35  # rms slope that a surface is lit with, so that smooth ones show as well

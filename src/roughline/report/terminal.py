@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from roughline.assessment.assessment import Assessment
-from roughline.assessment.comparison import ModelComparison
-from roughline.assessment.description import Description
 from roughline.assessment.given import several
-from roughline.contact.curve import Status
+from roughline.contact.status import Status
 from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import (
     UNRESOLVED,
@@ -25,9 +23,14 @@ from roughline.report.contact_tables import (
 )
 from roughline.report.description_table import description_table, missing_map
 from roughline.report.values import value_and_interval
-from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
+    from roughline.assessment.comparison import ModelComparison
+    from roughline.assessment.description import Description
+    from roughline.theories.theory_curve import TheoryCurve
 
 _MOST_SHOWN = 200  # loads that anybody reads as a table
 _MOST_ANSWERED = 3  # loads whose answers fit on a screen

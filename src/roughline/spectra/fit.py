@@ -9,6 +9,7 @@ import numpy as np
 from scipy import special
 
 from roughline.computing.arrays import Real
+from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.likely_laws import Interval, LikelyLaws
@@ -73,6 +74,8 @@ class SelfAffineFit:
     scatter: float
     q_low: float
     q_last: float
+
+    __repr__ = summary
 
     @property
     def objections(self) -> list[str]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
+from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.spectra import synthesis
 from roughline.spectra.leakage import RING_HALF_WIDTH
@@ -46,6 +47,8 @@ class IsotropicSpectrum:
     modes: Real
     windowed: bool
     aspect: float = 1.0
+
+    __repr__ = summary
 
     def __add__(self, other: IsotropicSpectrum) -> IsotropicSpectrum:
         """Spectrum of the sum of two independent surfaces, on the waves of the first."""

@@ -11,6 +11,7 @@ import numpy as np
 from scipy import fft
 
 from roughline.computing.arrays import Real
+from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.spectra.leakage import LONG_WAVES, LONGER, scan_leakage
 from roughline.topography.body import Line
@@ -51,6 +52,8 @@ class ProfileSpectrum:
     edges: Real
     length: float
     rms_height: float
+
+    __repr__ = summary
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.spectra.fit import SelfAffineFit, fit_self_affine
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
@@ -53,6 +54,8 @@ class Roughness:
     spectrum: IsotropicSpectrum | ProfileSpectrum | None
     fit: SelfAffineFit | None
     remarks: list[str]
+
+    __repr__ = summary
 
     @property
     def power(self) -> Real | None:

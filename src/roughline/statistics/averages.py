@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Indices, Real
+from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.statistics import bootstrap
 
@@ -45,6 +46,8 @@ class Average:
     count: Indices
     averaging: Averaging
     confidence: float
+
+    __repr__ = summary
 
 
 def average(

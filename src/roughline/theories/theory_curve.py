@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from roughline.computing.arrays import Real
+from roughline.computing.summary import summary
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,3 +34,5 @@ class TheoryCurve:
     stiffness: Real | None
     mean_gap: Real | None
     validity: str
+
+    __repr__ = summary

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.topography.heights import (
     checked_heights,
@@ -18,16 +17,19 @@ from roughline.topography.heights import (
     rms,
     rms_deviation,
 )
+from roughline.topography.notebook import described, html_of_body
 from roughline.topography.settings import (
     AS_RECORDED,
     Settings,
-    as_body,
     checked_cut_out,
     checked_trend,
     read_only,
 )
 from roughline.topography.surfacetopography import fields_of_topography
 from roughline.topography.trend import Trend, without_trend
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Real
 
 _NOT_GIVEN = (math.nan, math.nan)  # sizes
 
@@ -67,6 +69,9 @@ class Surface:
     settings: Settings = field(default_factory=dict, repr=False)
     is_cut_out: bool = field(default=AS_RECORDED, kw_only=True)
     removed_trend: Trend = field(default=AS_RECORDED, kw_only=True)
+
+    __repr__ = described
+    _repr_html_ = html_of_body
 
     def __post_init__(self) -> None:
         if hasattr(self.heights, "physical_sizes"):
@@ -171,10 +176,6 @@ class Surface:
         heights = self.heights.reshape(nx // 2, 2, ny // 2, 2).mean(axis=(1, 3))
         return with_heights(self, heights, coarsened=nx // 2)
 
-    def settings_as_body(self) -> Settings:
-        """Return the settings with names that say that they are the body's."""
-        return as_body(self.settings)
-
     def detrended(self, trend: Trend = "tilt") -> Surface:
         """Return the surface without its least-squares mean, tilt, or curvature (2nd degree)."""
         return _detrended(self, trend)
@@ -219,6 +220,9 @@ class Line:
     kind: Literal["reduced", "profile"] = "reduced"
     removed_trend: Trend = field(default=AS_RECORDED, kw_only=True)
 
+    __repr__ = described
+    _repr_html_ = html_of_body
+
     def __post_init__(self) -> None:
         heights = checked_heights(self.heights, dimensions=1)
         if heights.size < 2:
@@ -248,10 +252,6 @@ class Line:
         if self.heights.size < 3:
             return float("nan")
         return rms(np.diff(self.heights, n=2) / self.spacing**2)
-
-    def settings_as_body(self) -> Settings:
-        """Return the settings with names that say that they are the body's."""
-        return as_body(self.settings)
 
     def detrended(self, trend: Trend = "tilt") -> Line:
         """Return the line without its least-squares mean, tilt, or curvature (2nd degree)."""

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Mask, Real
 
 Filling = Literal["harmonic", "nearest"]
 

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.topography.body import Body, BodyType, Surface, with_heights
 from roughline.topography.missing import Missing
 from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Mask, Real
 
 _TILT_MATTERS = 0.05  # share of the rms height; a larger one is warned of
 _SPIKE = 5.0  # times the scatter of neighbours

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.topography.body import Surface
+if TYPE_CHECKING:
+    from roughline.topography.body import Surface
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.errors import InputError
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Real
 
 Trend = Literal["none", "mean", "tilt", "curvature"]
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.topography.body import Surface
 from roughline.topography.settings import MEASURED
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Real
 
 
 def facing(first: Surface, second: Surface) -> Surface:

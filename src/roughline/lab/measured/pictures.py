@@ -12,7 +12,7 @@ from roughline.assessment.assessment import Assessment
 from roughline.assessment.description import Description
 from roughline.engineering.intervals import Ends
 from roughline.files.measurement import Measurement
-from roughline.report.pixels import any_marked, thinned
+from roughline.plot.pixels import any_marked, thinned
 from roughline.topography.body import Body, Surface
 from roughline.topography.preparation import outliers
 from roughline.units import decimal, engineering, metres_per, prefix

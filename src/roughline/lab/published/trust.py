@@ -25,7 +25,7 @@ def trust(arguments: Arguments, progress: Progress) -> bytes:
     """The map, a panel for each roll-off ratio, in the colours of the published figure."""
     from matplotlib.colors import to_hex  # here because it loads slowly
 
-    from roughline.paper.added_figures import TRUST_LEVELS, trust_colours
+    from roughline.plot.models import TRUST_LEVELS, trust_colours
 
     whole = trust_map()
     colours = [to_hex(colour) for colour in trust_colours()]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -49,6 +51,17 @@ def new_figure(width: float, height: float) -> Figure:
 def styled() -> Any:
     """Context in which figures are drawn and saved."""
     return mpl.rc_context(_RC)
+
+
+@contextmanager
+def drawing_on(axes: Axes | None, width: float = 4.5, height: float = 3.2) -> Iterator[Axes]:
+    """Context that gives the axes to draw on, in the reports' style; new ones if there are none."""
+    with styled():
+        if axes is None:
+            from matplotlib import pyplot  # here because its figures are for screens and notebooks
+
+            axes = pyplot.figure(figsize=(width, height)).add_subplot()
+        yield axes
 
 
 def colours(count: int) -> list[tuple[float, float, float, float]]:

@@ -1,0 +1,37 @@
+"""How the solution under one load ended."""
+
+from __future__ import annotations
+
+import enum
+from typing import Any
+
+
+class Status(enum.IntEnum):
+    """How the solution under one load ended."""
+
+    CONVERGED = 0
+    STALLED = 1
+    MAX_ITERATIONS = 2
+    NO_TANGENT = 3
+    INTERRUPTED = 4
+    UNKNOWN_SURFACE = 5
+
+    @property
+    def reason(self) -> str:
+        """What it means, for messages."""
+        return {
+            Status.CONVERGED: "converged: all residuals are within the tolerance",
+            Status.STALLED: "stalled: the residuals stopped falling above the tolerance",
+            Status.MAX_ITERATIONS: "max_iterations reached above the tolerance",
+            Status.NO_TANGENT: "the stiffness equations did not converge",
+            Status.INTERRUPTED: "not solved: interrupted before",
+            Status.UNKNOWN_SURFACE: "not solved: what a larger load before them left of the "
+            "surface is not known",
+        }[self]
+
+
+STATUS_FLAGS: dict[str, Any] = {
+    "flag_values": [int(status) for status in Status],
+    "flag_meanings": " ".join(status.name.lower() for status in Status),
+}
+"""Attributes of the status in files, which say what its numbers mean."""

@@ -1,0 +1,168 @@
+"""Pictures of curves: their quantities over each other, and the real contact area."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
+from roughline.contact.quantity import OVER_LOADS
+from roughline.errors import InputError
+from roughline.plot.contacts import say
+from roughline.plot.style import drawing_on, label_decades
+from roughline.plot.units import in_unit
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Mask, Real
+    from roughline.contact.curve import Curve
+
+_ELASTIC, _AFTER_A_LARGER = "k", "tab:blue"
+
+
+def curve(curve: Curve, x: str = "force", y: str = "stiffness", axes: Axes | None = None) -> Axes:
+    """Draw one quantity of a curve over another.
+
+    Parameters
+    ----------
+    curve : Curve
+        Of a surface or a line.
+    x, y : str, optional
+        Names of quantities over the loads, such as "depth", "force_bar" or "stiffness_bar".
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on, with logarithmic scales. Depths are drawn on linear ones where loads
+        fall, which shows both ways. Marks are open where fewer than ten springs or cells touch, so
+        that the grid decides, and blue after a larger load. Loads that were not solved are counted
+        in the picture.
+
+    Raises
+    ------
+    InputError
+        If the curve has no such quantity.
+    """
+    over, values = _values(curve, x), _values(curve, y)
+    falls = not bool(rising(curve).all())
+    linear = falls and "depth" in (x, y)
+    with drawing_on(axes) as drawn:
+        x_label, x_factor = _label(curve, x, over)
+        y_label, y_factor = _label(curve, y, values)
+        draw_loads(drawn, over * x_factor, values * y_factor, curve, linear=linear)
+        drawn.set(xlabel=x_label, ylabel=y_label)
+        _explain(drawn, curve)
+    return drawn
+
+
+def area(curve: Curve, axes: Axes | None = None) -> Axes:
+    """Draw the real contact area over the force, corrected for the steps of its outline.
+
+    Parameters
+    ----------
+    curve : Curve
+        Of a surface.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on; marks as in :func:`curve`. The band ends at the area of the cells that
+        touch: what the correction took off.
+
+    Raises
+    ------
+    InputError
+        If the curve is of a line: the reduced model predicts no contact area.
+    """
+    corrected, cells = (
+        _values(curve, name) for name in ("area_fraction_corrected", "area_fraction")
+    )
+    label, factor = _label(curve, "force", curve.force)
+    with drawing_on(axes) as drawn:
+        draw_loads(drawn, curve.force * factor, corrected, curve)
+        loaded = rising(curve)
+        drawn.fill_between(
+            curve.force[loaded] * factor,
+            corrected[loaded],
+            cells[loaded],
+            color="0.35",
+            alpha=0.2,
+            linewidth=0,
+            label="up to the area in cells",
+        )
+        drawn.set(xlabel=label, ylabel="contact area $A/A_0$")
+        _explain(drawn, curve)
+    return drawn
+
+
+def draw_loads(axes: Axes, x: Real, y: Real, curve: Curve, *, linear: bool = False) -> None:
+    """Draw the loads of a curve in their order; those after a larger one in blue."""
+    loaded, resolved = rising(curve), curve.resolved | (curve.force == 0)
+    # on logarithmic scales bodies just apart have no place
+    shown = np.isfinite(x * y) if linear else (x > 0) & (y > 0)
+    draw = axes.plot if linear else axes.loglog
+    draw(x[shown], y[shown], color="0.5", linewidth=0.8)
+    for when, colour in ((loaded, _ELASTIC), (~loaded, _AFTER_A_LARGER)):
+        for which, fill in ((resolved, "full"), (~resolved, "none")):
+            points = shown & when & which
+            draw(x[points], y[points], "o", color=colour, fillstyle=fill)
+    if not linear:
+        label_decades(axes)
+
+
+def rising(curve: Curve) -> Mask:
+    """Which loads are no smaller than one before them; those that were not solved count as such."""
+    return ~(curve.force < np.fmax.accumulate(curve.force))
+
+
+def _explain(axes: Axes, curve: Curve) -> None:
+    """Say what marks mean where they differ, and how many loads were not solved."""
+    solved = curve.converged
+    if not solved.any():
+        say(axes, "no load was solved")
+        return
+    marks: list[tuple[str, Literal["full", "none"], str]] = []
+    if (solved & ~curve.resolved & (curve.force > 0)).any():
+        marks.append((_ELASTIC, "none", f"fewer than {RESOLVED_FROM} {_cells(curve)} touch"))
+    if (solved & ~rising(curve)).any():
+        marks.append((_AFTER_A_LARGER, "full", "after a larger load"))
+    handles, _ = axes.get_legend_handles_labels()
+    handles += [
+        Line2D([], [], color=colour, fillstyle=fill, marker="o", linestyle="", label=text)
+        for colour, fill, text in marks
+    ]
+    missing = int((~solved).sum())
+    title = f"{missing} of {solved.size} loads not solved" if missing else None
+    if handles or title:
+        axes.legend(handles=handles, title=title)
+
+
+def _cells(curve: Curve) -> str:
+    return "springs" if curve.area_fraction is None else "cells"
+
+
+def _values(curve: Curve, name: str) -> Real:
+    """Return a quantity of a curve over its loads."""
+    known = [each for each, quantity in QUANTITIES.items() if quantity.dims == OVER_LOADS]
+    if name not in known:
+        raise InputError(
+            f"there is no quantity {name!r} over the loads; there are {', '.join(known)}"
+        )
+    values: Real | None = getattr(curve, name)
+    if values is None:
+        raise InputError(f"this curve has no {name}: see what each model gives in the glossary")
+    return values.astype(np.float64)
+
+
+def _label(curve: Curve, name: str, values: Real) -> tuple[str, float]:
+    """Return the label of a quantity's axis, and the factor to the unit in it."""
+    quantity = QUANTITIES[name]
+    words = name.removesuffix("_bar").replace("_", " ")
+    symbol = f" ${quantity.symbol}$" if quantity.symbol else ""
+    return in_unit(words + symbol, values, quantity.unit_in(curve.unit))

@@ -1,0 +1,151 @@
+"""Pictures of both models on the same roughness, and of where the reduced one may be trusted."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.ticker import PercentFormatter
+
+from roughline.comparison.trust import trust_map as published_map
+from roughline.errors import InputError
+from roughline.plot.style import FORCE_LABEL, SHADE, colours, drawing_on
+
+if TYPE_CHECKING:
+    from roughline.comparison.models import Comparison
+    from roughline.comparison.trust import TrustMap
+    from roughline.computing.arrays import Real
+
+TRUST_LEVELS = (-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4)
+"""Differences at which the colour of the trust map changes."""
+
+
+def comparison(compared: Comparison, axes: Axes | None = None) -> Axes:
+    """Draw the stiffness of both models over the force.
+
+    Parameters
+    ----------
+    compared : Comparison
+        What :func:`roughline.compare` returned.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on; bands are 95 % intervals.
+    """
+    count, (dark, light) = compared.surfaces, colours(2)
+    surfaces = f"mean of {count} surfaces" if count > 1 else "one surface"
+    with drawing_on(axes) as drawn:
+        for mean, colour, label in (
+            (compared.full, dark, f"full model, {surfaces}"),
+            (compared.reduced, light, f"reduced model, mean of {compared.lines} lines"),
+        ):
+            force = compared.force_bar
+            drawn.loglog(force, mean.mean, color=colour, marker="o", label=label)
+            drawn.fill_between(force, mean.low, mean.high, color=colour, alpha=0.25, linewidth=0)
+        drawn.set(xlabel=FORCE_LABEL, ylabel=r"raw stiffness $k\,/\,(E^* L)$")
+        drawn.legend()
+    return drawn
+
+
+def difference(compared: Comparison, tolerance: float = 0.1, axes: Axes | None = None) -> Axes:
+    """Draw the stiffness of the full model over that of the reduced one, less 1.
+
+    Parameters
+    ----------
+    compared : Comparison
+        What :func:`roughline.compare` returned.
+    tolerance : float, optional
+        Difference that is accepted; shaded. [1]
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on; the band is the 95 % interval, and marks are open where fewer than ten
+        cells touch.
+    """
+    force, (colour, _) = compared.force_bar, colours(2)
+    with drawing_on(axes) as drawn:
+        drawn.axhspan(-tolerance, tolerance, **SHADE)
+        drawn.axhline(0, color="k", linewidth=0.7)
+        drawn.fill_between(
+            force, compared.low, compared.high, color=colour, alpha=0.25, linewidth=0
+        )
+        drawn.semilogx(force, compared.difference, color=colour)
+        for sure, fill in ((compared.resolved, "full"), (~compared.resolved, "none")):
+            marks: Any = {"marker": "o", "linestyle": "", "fillstyle": fill}
+            drawn.semilogx(force[sure], compared.difference[sure], color=colour, **marks)
+        drawn.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+        drawn.set(xlabel=FORCE_LABEL, ylabel="3D over 1D, less 1")
+    return drawn
+
+
+def trust_map(
+    roll_off_ratio: float = 1.0, trust: TrustMap | None = None, axes: Axes | None = None
+) -> Axes:
+    """Draw the difference of the two models over load and fractal dimension.
+
+    Parameters
+    ----------
+    roll_off_ratio : float, optional
+        q_roll / q_low, one of those of the map; 1 without a roll-off.
+    trust : TrustMap, optional
+        Default: the map that comes with the package.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on; hatched where in some surface fewer than ten cells touch.
+
+    Raises
+    ------
+    InputError
+        If the map has no such roll-off.
+    """
+    trust = published_map() if trust is None else trust
+    (found,) = np.nonzero(np.isclose(trust.roll_off_ratios, roll_off_ratio))
+    if not found.size:
+        known = ", ".join(f"{ratio:g}" for ratio in trust.roll_off_ratios)
+        raise InputError(f"roll_off_ratio is {roll_off_ratio:g}; the map has {known}")
+    with drawing_on(axes) as drawn:
+        shown = draw_trust(drawn, trust, int(found[0]))
+        drawn.set(xlabel=FORCE_LABEL, ylabel="fractal dimension $D_f$")
+        add_bar(drawn, shown)
+    return drawn
+
+
+def draw_trust(axes: Axes, trust: TrustMap, roll_off: int) -> Any:
+    """Draw the map at its roll-off of this number; return what a bar of colours belongs to."""
+    levels = np.array(TRUST_LEVELS)
+    scale = ListedColormap(trust_colours())
+    norm = BoundaryNorm(levels, levels.size + 1, extend="both")
+    over = (trust.force_bars, trust.fractal_dimensions)
+    shown = axes.pcolormesh(*over, trust.difference[roll_off], cmap=scale, norm=norm)
+    axes.contourf(
+        *over, trust.resolved[roll_off], levels=[-1, 0.5], colors="none", hatches=["////"]
+    )
+    axes.set(xscale="log", title=f"$q_r/q_0$ = {trust.roll_off_ratios[roll_off]:g}")
+    return shown
+
+
+def add_bar(axes: Any, shown: Any) -> None:
+    """Add the bar of a trust map's colours beside axes."""
+    figure = np.ravel(axes)[0].figure
+    bar = figure.colorbar(shown, ax=axes, label="3D over 1D, less 1", ticks=np.array(TRUST_LEVELS))
+    bar.ax.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
+
+
+def trust_colours() -> Real:
+    """Return the colours below, between and above the levels of the trust map, shape (10, 4)."""
+    # colours change in equal steps on both sides of white, where the models agree
+    steps = np.concatenate([np.linspace(0.1, 0.4, 4), [0.5], np.linspace(0.6, 0.95, 5)])
+    return mpl.colormaps["RdBu_r"](steps)

@@ -1,0 +1,113 @@
+"""Pictures of spectra, and of power laws with their intervals."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
+
+from roughline.plot.contacts import say
+from roughline.plot.style import FORCE_LABEL, SHADE, drawing_on, label_decades
+from roughline.plot.units import in_unit
+from roughline.spectra.isotropic import IsotropicSpectrum
+from roughline.spectra.roughness import Roughness, roughness
+
+if TYPE_CHECKING:
+    from roughline.statistics.power_law import PowerLaw
+    from roughline.topography.body import Body
+
+
+def spectrum(described: Body | Roughness, axes: Axes | None = None) -> Axes:
+    """Draw the spectrum of a topography, with the self-affine law that is nearest to it.
+
+    Parameters
+    ----------
+    described : Surface, Line or Roughness
+        A topography, or its roughness where that is known already. A line is a profile.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on: C_2d of a surface, C_profile of a line. The title tells the Hurst
+        exponent with its interval.
+
+    Raises
+    ------
+    InputError
+        For a reduced line, which is no topography.
+    """
+    found = described if isinstance(described, Roughness) else roughness(described)
+    unit = None if isinstance(described, Roughness) else described.unit
+    with drawing_on(axes) as drawn:
+        draw_spectrum(drawn, found, unit)
+    return drawn
+
+
+def power_law(
+    force_bar: ArrayLike, stiffness_bar: ArrayLike, law: PowerLaw, axes: Axes | None = None
+) -> Axes:
+    """Draw stiffness over force with a fitted power law.
+
+    Parameters
+    ----------
+    force_bar : array_like, shape (loads,)
+        Dimensionless forces.
+    stiffness_bar : array_like, shape (loads,) or (realisations, loads)
+        Dimensionless stiffness at these forces; of several realisations each is drawn, and their
+        mean, as the law has it.
+    law : PowerLaw
+        What :func:`roughline.fit_power_law` returned.
+    axes : Axes, optional
+        Where to draw; default: those of a new figure.
+
+    Returns
+    -------
+    Axes
+        What was drawn on; the window of the fit is shaded.
+    """
+    force = np.asarray(force_bar, dtype=np.float64)
+    stiffness = np.atleast_2d(np.asarray(stiffness_bar, dtype=np.float64))
+    with drawing_on(axes) as drawn:
+        drawn.axvspan(*law.window, **SHADE)
+        if stiffness.shape[0] > 1:
+            drawn.loglog(force, stiffness.T, color="0.75", linewidth=0.5)
+        drawn.loglog(force, _mean(stiffness, law), "ko")
+        drawn.loglog(force, law(force), color="tab:red", linewidth=0.8, linestyle=":")
+        window = np.array(law.window)
+        drawn.loglog(window, law(window), color="tab:red")
+        low, high = law.exponent_interval
+        of = f", {law.realisations} realisations" if law.realisations > 1 else ""
+        drawn.set_title(rf"$\alpha$ = {law.exponent:.3f} ({low:.3f} to {high:.3f}){of}", fontsize=9)
+        drawn.set(xlabel=FORCE_LABEL, ylabel=r"stiffness $\bar k$")
+    return drawn
+
+
+def draw_spectrum(axes: Axes, found: Roughness, unit: str | None) -> None:
+    """Draw a spectrum and its law, where lengths have a given unit."""
+    power = found.power
+    if found.spectrum is None or power is None:
+        say(axes, "no spectrum")
+        return
+    known = power > 0
+    axes.loglog(found.spectrum.q[known], power[known], ".", color="0.4", markersize=2)
+    if found.law is not None:
+        axes.loglog(*found.law, color="tab:red")
+    label_decades(axes)
+    of_surface = isinstance(found.spectrum, IsotropicSpectrum)
+    symbol, power_unit = ("C_{2d}", "⁴") if of_surface else ("C_{profile}", "³")
+    of_q, of_power = (f"1/{unit}", f"{unit}{power_unit}") if unit else (None, None)
+    axes.set_xlabel(in_unit("wavenumber $q = 2\\pi/\\lambda$", 1.0, of_q)[0])
+    axes.set_ylabel(in_unit(f"spectrum ${symbol}$", 1.0, of_power)[0])
+    if found.fit is not None:
+        low, high = found.fit.hurst_interval
+        axes.set_title(f"H = {found.fit.hurst:.2f} ({low:.2f} to {high:.2f})", fontsize=9)
+
+
+def _mean(stiffness: np.ndarray, law: PowerLaw) -> np.ndarray:
+    if law.averaging == "geometric":
+        return np.exp(np.nanmean(np.log(stiffness), axis=0))
+    return np.nanmean(stiffness, axis=0)

@@ -1,0 +1,210 @@
+"""Pictures show what the numbers are, with their units, and say what is missing."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from matplotlib.figure import Figure
+
+import roughline as rl
+
+SPECTRUM = rl.SelfAffine(fractal_dimension=2.2, length=1e-3, rms_height=1e-6)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def no_screen():
+    before = pyplot.get_backend()
+    pyplot.switch_backend("agg")
+    yield
+    pyplot.switch_backend(before)
+
+
+@pytest.fixture(autouse=True)
+def closed_afterwards():
+    yield
+    pyplot.close("all")
+
+
+@pytest.fixture(scope="module")
+def surface():
+    heights = SPECTRUM.surface(64, 3).heights
+    return rl.Surface(heights, (1e-3, 1e-3), "m")
+
+
+@pytest.fixture(scope="module")
+def curve(surface):
+    return rl.press(surface, E_star=1e11, n_loads=8, fields=True)
+
+
+def texts(axes):
+    """Everything that is written in a picture."""
+    legend = axes.get_legend()
+    written = [*axes.texts, *(legend.get_texts() if legend else [])]
+    title = legend.get_title().get_text() if legend else ""
+    return " ".join([*(text.get_text() for text in written), axes.get_title(), title])
+
+
+def points(axes):
+    """The points that are marked, x and y, in the order of x."""
+    marked = [line.get_xydata() for line in axes.lines if line.get_marker() == "o"]
+    found = np.concatenate(marked)
+    return found[np.argsort(found[:, 0])].T
+
+
+def test_axes_are_made_or_taken_and_returned(surface):
+    made = rl.plot.topography(surface)
+    assert made.figure.canvas.manager is not None  # so that a notebook or a screen shows it
+    given = Figure().subplots()
+    assert rl.plot.topography(surface, given) is given
+
+
+def test_axes_have_units_where_the_body_has():
+    heights = SPECTRUM.surface(16, 3).heights
+    for unit, x, height in (
+        ("m", "x [mm]", "height [µm]"),
+        ("inch", "x [inch]", "height [inch]"),
+        (None, "x", "height"),
+    ):
+        axes = rl.plot.topography(rl.Surface(heights, (1e-3, 2e-3), unit))
+        assert axes.get_xlabel() == x
+        assert axes.figure.axes[1].get_ylabel() == height
+        (image,) = axes.images
+        assert image.get_extent() == pytest.approx(
+            [0, 1, 0, 2] if unit == "m" else [0, 1e-3, 0, 2e-3]
+        )
+    line = rl.Line(SPECTRUM.line(64, 1).heights, 1e-3, "m")
+    axes = rl.plot.topography(line)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x [mm]", "height [µm]")
+    assert axes.lines[0].get_ydata() == pytest.approx(1e6 * (line.heights - line.heights.mean()))
+
+
+def test_a_curve_is_drawn_in_the_units_of_its_axes(curve):
+    axes = rl.plot.curve(curve)
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("force $F$ [N]", "stiffness $k$ [MN/m]")
+    assert points(axes) == pytest.approx(np.array([curve.force, curve.stiffness / 1e6]))
+    axes = rl.plot.curve(curve, "depth", "area_fraction")
+    assert axes.get_xlabel() == "depth $d$ [µm]"
+    assert points(axes)[1] == pytest.approx(curve.area_fraction)
+    axes = rl.plot.curve(curve, "force_bar", "stiffness_bar")
+    assert axes.get_xlabel() == r"force $\bar F$"
+    assert points(axes) == pytest.approx(np.array([curve.force_bar, curve.stiffness_bar]))
+
+
+def test_open_marks_are_where_the_grid_decides(curve):
+    axes = rl.plot.curve(curve)
+    filled, hollow = (
+        sum(len(line.get_xdata()) for line in axes.lines if line.get_fillstyle() == style)
+        - (curve.force.size if style == "full" else 0)  # the line that joins them
+        for style in ("full", "none")
+    )
+    assert (filled, hollow) == (curve.resolved.sum(), (~curve.resolved).sum())
+    assert 0 < hollow < curve.force.size
+    assert "fewer than 10 cells touch" in texts(axes)
+
+
+def test_unloading_is_told_from_loading(surface):
+    curve = rl.press(surface, E_star=1e11, forces=[1, 10, 1], hardness=3e9)
+    axes = rl.plot.curve(curve, "depth", "force")
+    assert axes.get_xscale() == axes.get_yscale() == "linear"
+    assert "after a larger load" in texts(axes)
+
+
+def test_area_is_the_corrected_one_and_the_band_ends_at_the_cells(curve):
+    axes = rl.plot.area(curve)
+    assert points(axes)[1] == pytest.approx(curve.area_fraction_corrected)
+    (band,) = axes.collections
+    assert band.get_paths()[0].vertices[:, 1].max() == pytest.approx(curve.area_fraction.max())
+    with pytest.raises(rl.InputError, match="has no area_fraction_corrected"):
+        rl.plot.area(rl.press(SPECTRUM.line(256, 1), E_star=1.0, n_loads=3))
+
+
+def test_loads_that_were_not_solved_are_told_in_the_picture(surface):
+    curve = rl.press(
+        surface, E_star=1e11, forces=[1, 3, 10], max_iterations=2, throw=False, fields=True
+    )
+    assert not curve.converged.any()
+    assert "no load was solved" in texts(rl.plot.curve(curve))
+    for draw in (rl.plot.contact, rl.plot.pressure):
+        text = texts(draw(curve, 1))
+        assert "load 1 was not solved" in text
+        assert "max_iterations reached" in text
+
+
+def test_some_loads_that_were_not_solved_are_counted(curve):
+    status, force = curve.status.copy(), curve.force.copy()
+    status[2], force[2] = rl.Status.STALLED, np.nan
+    axes = rl.plot.curve(replace(curve, status=status, force=force))
+    assert "1 of 8 loads not solved" in texts(axes)
+    assert axes.get_xscale() == "log"
+
+
+def test_contact_and_pressure_are_those_of_the_load(curve):
+    axes = rl.plot.contact(curve, 3)
+    (image,) = axes.images
+    assert (image.get_array() == curve.fields[3].contact.T).all()
+    share = 100 * curve.area_fraction_corrected[3]
+    assert f"corrected area {share:.4g}%" in axes.get_title()
+    assert f"$F$ = {curve.force[3]:.4g} N" in axes.get_title()
+    (image,) = rl.plot.pressure(curve, 3).images
+    shown = image.get_array()
+    touching = curve.fields[3].contact.T
+    assert (~np.ma.getmaskarray(shown) == touching).all()
+    assert np.asarray(shown[touching]) == pytest.approx(curve.fields[3].pressure.T[touching] / 1e9)
+
+
+def test_a_load_that_is_not_there_is_refused(curve, surface):
+    with pytest.raises(rl.InputError, match="load is 8; the curve has loads 0 to 7"):
+        rl.plot.contact(curve, 8)
+    with pytest.raises(rl.InputError, match="press with fields=True"):
+        rl.plot.pressure(rl.press(surface, E_star=1e11, n_loads=3))
+    with pytest.raises(rl.InputError, match="this curve is of a line"):
+        rl.plot.contact(rl.press(SPECTRUM.line(256, 1), E_star=1.0, n_loads=3))
+    with pytest.raises(rl.InputError, match="no quantity 'areas' over the loads; there are depth"):
+        rl.plot.curve(curve, y="areas")
+
+
+def test_a_spectrum_has_its_law_and_the_exponent(surface):
+    axes = rl.plot.spectrum(surface)
+    assert axes.get_ylabel() == "spectrum $C_{2d}$ [m⁴]"
+    parameters = rl.roughness(surface)
+    assert axes.get_title().startswith(f"H = {parameters.fit.hurst:.2f} (")
+    assert axes.lines[0].get_ydata() == pytest.approx(parameters.power)
+    assert rl.plot.spectrum(parameters).get_ylabel() == "spectrum $C_{2d}$"
+    flat = rl.plot.spectrum(rl.Surface(np.zeros((8, 8)), (1.0, 1.0)))
+    assert "no spectrum" in texts(flat)
+
+
+def test_a_power_law_is_drawn_over_its_window():
+    force = np.geomspace(1e-3, 1, 13)
+    factors = np.exp(np.random.default_rng(0).normal(0, 0.1, (10, 1)))
+    stiffness = 0.8 * force**0.6 * factors
+    law = rl.fit_power_law(force, stiffness, (1e-3, 1e-1))
+    axes = rl.plot.power_law(force, stiffness, law)
+    assert axes.get_title().startswith(r"$\alpha$ = 0.600 (")
+    assert axes.get_title().endswith("10 realisations")
+    drawn = axes.lines[-1].get_xydata()
+    assert drawn[:, 0] == pytest.approx(law.window)
+    assert drawn[:, 1] == pytest.approx(law(np.array(law.window)))
+    assert points(axes)[1] == pytest.approx(stiffness.mean(axis=0))
+
+
+@pytest.mark.slow
+def test_a_comparison_is_both_models_and_their_difference():
+    compared = rl.compare(SPECTRUM, n=32, surfaces=2)
+    axes = rl.plot.comparison(compared)
+    assert "full model, mean of 2 surfaces" in texts(axes)
+    assert "reduced model, mean of 200 lines" in texts(axes)
+    axes = rl.plot.difference(compared, tolerance=0.2)
+    assert points(axes)[1] == pytest.approx(compared.difference)
+
+
+def test_the_trust_map_is_drawn_for_its_own_roll_offs():
+    axes = rl.plot.trust_map(4)
+    (mesh, *_) = axes.collections
+    (i,) = np.flatnonzero(rl.trust_map().roll_off_ratios == 4)
+    assert np.asarray(mesh.get_array()).ravel() == pytest.approx(
+        rl.trust_map().difference[i].ravel()
+    )
+    with pytest.raises(rl.InputError, match="roll_off_ratio is 3; the map has 1, "):
+        rl.plot.trust_map(3)
