@@ -2,12 +2,13 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+TOOLS := out/tools
 OUT ?= out/paper
 TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations finite-size area averaging published architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations finite-size area averaging published docs lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -115,6 +116,35 @@ published: $(VENV)/installed
 	$(BIN)/python -m studies.area.publish
 	$(BIN)/python -m studies.averaging.publish
 	$(BIN)/python -m studies.finite_size.publish
+
+# The handbook as a site, which opens from disk: out/docs/index.html.
+docs: $(VENV)/installed
+	$(BIN)/python -m sphinx -W --keep-going -q -b html docs out/docs
+	@echo "the handbook lies in out/docs/index.html"
+
+# The suite with the lowest versions that pyproject.toml allows, and with the newest that there are.
+# Old versions beside new ones warn of each other, so that warnings are no errors there.
+lowest: RESOLUTION := lowest-direct
+newest: RESOLUTION := highest
+lowest newest: $(TOOLS)/installed
+	$(TOOLS)/bin/uv venv --quiet --clear --python $(PYTHON) out/$@
+	VIRTUAL_ENV=out/$@ $(TOOLS)/bin/uv pip install --quiet --resolution $(RESOLUTION) --editable ".[test]"
+	out/$@/bin/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup -o filterwarnings=
+
+# What a release uploads; its wheel is installed into an empty environment, and used.
+dist: $(TOOLS)/installed
+	rm -rf dist build
+	$(TOOLS)/bin/python -m build --quiet --outdir dist
+	$(TOOLS)/bin/twine check --strict dist/*
+	$(TOOLS)/bin/uv venv --quiet --clear --python $(PYTHON) out/wheel
+	VIRTUAL_ENV=out/wheel $(TOOLS)/bin/uv pip install --quiet dist/*.whl
+	out/wheel/bin/roughline about
+	out/wheel/bin/python benchmarks/first_use.py
+
+$(TOOLS)/installed:
+	$(PYTHON) -m venv $(TOOLS)
+	$(TOOLS)/bin/python -m pip install --quiet --disable-pip-version-check build twine uv
+	touch $@
 
 architecture: $(VENV)/installed
 	$(BIN)/python docs/draw_architecture.py

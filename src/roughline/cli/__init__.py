@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from roughline._version import __version__
+from roughline.cli.about import about
 from roughline.cli.campaign import app as campaign_app
 from roughline.cli.campaign import paper
 from roughline.cli.comparison import compare_command
@@ -33,6 +34,7 @@ app.command("compare")(compare_command)
 app.command()(generate)
 app.command()(paper)
 app.command()(lab)
+app.command()(about)
 app.add_typer(campaign_app, name="campaign")
 
 

@@ -23,6 +23,11 @@ class PanelsFirst(TyperCommand):
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write the help, with the lists filled in."""
+        self.fill_lists()
+        super().format_help(ctx, formatter)
+
+    def fill_lists(self) -> None:
+        """Fill the lists into the texts."""
         from roughline.engineering.materials import materials
         from roughline.theories.theory import THEORIES
 
@@ -32,7 +37,6 @@ class PanelsFirst(TyperCommand):
             for param in self.params:
                 if isinstance(param, TyperOption) and param.help:
                     param.help = param.help.replace(place, names)
-        super().format_help(ctx, formatter)
 
 
 def _either(names: Any) -> str:

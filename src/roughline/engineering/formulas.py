@@ -136,7 +136,7 @@ def mikic_conductance(
 ) -> Value:
     """Mikic's elastic conductance per area, 1.55 kappa_s m / sigma (sqrt(2) p / (E* m))^0.94.
 
-    With m the mean absolute slope of a cut, for Gaussian heights rms |grad h| / sqrt(pi).
+    With m the mean absolute slope of a cut, for Gaussian heights rms grad h / sqrt(pi).
 
     Parameters
     ----------
@@ -265,8 +265,8 @@ def reflection(
 ) -> Real:
     """Modulus of the reflection of a longitudinal plane wave that meets the interface squarely.
 
-    |R| = |z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|, for waves much longer than the
-    distances between contact spots; w = 2 pi frequency.
+    ``|R| = |z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|``, for waves much longer than
+    the distances between contact spots; w = 2 pi frequency.
 
     Parameters
     ----------

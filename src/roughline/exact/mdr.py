@@ -18,7 +18,7 @@ _POINTS = 200
 
 
 def line_profile(slope: Callable[[Real], Real], x: Real) -> Real:
-    """Profile of the line, g(x) = |x| int_0^|x| f'(r) / sqrt(x² - r²) dr. [length]
+    """Profile of the line, ``g(x) = |x| int_0^|x| f'(r) / sqrt(x² - r²) dr``. [length]
 
     Parameters
     ----------

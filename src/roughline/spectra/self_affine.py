@@ -199,7 +199,7 @@ class SelfAffine:
         return self._continuum_for("C_profile", self._over_bodies("surface")).C_profile(q)
 
     def moment(self, order: int) -> float:
-        """<h²>, <|grad h|²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
+        """<h²>, <(grad h)²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
         factor = self._over_bodies("surface") / sum_over_integral(self._band, order, "surface")
         return self._continuum_for("moment", factor).moment(order)
 
@@ -229,7 +229,7 @@ class SelfAffine:
         """Generate a random square surface.
 
         The same seed with a larger `n` gives the same surface with more detail: one phase belongs
-        to one wavevector. Phases do not depend on the spectrum. Modes with |q| below
+        to one wavevector. Phases do not depend on the spectrum. Modes with q below
         ``min(q_high, pi n / length)`` are used, a circle; the Nyquist modes are zero.
 
         Parameters

@@ -1,0 +1,60 @@
+"""The handbook's settings for Sphinx; ``make docs`` builds it into ``out/docs``."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import made  # beside this file
+from roughline import __version__
+
+made.write_pages(Path(__file__).parent)
+
+project = "roughline"
+author = "The roughline developers"
+project_copyright = author
+version = release = __version__
+
+extensions = [
+    "myst_parser",
+    "numpydoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.viewcode",
+    "sphinx_copybutton",
+    "sphinx_gallery.gen_gallery",
+    "sphinx-mathjax-offline",
+]
+exclude_patterns = ["gallery"]
+templates_path = ["templates"]
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 3
+autosummary_generate = True
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # the docstrings tell types, with shapes and units
+numpydoc_show_class_members = False
+copybutton_prompt_text = r"\$ |>>> "
+copybutton_prompt_is_regexp = True
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "made/gallery",
+    "filename_pattern": "/",
+    "within_subsection_order": "made.place_in_gallery",
+    "abort_on_example_error": True,
+    "remove_config_comments": True,
+    "capture_repr": (),
+    "show_memory": False,
+    "write_computation_times": False,
+}
+
+html_theme = "pydata_sphinx_theme"
+html_title = f"roughline {version}"
+html_static_path = ["static"]
+html_css_files = ["handbook.css"]
+html_theme_options = {
+    "show_toc_level": 2,
+    "navigation_with_keys": False,
+    "secondary_sidebar_items": ["page-toc"],
+    "footer_start": ["copyright"],
+    "footer_end": ["sphinx-version"],
+}

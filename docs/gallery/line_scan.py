@@ -1,0 +1,28 @@
+"""
+What does a line scan tell of a contact?
+========================================
+
+A stylus gives one straight cut. The scan's spectrum leads to that of surfaces which it may be cut
+from, and reduced lines of these are pressed. The interval holds what one scan leaves open.
+"""
+
+import numpy as np
+
+import roughline as rl
+
+spectrum = rl.SelfAffine(hurst=0.8, length=1.0, rms_height=1.0, q_roll=3 * 6.28)
+surface = spectrum.surface(512, rng=2)
+scan = rl.Line(surface.heights[:, 100], length=1.0, kind="profile")
+rl.plot.spectrum(scan)
+
+# %%
+# The full model of the whole surface judges the answer.
+
+forces = np.geomspace(1e-3, 1, 10)
+pressed = rl.press_scan(scan, E_star=1.0, forces=forces)
+axes = rl.plot.curve(pressed.curve)
+axes.plot([], [], "ko", label="the scan, reduced model")
+axes.fill_between(forces, pressed.low, pressed.high, alpha=0.2, label="95 % interval of the scan")
+full = rl.press(surface, E_star=1.0, forces=forces)
+axes.loglog(forces, full.stiffness, "r-", label="the surface itself, full model")
+axes.legend()

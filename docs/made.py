@@ -1,0 +1,222 @@
+"""Pages of the handbook that are made of the code: names, commands, materials, quantities."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import shutil
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import typer
+
+import roughline as rl
+from roughline import campaign, plot
+from roughline.cli import app
+from roughline.cli.help import PanelsFirst
+from roughline.contact.quantities import QUANTITIES
+from roughline.engineering import formulas
+from roughline.engineering.materials import materials
+from roughline.exact import indenters, mdr, punch, westergaard
+from roughline.units import decimal
+
+SECTIONS = {
+    "Bodies": ("Surface", "Line", "read", "write", "Preparation", "prepared", "facing"),
+    "Spectra and roughness": (
+        *("SelfAffine", "isotropic_spectrum", "profile_spectrum", "fit_self_affine", "roughness"),
+    ),
+    "Contact": (
+        *("press", "press_scan", "Curve", "Fields", "Status", "estimate", "Estimate"),
+        *("set_threads", "theory", "compare", "Comparison", "trust_map"),
+    ),
+    "Questions and answers": (
+        *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
+        *("PartAssessment", "material", "Material", "contact_modulus"),
+    ),
+    "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
+    "Errors": (
+        *("RoughlineError", "InputError", "UnitError", "ConvergenceError", "StoreError"),
+        *("ClusterError", "Interrupted", "ContinuumWarning"),
+    ),
+}
+"""Public names in the order in which people meet them."""
+
+GALLERY = (
+    "first_contact",
+    "both_models",
+    "power_law",
+    "square_punch",
+    "hertz",
+    "two_resolutions",
+    "area_and_grid",
+    "periodic_and_free",
+    "roll_off",
+    "measured_map",
+    "line_scan",
+    "two_rough_bodies",
+    "conductance",
+    "loading_and_unloading",
+    "ultrasound",
+    "partial_slip",
+    "theories",
+    "campaign_on_a_cluster",
+    "trust",
+)
+"""Examples in the order in which people meet them."""
+
+CONSTANTS = {"PAPER_PUNCH", "EXACT_PUNCH"}
+
+
+def write_pages(source: str | Path) -> None:
+    """Write all made pages into the folder ``made`` of the handbook's source."""
+    folder = Path(source) / "made"
+    folder.mkdir(exist_ok=True)
+    shutil.rmtree(folder / "names", ignore_errors=True)  # pages of names that are no more
+    pages = {
+        "names.rst": page_of_names(),
+        "commands.md": page_of_commands(),
+        "materials.md": page_of_materials(),
+        "quantities.md": page_of_quantities(),
+    }
+    for name, text in pages.items():
+        path = folder / name
+        if not path.exists() or path.read_text("utf-8") != text:
+            path.write_text(text, "utf-8")
+
+
+def place_in_gallery(file: str) -> int:
+    """Return the place of an example among the others."""
+    return GALLERY.index(file.removesuffix(".py"))
+
+
+def page_of_names() -> str:
+    """The public names of Python, one page each."""
+    left_out = set(rl.__all__) - {"__version__"} - CONSTANTS
+    left_out -= {name for names in SECTIONS.values() for name in names}
+    if left_out:
+        raise ValueError(f"SECTIONS in {Path(__file__).name} lacks {', '.join(sorted(left_out))}")
+    parts = ["Names in Python\n===============\n"]
+    parts += [_summary(heading, "roughline", names) for heading, names in SECTIONS.items()]
+    parts += [
+        _summary("Pictures", "roughline.plot", plot.__all__),
+        _summary("Campaigns", "roughline.campaign", campaign.__all__),
+        _summary("Formulas", "roughline.engineering.formulas", _functions(formulas)),
+        *(
+            _summary(f"Exact solutions: {_title(module)}", module.__name__, _public(module))
+            for module in (punch, indenters, mdr, westergaard)
+        ),
+    ]
+    return "\n".join(parts)
+
+
+def page_of_commands() -> str:
+    """The commands with their options, as the program has them."""
+    parts = ["# Commands\n"]
+    for name, command in _commands(typer.main.get_command(app)):
+        if isinstance(command, PanelsFirst):
+            command.fill_lists()
+        context = command.make_context(name, [], resilient_parsing=True)
+        parts += [f"## {name}\n", f"{(command.help or '').strip()}\n"]
+        rows = [_option(param) for param in command.get_params(context)]
+        parts.append(table(("option", "meaning"), rows))
+    parts.append(
+        "Exit codes: 0 done; 1 a load did not converge, a case failed, or one of several maps was "
+        "refused; 2 the input cannot be used, and one line says why; 130 interrupted, with "
+        "everything finished kept.\n"
+    )
+    return "\n".join(parts)
+
+
+def page_of_materials() -> str:
+    """The table of materials with its sources."""
+    rows = [
+        (
+            each.name,
+            *(_value(value) for value in (each.E / 1e9, each.nu)),
+            _value(None if each.hardness is None else each.hardness / 1e9),
+            *(_value(value) for value in (each.resistivity, each.conductivity, each.density)),
+            each.source,
+        )
+        for each in sorted(materials().values(), key=lambda each: each.name)
+    ]
+    header = (
+        *("name", "E [GPa]", "ν", "hardness [GPa]", "resistivity [Ω m]"),
+        *("conductivity [W/(m K)]", "density [kg/m³]", "source"),
+    )
+    comments = [
+        line.lstrip("# ").strip()
+        for line in (Path(rl.__file__).parent / "engineering" / "materials.csv")
+        .read_text("utf-8")
+        .splitlines()
+        if line.startswith("#")
+    ]
+    return f"# Materials\n\n{' '.join(comments)}\n\n{table(header, rows)}"
+
+
+def page_of_quantities() -> str:
+    """The output quantities of a curve."""
+    rows = [
+        (
+            f"`{each.name}`",
+            f"${each.symbol}$" if each.symbol else "",
+            each.meaning,
+            each.dimension or "",
+            ", ".join(each.dims),
+        )
+        for each in QUANTITIES.values()
+    ]
+    header = ("name", "symbol", "meaning", "unit", "over")
+    return f"# Output quantities of a curve\n\n{table(header, rows)}"
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table in Markdown."""
+    lines = [header, ["---"] * len(header), *rows]
+    return "".join(
+        f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |\n" for line in lines
+    )
+
+
+def _summary(heading: str, module: str, names: Iterable[str]) -> str:
+    listed = "\n".join(f"   {name}" for name in names)
+    return (
+        f"{heading}\n{'-' * len(heading)}\n\n.. currentmodule:: {module}\n\n"
+        f".. autosummary::\n   :toctree: names\n   :nosignatures:\n\n{listed}\n"
+    )
+
+
+def _public(module: Any) -> list[str]:
+    return [
+        name
+        for name, value in vars(module).items()
+        if not name.startswith("_") and getattr(value, "__module__", None) == module.__name__
+    ]
+
+
+def _functions(module: Any) -> list[str]:
+    return [name for name in _public(module) if inspect.isfunction(getattr(module, name))]
+
+
+def _title(module: Any) -> str:
+    return module.__name__.rpartition(".")[2]
+
+
+def _commands(command: Any, name: str = "roughline") -> Iterable[tuple[str, Any]]:
+    inner = getattr(command, "commands", None)
+    if inner is None:
+        yield name, command
+        return
+    for key, each in inner.items():
+        yield from _commands(each, f"{name} {key}")
+
+
+def _option(param: Any) -> tuple[str, str]:
+    names = ", ".join(f"`{name}`" for name in (*param.opts, *param.secondary_opts))
+    text = re.sub(r"(--[a-z-]+)", r"`\1`", re.sub(r"\s+", " ", param.help or ""))
+    shown = param.default not in (None, False, (), []) and "default" not in text
+    return names, f"{text} [default: {param.default}]" if shown else text
+
+
+def _value(value: float | None) -> str:
+    return "" if value is None else decimal(value, 4)

@@ -1,0 +1,69 @@
+"""The handbook's pages that are made of the code, and its gallery; `make docs` builds both."""
+
+from pathlib import Path
+
+import made
+import pytest
+import typer
+
+import roughline as rl
+from roughline.cli import app
+from roughline.contact.quantities import QUANTITIES
+from roughline.engineering.materials import materials
+
+GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
+
+
+def test_every_public_name_has_a_page():
+    page = made.page_of_names()
+    for name in {*rl.__all__, *rl.plot.__all__} - made.CONSTANTS - {"__version__"}:
+        assert f"   {name}\n" in page
+
+
+def test_a_name_without_a_section_is_refused(monkeypatch):
+    monkeypatch.delitem(made.SECTIONS, "Bodies")
+    with pytest.raises(ValueError, match=r"SECTIONS in made.py lacks Line, Preparation, Surface"):
+        made.page_of_names()
+
+
+def test_every_option_of_every_command_is_listed():
+    sections = made.page_of_commands().split("\n## ")
+    for name, command in made._commands(typer.main.get_command(app)):
+        (section,) = (each for each in sections if each.startswith(f"{name}\n"))
+        for param in command.params:
+            assert all(f"`{each}`" in section for each in param.opts)
+    assert not any("{" in section for section in sections)
+
+
+def test_every_material_is_listed_with_its_source():
+    page = made.page_of_materials()
+    for each in materials().values():
+        (row,) = (line for line in page.splitlines() if line.startswith(f"| {each.name} |"))
+        assert each.source in row
+
+
+def test_every_quantity_is_listed_with_its_meaning():
+    page = made.page_of_quantities()
+    assert all(f"| `{each.name}` |" in page for each in QUANTITIES.values())
+    assert all(each.meaning in page for each in QUANTITIES.values())
+
+
+def test_the_gallery_lists_its_examples():
+    assert sorted(made.GALLERY) == sorted(path.stem for path in GALLERY.glob("*.py"))
+    assert len(made.GALLERY) >= 18
+
+
+@pytest.mark.parametrize("name", made.GALLERY)
+def test_an_example_is_short_and_asks_a_question(name):
+    lines = (GALLERY / f"{name}.py").read_text("utf-8").splitlines()
+    assert len(lines) <= 40
+    title = lines[1]
+    assert title.endswith("?") or title.startswith("From ")
+    assert set(lines[2]) == {"="}
+    assert len(lines[2]) == len(title)
+
+
+def test_the_citation_is_of_this_version():
+    root = GALLERY.parents[1]
+    assert f"version = {{{rl.__version__}}}" in (root / "docs" / "cite.md").read_text("utf-8")
+    assert f"\nversion: {rl.__version__}\n" in (root / "CITATION.cff").read_text("utf-8")
