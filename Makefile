@@ -89,7 +89,6 @@ study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
 	$(BIN)/python -m studies.paper.reduce out/study.zarr
 	$(BIN)/python -m studies.paper.gallery
-	$(BIN)/python -m studies.paper.times
 
 correlations: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/correlations/plan.toml --store out/correlations.zarr

@@ -56,7 +56,7 @@ def finished(store: Store, ensemble: Ensemble) -> xarray.Dataset:
             f"{store.path}: the ensemble {ensemble.name!r} cannot be read ({error}); run the "
             "campaign again, it computes what is damaged anew"
         ) from error
-    _refuse_other_settings(data.attrs, ensemble, str(store.path))
+    refuse_other_settings(data.attrs, ensemble, str(store.path))
     there = set(data.fractal_dimension.values.tolist())
     wanted = [each for each in ensemble.fractal_dimensions if each in there]
     data = data.sel(fractal_dimension=wanted).isel(realisation=slice(ensemble.realisations))
@@ -129,7 +129,7 @@ def read_groups(path: Path, plan: Plan) -> dict[str, xarray.Dataset]:
                     f"{path} has no ensemble {ensemble.name!r}, which the plan has: {_AGAIN}"
                 ) from error
     for ensemble in plan.ensembles:
-        _refuse_other_settings(read[ensemble.name].attrs, ensemble, str(path))
+        refuse_other_settings(read[ensemble.name].attrs, ensemble, str(path))
         _refuse_other_extent(read[ensemble.name], ensemble, str(path))
     return {name: _in_double(data) for name, data in read.items()}
 
@@ -170,7 +170,14 @@ def _readable(path: Path) -> Iterator[None]:
         raise StoreError(f"{path} is damaged ({error}): {_AGAIN}") from error
 
 
-def _refuse_other_settings(stored: dict[str, Any], ensemble: Ensemble, place: str) -> None:
+def refuse_other_settings(stored: dict[str, Any], ensemble: Ensemble, place: str) -> None:
+    """Refuse attributes of data that are not the settings of an ensemble of the plan.
+
+    Raises
+    ------
+    StoreError
+        With the first difference.
+    """
     wanted = json.loads(json.dumps(ensemble.identity()))
     for key, value in wanted.items():
         found = stored.get(key)

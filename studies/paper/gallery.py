@@ -6,7 +6,6 @@ writes ``gallery.nc`` into the data of the package: topography and deflection on
 point, and the share of each block of four by four cells that is in contact.
 """
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +15,6 @@ from roughline._version import __version__
 from roughline.campaign.export import write_netcdf
 from roughline.campaign.gallery import bodies_of
 from roughline.paper.plan import paper_plan
-from roughline.paper.results import PAPER_GRID
 
 HERE = Path(__file__).parent
 DATA = HERE.parents[1] / "src" / "roughline" / "paper" / "data"
@@ -25,9 +23,8 @@ EVERY, BLOCK = 16, 4
 
 def main() -> None:
     """Press them all."""
-    plan = paper_plan("full").gallery
-    assert plan is not None
-    gallery = replace(plan, n=PAPER_GRID)
+    gallery = paper_plan("full").gallery
+    assert gallery is not None
     bodies = [bodies_of(gallery, each) for each in gallery.fractal_dimensions]
     places = ("fractal_dimension", "x", "y")
     blocks = ("fractal_dimension", "x_block", "y_block")

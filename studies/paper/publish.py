@@ -13,16 +13,26 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 import roughline as rl
+from roughline import campaign
 from roughline.comparison.trust import TrustMap
 from roughline.paper.added_figures import trust_map_figure
 from roughline.paper.page import compose
-from roughline.paper.results import published_folder, published_results
+from roughline.paper.results import published_dataset, published_folder, published_results
 from roughline.paper.trust_page import trust_page
 from roughline.plot.style import save, styled
 from roughline.report.page import render_markdown
-from studies.reduced_data import errors_in_one_line
+from studies.reduced_data import errors_in_one_line, refuse_other_settings
 
 HERE = Path(__file__).parent
+PLAN = HERE / "plan.toml"
+ENSEMBLES = {
+    "lines": "lines",
+    "matched": "lines-of-surfaces",
+    "surfaces": "surfaces",
+    "coarse": "coarse-surfaces",
+    **{f"grid_{n}": f"grids-n{n}" for n in (128, 256, 512, 1024)},
+}
+"""Ensembles of the plan by the files that are theirs."""
 DOCS = HERE.parents[1] / "docs"
 FIGURES = DOCS / "figures" / "paper"
 FOLDER_IN_PAGES = "figures/paper"
@@ -30,10 +40,26 @@ FOLDER_IN_PAGES = "figures/paper"
 
 def main() -> None:
     """Draw everything anew."""
+    refuse_another_plan()
     shutil.rmtree(FIGURES, ignore_errors=True)
     FIGURES.mkdir(parents=True)
     publish_paper()
     publish_map()
+
+
+def refuse_another_plan() -> None:
+    """Refuse data of the package that are not those of the plan.
+
+    Raises
+    ------
+    StoreError
+        With the first difference.
+    """
+    plan = campaign.read_plan(PLAN)
+    for file_name, ensemble in ENSEMBLES.items():
+        path = published_folder() / f"{file_name}.nc"
+        attributes = published_dataset(file_name).attrs
+        refuse_other_settings(attributes, plan.ensemble(ensemble), path.name)
 
 
 def publish_paper() -> None:

@@ -2,11 +2,14 @@
 
     python -m studies.paper.reduce out/study.zarr
 
-writes the data and the map of the package.
+writes the data and the map of the package, and what computing them took.
 """
 
+import json
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -16,6 +19,7 @@ import roughline as rl
 from roughline import campaign
 from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
+from roughline.campaign.run import log_of
 from roughline.comparison.trust import COLUMNS
 from roughline.paper.exponents import exponents_of
 from roughline.paper.windows import WINDOWS_REDUCED
@@ -43,11 +47,13 @@ def main(path: Path) -> None:
         store.dataset("lines-of-surfaces").drop_vars(["depth", "rms_slope", "highest"]), "matched"
     )
     write(surfaces, "surfaces")
-    write(store.dataset("paper-grid"), "paper_grid")
+    write(store.dataset("coarse-surfaces"), "coarse")
     for n in (128, 256, 512, 1024):
         write(store.dataset(f"grids-n{n}"), f"grid_{n}")
     write_map(store, "map", (1, 2, 4, 8, 16), MAP)
     write_map(store, "fine", (1, 4), DATA / "map_fine.csv")
+    text = json.dumps(computing_of(path), indent=1) + "\n"
+    (DATA / "computing.json").write_text(text, encoding="utf-8")
 
 
 def write(data: xarray.Dataset, name: str) -> None:
@@ -81,6 +87,22 @@ def write_map(store: Store, name: str, roll_offs: Sequence[int], path: Path) -> 
             ]
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     table.to_csv(path, index=False, float_format="%.6g")
+
+
+def computing_of(path: Path) -> dict[str, Any]:
+    """Return what the runs of a store took, one after another, and on which machine."""
+    runs = [json.loads(line) for line in log_of(path).read_text(encoding="utf-8").splitlines()]
+    done: Counter[str] = Counter()
+    core_seconds: Counter[str] = Counter()
+    for each in runs:
+        done.update(each["done"])
+        core_seconds.update(each["core_seconds"])
+    return {
+        "processor": " and ".join(sorted({each["processor"] for each in runs})),
+        "cores": max(each["cores"] for each in runs),
+        "hours": round(sum(each["seconds"] for each in runs) / 3600, 2),
+        "core_seconds": {name: float(f"{core_seconds[name] / done[name]:.3g}") for name in done},
+    }
 
 
 if __name__ == "__main__":

@@ -10,6 +10,13 @@ import xarray
 import roughline as rl
 from roughline.paper import added_figures
 from roughline.paper.page import compose, write_page
+from roughline.paper.results import (
+    ROW_FULL,
+    ROW_MATCHED,
+    ROW_OTHER_GRID,
+    ROW_REDUCED,
+    Computing,
+)
 from roughline.report.page import render_markdown
 
 DIMENSIONS = (2.0, 2.4, 3.0)  # of the study in small
@@ -70,15 +77,26 @@ def test_the_published_page_has_grids_and_times(results, tmp_path):
     more = replace(
         results,
         gallery=None,
-        grids={24: results.full, 48: results.full},
+        grids={48: results.full, 96: results.full},
         other_grid=results.full,
-        core_seconds={"reduced": 0.02, "full, 2048²": 100.0},
+        computing=Computing(
+            processor="a processor",
+            cores=2,
+            hours=2.5,
+            core_seconds={
+                **dict.fromkeys((ROW_MATCHED, ROW_OTHER_GRID, "full, 48²", "full, 96²"), 1.0),
+                **{ROW_REDUCED: 0.02, ROW_FULL: 2400.0},
+            },
+        ),
     )
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(added_figures, "CONVERGENCE_DIMENSIONS", DIMENSIONS)
         text = render_markdown(*compose(more, tmp_path), "figures/paper")
     assert text.startswith("# The paper, recomputed")
-    assert "today 10 hours for the 60 surfaces of six D_f, on one core: 100 s a surface" in text
+    said = "4.0 hours for the 12 surfaces of 24² with 25 loads each, on 2 cores (a processor)"
+    assert said in text
+    assert "2400 core seconds a surface" in text
+    assert "took 2.5 hours on 2 cores of a machine with the processor a processor" in text
     assert "1D: samples of 2^20 points within minutes (§8) | 0.02 s a line" in text
     assert "![The influence of the grid](figures/paper/grid_convergence.png)" in text
     assert "1.000 (1.000-1.000)" in text

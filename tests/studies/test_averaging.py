@@ -1,6 +1,7 @@
 """The study of averages: known exponents come back, whatever is held fixed."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -117,11 +118,15 @@ def test_the_data_are_those_of_the_published_study():
 
 
 def test_sentences_without_numbers_are_true_too():
-    # "its interval is the narrowest"
-    for choice in choices():
-        other = exponent("surfaces", USUAL["surfaces"], choice, 2.0)
-        force = exponent("surfaces", USUAL["surfaces"], FORCE, 2.0)
-        assert math.isnan(other.value) or other.high - other.low > 0.95 * (force.high - force.low)
+    # "its interval is the narrowest of all at D_f = ..., and at most 6% wider elsewhere"
+    said = re.search(r"narrowest of all at D_f = (.*?), and at most (\d+)% wider", page())
+    for one in DIMENSIONS:
+        found = [exponent("surfaces", USUAL["surfaces"], each, one) for each in choices()]
+        force = exponent("surfaces", USUAL["surfaces"], FORCE, one)
+        least = min(each.high - each.low for each in found if not math.isnan(each.value))
+        excess = (force.high - force.low) / least - 1
+        assert (excess == 0) == (str(one) in said[1].split(", "))
+        assert excess <= (int(said[2]) + 0.5) / 100
     # the linear law is shown by no choice, for no fractal dimension
     for bodies in USUAL:
         for window in windows(bodies):

@@ -4,11 +4,9 @@ The map comes from ensembles of both models with the same self-affine spectrum, 
 32 times that. The grids resolve these waves well (256² points, free half-space). The map is part of
 the package; the study in ``studies/paper`` computes it.
 
-The intervals of the map are percentiles of resampled realisations. With 20 surfaces such intervals
-hold the truth in 90 to 93 of 100 cases. They were therefore widened about the difference, in the
-logarithm of the ratio, by 1.0957: Student's t of 19 degrees of freedom over the normal 1.96, times
-√(20 / 19). The widened intervals hold the truth in 93 to 95 of 100 cases
-(``make bootstrap-coverage``). The next run of the study writes studentised intervals.
+The intervals of the map are studentised, as all intervals over realisations are. With 20 surfaces
+and 200 lines at each place they hold the truth in 94 to 96 of 100 cases
+(``make bootstrap-coverage``).
 """
 
 from __future__ import annotations

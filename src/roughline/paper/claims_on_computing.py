@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.paper.claim import EXACT, Claim, bodies_of
-from roughline.paper.results import PAPER_GRID, ROW_REDUCED, PaperResults, row_of_grid
+from roughline.paper.results import ROW_FULL, ROW_REDUCED, PaperResults
 from roughline.statistics.verdict import Verdict, verdict
 
 _SOME_MINUTES = 3600  # longest time that counts as minutes [s]
 _SOME_WEEKS = 7 * 24  # shortest time that counts as weeks [h]
-_PAPERS_SURFACES = 60 * 6  # 60 surfaces for each of six fractal dimensions
 
 
 def no_difficulties(results: PaperResults) -> Claim:
@@ -31,9 +30,9 @@ def no_difficulties(results: PaperResults) -> Claim:
 
 def reduced_within_minutes(results: PaperResults) -> list[Claim]:
     """Judge whether lines of 2^20 points take minutes; no claim where times are not known."""
-    if ROW_REDUCED not in results.core_seconds:
+    if results.computing is None:
         return []
-    seconds, data = results.core_seconds[ROW_REDUCED], results.reduced
+    seconds, data = results.computing.core_seconds[ROW_REDUCED], results.reduced
     dimensions = results.exponents.sizes["fractal_dimension"]
     ensemble = seconds * data.sizes["realisation"]
     judged = verdict(ensemble, ensemble, 0, _SOME_MINUTES)
@@ -54,20 +53,21 @@ def reduced_within_minutes(results: PaperResults) -> list[Claim]:
 
 def full_takes_weeks(results: PaperResults) -> list[Claim]:
     """Judge whether a study of surfaces takes weeks; no claim where times are not known."""
-    data = results.other_grid
-    if data is None or row_of_grid(PAPER_GRID) not in results.core_seconds:
+    if results.computing is None:
         return []
-    seconds = results.core_seconds[row_of_grid(PAPER_GRID)]
-    hours = seconds * _PAPERS_SURFACES / 3600
+    computing, data = results.computing, results.full
+    seconds = computing.core_seconds[ROW_FULL]
+    bodies = data.sizes["realisation"] * data.sizes["fractal_dimension"]
+    hours = seconds * bodies / computing.cores / 3600
     judged = verdict(hours, hours, _SOME_WEEKS, np.inf)
-    dimensions = data.sizes["fractal_dimension"]
     return [
         Claim(
             "3D: the study takes several weeks at 2049² (§8)",
-            found=f"today {hours:.0f} hours for the 60 surfaces of six D_f, on one core: "
-            f"{seconds:.0f} s a surface of {data.attrs['n']}² with {data.sizes['force_bar']} "
-            "loads. How many loads the paper computed is not known",
-            interval=f"mean of one surface for each of {dimensions} D_f, multiplied",
+            found=f"today {hours:.1f} hours for the {bodies} surfaces of {data.attrs['n']}² with "
+            f"{data.sizes['force_bar']} loads each, on {computing.cores} cores ("
+            f"{computing.processor}): {seconds:.0f} core seconds a surface. How many loads the "
+            "paper computed is not known",
+            interval="mean of all surfaces",
             basis="all loads",
             verdict=judged,
             cases=f"{judged}: hours",

@@ -153,6 +153,7 @@ def _methods_section(results: PaperResults) -> Section:
             "independent springs and are solved exactly. Spectra fall as q^(-2(H+1)) from "
             "2π/L to the grid (no roll-off), C_1D = π q C_2D; phases are random, moduli fixed; "
             "heights are scaled to rms 1 in both models.",
+            *_hours(results),
         ],
         tables=[settings_table(results)],
         note=(
@@ -160,3 +161,15 @@ def _methods_section(results: PaperResults) -> Section:
             "The numbers behind every figure are in the folder data, as NetCDF and CSV."
         ),
     )
+
+
+def _hours(results: PaperResults) -> list[str]:
+    """Say what the whole took, if it is told."""
+    computing = results.computing
+    if computing is None:
+        return []
+    return [
+        f"All this, and the map of the two models, took {computing.hours:.1f} hours on "
+        f"{computing.cores} cores of a machine with the processor {computing.processor}; the "
+        "founding paper speaks of several weeks."
+    ]

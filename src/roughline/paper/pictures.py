@@ -100,5 +100,6 @@ def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
         "models_compared": partial(added_figures.both_models_figure, full, results.matched),
     }
     if results.grids:
-        drawings["grid_convergence"] = partial(added_figures.grid_convergence_figure, results.grids)
+        grids = results.grids | {int(full.attrs["n"]): full}
+        drawings["grid_convergence"] = partial(added_figures.grid_convergence_figure, grids)
     return drawings

@@ -20,16 +20,37 @@ if TYPE_CHECKING:
     from roughline.campaign.store import Store
 
 ROW_REDUCED, ROW_MATCHED, ROW_FULL = "reduced", "reduced, with the waves of the surfaces", "full"
+ROW_OTHER_GRID = "full, on another grid"
 """Names of the ensembles in the table of what was computed."""
 
-PAPER_GRID = 2048
-"""Points along a side of the surfaces on the paper's grid."""
-_OTHER_GRIDS = (128, 256, 512, 1024)
+_GRIDS = (128, 256, 512, 1024)
 
 
 def row_of_grid(n: int) -> str:
-    """Return the name of the surfaces on a grid of n points along a side."""
+    """Return the name of single surfaces on a grid of n points along a side."""
     return f"full, {n}²"
+
+
+@dataclass(frozen=True)
+class Computing:
+    """What a study took, on which machine.
+
+    Attributes
+    ----------
+    processor : str
+        Name of the processor.
+    cores : int
+        How many of its cores computed.
+    hours : float
+        All ensembles of the study together, with the map, on these cores. [h]
+    core_seconds : dict of float
+        One body with all its loads on one core, on the average, by the name of its row. [s]
+    """
+
+    processor: str
+    cores: int
+    hours: float
+    core_seconds: dict[str, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,11 +73,11 @@ class PaperResults:
     gallery : Dataset or None
         Single bodies for Figures 1 and 2.
     grids : dict of Dataset
-        The same surfaces on other grids, by points along a side.
+        One of the surfaces of `full` on other grids, by points along a side.
     other_grid : Dataset or None
-        Some of the surfaces of `full` on another grid, with the waves that it carries.
-    core_seconds : dict of float
-        Computing time of one body with all its loads, on one core, by the name of its row. [s]
+        The surfaces of `full` on another grid, with the waves that it carries.
+    computing : Computing or None
+        What the study took; None where it is not told.
     """
 
     name: str
@@ -68,7 +89,7 @@ class PaperResults:
     gallery: xarray.Dataset | None = None
     grids: dict[int, xarray.Dataset] = field(default_factory=dict)
     other_grid: xarray.Dataset | None = None
-    core_seconds: dict[str, float] = field(default_factory=dict)
+    computing: Computing | None = None
 
     @cached_property
     def laws(self) -> list[DimensionLaws]:
@@ -108,13 +129,10 @@ def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:
     Parameters
     ----------
     folder : Path
-        The folder with the NetCDF files, and with ``times.json``.
+        The folder with the NetCDF files, and with ``computing.json``.
     name, command : str
         As in :class:`PaperResults`.
     """
-    times = json.loads((folder / "times.json").read_text(encoding="utf-8"))["core_seconds"]
-    paper_grid = _read_netcdf(folder / "paper_grid.nc")
-    grids = {n: _read_netcdf(folder / f"grid_{n}.nc") for n in _OTHER_GRIDS}
     return PaperResults(
         name=name,
         command=command,
@@ -123,15 +141,9 @@ def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:
         matched=_read_netcdf(folder / "matched.nc"),
         exponents=_read_netcdf(folder / "exponents.nc"),
         gallery=_read_netcdf(folder / "gallery.nc"),
-        grids=grids | {PAPER_GRID: paper_grid},
-        other_grid=paper_grid,
-        core_seconds={
-            ROW_REDUCED: times[ENSEMBLE_REDUCED],
-            ROW_MATCHED: times[ENSEMBLE_MATCHED],
-            ROW_FULL: times[ENSEMBLE_FULL],
-            row_of_grid(PAPER_GRID): times["paper-grid"],
-            **{row_of_grid(n): times[f"grids-n{n}"] for n in _OTHER_GRIDS},
-        },
+        grids={n: _read_netcdf(folder / f"grid_{n}.nc") for n in _GRIDS},
+        other_grid=_read_netcdf(folder / "coarse.nc"),
+        computing=_read_computing(folder / "computing.json"),
     )
 
 
@@ -143,7 +155,7 @@ def published_results() -> PaperResults:
     -------
     PaperResults
         What the page "The paper, recomputed" is made of: 500 lines of 2^20 points and 60 surfaces
-        of 512² for each of six fractal dimensions.
+        of 2048² for each of six fractal dimensions.
     """
     return results_of_folder(
         published_folder(),
@@ -158,9 +170,9 @@ def published_dataset(name: str) -> xarray.Dataset:
 
     Parameters
     ----------
-    name : {"lines", "surfaces", "exponents"}
-        The reduced ensemble, the full one, or the exponents of the reduced model over all
-        fractal dimensions, as in :class:`PaperResults`.
+    name : str
+        A file of the study without its ending: "lines" and "surfaces" are the reduced and the full
+        ensemble, "exponents" those of the reduced model over all fractal dimensions.
     """
     return _read_netcdf(published_folder() / f"{name}.nc")
 
@@ -168,6 +180,19 @@ def published_dataset(name: str) -> xarray.Dataset:
 def published_folder() -> Path:
     """Where the files of the study are that comes with the package."""
     return Path(str(files("roughline.paper").joinpath("data")))
+
+
+def _read_computing(path: Path) -> Computing:
+    told = json.loads(path.read_text(encoding="utf-8"))
+    rows = {
+        ROW_REDUCED: ENSEMBLE_REDUCED,
+        ROW_MATCHED: ENSEMBLE_MATCHED,
+        ROW_FULL: ENSEMBLE_FULL,
+        ROW_OTHER_GRID: "coarse-surfaces",
+        **{row_of_grid(n): f"grids-n{n}" for n in _GRIDS},
+    }
+    each = {row: told["core_seconds"][ensemble] for row, ensemble in rows.items()}
+    return Computing(told["processor"], told["cores"], told["hours"], each)
 
 
 def _read_netcdf(path: Path) -> xarray.Dataset:

@@ -12,6 +12,7 @@ from roughline.paper.exponents import exponent_estimate, prefactor_estimate
 from roughline.paper.results import (
     ROW_FULL,
     ROW_MATCHED,
+    ROW_OTHER_GRID,
     ROW_REDUCED,
     PaperResults,
     row_of_grid,
@@ -182,6 +183,7 @@ def settings_table(results: PaperResults) -> Table:
         (ROW_REDUCED, results.reduced),
         (ROW_MATCHED, results.matched),
         (ROW_FULL, results.full),
+        *([] if results.other_grid is None else [(ROW_OTHER_GRID, results.other_grid)]),
         *((row_of_grid(n), data) for n, data in sorted(results.grids.items())),
     ]
     rows = []
@@ -201,15 +203,12 @@ def settings_table(results: PaperResults) -> Table:
             )
         )
     header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")
-    return Table((*header, "One body, one core, at most") if results.core_seconds else header, rows)
+    return Table((*header, "One body, one core") if results.computing else header, rows)
 
 
 def _time_cells(results: PaperResults, row: str) -> list[str]:
     """Computing time of a row of the settings; no cell at all where no times are known."""
-    if not results.core_seconds:
-        return []
-    seconds = results.core_seconds.get(row)
-    return [f"{seconds:.3g} s" if seconds else "-"]
+    return [f"{results.computing.core_seconds[row]:.3g} s"] if results.computing else []
 
 
 def write_data(folder: Path, results: PaperResults, claims: list[Claim]) -> None:
@@ -218,6 +217,8 @@ def write_data(folder: Path, results: PaperResults, claims: list[Claim]) -> None
 
     folder.mkdir(parents=True, exist_ok=True)
     ensembles = {"reduced": results.reduced, "matched": results.matched, "full": results.full}
+    if results.other_grid is not None:
+        ensembles["other_grid"] = results.other_grid
     ensembles |= {f"grid_{n}": data for n, data in results.grids.items()}
     for name, data in ensembles.items():
         write_netcdf(data, folder / f"{name}.nc")

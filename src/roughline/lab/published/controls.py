@@ -23,8 +23,8 @@ def _edge(key: str, name: str, default: float, low: float, step: float) -> Contr
 
 LOW_1D = _edge("low_1D", "from (1D)", 1e-4, 1e-5, 0.1)
 HIGH_1D = _edge("high_1D", "to (1D)", 1e-2, 1e-5, 0.1)
-LOW_3D = _edge("low_3D", "from (3D)", 1e-2, 1e-3, 0.125)
-HIGH_3D = _edge("high_3D", "to (3D)", 1e-1, 1e-3, 0.125)
+LOW_3D = _edge("low_3D", "from (3D)", 1e-2, 1e-3, 0.25)
+HIGH_3D = _edge("high_3D", "to (3D)", 1e-1, 1e-3, 0.25)
 WINDOWS = {"1D": (LOW_1D, HIGH_1D), "3D": (LOW_3D, HIGH_3D)}
 """Edges of the window of each model."""
 
