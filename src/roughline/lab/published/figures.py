@@ -127,7 +127,7 @@ def _draw_with_intervals(
 
 def _area() -> figure:
     """The real contact area over force."""
-    plot = log_figure(_FORCE, "real contact area A / A_0", (1e-3, 10), (5e-4, 1.3))
+    plot = log_figure(_FORCE, "real contact area A / A_0", (1e-3, 10), (1e-6, 1.3))
     plot.toolbar.active_scroll = plot.tools[1]
     plot.add_layout(_window("window area", editable=False))
     _draw_curves(plot, "area")
