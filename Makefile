@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations finite-size area averaging published docs lowest newest dist architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -116,6 +116,11 @@ published: $(VENV)/installed
 	$(BIN)/python -m studies.area.publish
 	$(BIN)/python -m studies.averaging.publish
 	$(BIN)/python -m studies.finite_size.publish
+
+# The errors against exact solutions that the handbook tells, from the tests' own run.
+validation: $(VENV)/installed
+	rm -f docs/validation.json
+	ROUGHLINE_VALIDATION=1 $(BIN)/python -m pytest tests/halfspace/test_exact_solutions.py tests/halfspace/test_hardness_exact.py tests/reduction/test_exact_solutions.py
 
 # The handbook as a site, which opens from disk: out/docs/index.html.
 docs: $(VENV)/installed

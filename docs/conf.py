@@ -1,5 +1,6 @@
 """The handbook's settings for Sphinx; ``make docs`` builds it into ``out/docs``."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -58,3 +59,12 @@ html_theme_options = {
     "footer_start": ["copyright"],
     "footer_end": ["sphinx-version"],
 }
+if "ROUGHLINE_HANDBOOKS" in os.environ:  # the address of all versions' handbooks, set by a release
+    html_theme_options |= {
+        "switcher": {
+            "json_url": f"{os.environ['ROUGHLINE_HANDBOOKS']}/versions.json",
+            "version_match": version,
+        },
+        "navbar_end": ["version-switcher", "theme-switcher", "navbar-icon-links"],
+        "check_switcher": False,  # the file is written when the handbook is published
+    }

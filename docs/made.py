@@ -1,14 +1,16 @@
-"""Pages of the handbook that are made of the code: names, commands, materials, quantities."""
+"""Pages of the handbook that are made of the code and of its tests, not written."""
 
 from __future__ import annotations
 
 import inspect
+import json
 import re
 import shutil
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import typer
 
 import roughline as rl
@@ -78,6 +80,7 @@ def write_pages(source: str | Path) -> None:
         "commands.md": page_of_commands(),
         "materials.md": page_of_materials(),
         "quantities.md": page_of_quantities(),
+        "validation.md": page_of_validation(Path(source) / "validation.json"),
     }
     for name, text in pages.items():
         path = folder / name
@@ -170,12 +173,42 @@ def page_of_quantities() -> str:
     return f"# Output quantities of a curve\n\n{table(header, rows)}"
 
 
+def page_of_validation(path: Path) -> str:
+    """Errors against exact solutions, as the tests found them."""
+    parts = [
+        "# Beside exact solutions\n",
+        "Relative errors that the tests find, by the points along a side. The rate is the power of "
+        "1/n with which they fall, by least squares over three grids or more. None is told where "
+        "an error does not fall from grid to grid: it changes its sign there, or hangs on a few "
+        "cells at the outline. `make validation` writes the errors, and each test holds its own "
+        "to them.\n",
+    ]
+    rows = json.loads(path.read_text("utf-8"))
+    for heading, folder in (("Full model", "halfspace"), ("Reduced model", "reduction")):
+        of_model = [each for each in rows if each["test"].startswith(f"tests/{folder}/")]
+        header = ("solution", "quantity", "points along a side: relative error", "rate", "test")
+        parts += [f"## {heading}\n", table(header, map(_validated, of_model))]
+    return "\n".join(parts)
+
+
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a table in Markdown."""
     lines = [header, ["---"] * len(header), *rows]
     return "".join(
         f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |\n" for line in lines
     )
+
+
+def _validated(row: Any) -> tuple[str, ...]:
+    file, _, test = row["test"].partition("::")
+    errors = row["errors"]
+    listed = "; ".join(f"{grid}: {error:.1e}" for grid, error in errors.items())
+    sizes = [int(grid) for grid in errors if grid.isdecimal()]
+    values = list(errors.values())
+    rate = ""
+    if len(sizes) >= 3 and (np.diff(values) < 0).all():
+        rate = f"{-np.polyfit(np.log(sizes), np.log(values), 1)[0]:.1f}"
+    return row["solution"], row["quantity"], listed, rate, f"`{file}`: {test.replace('_', ' ')}"
 
 
 def _summary(heading: str, module: str, names: Iterable[str]) -> str:

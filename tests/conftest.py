@@ -9,6 +9,7 @@ import pytest
 import roughline as rl
 from dask_processes import start_scheduler, start_worker
 from roughline import cli
+from validation import hold
 
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
@@ -26,6 +27,18 @@ def topographies() -> Path:
     if not _TOPOGRAPHIES.is_dir():
         pytest.skip("no measured files beside the repository")
     return _TOPOGRAPHIES
+
+
+@pytest.fixture
+def judged(request):
+    """Hold the errors of a test against an exact solution to those that the handbook tells."""
+    file = request.path.relative_to(request.config.rootpath).as_posix()
+    test = f"{file}::{request.function.__name__}"
+
+    def held(solution, quantity, grid, error):
+        hold(test, solution, quantity, grid, float(error))
+
+    return held
 
 
 @pytest.fixture

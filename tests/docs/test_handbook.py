@@ -1,10 +1,13 @@
 """The handbook's pages that are made of the code, and its gallery; `make docs` builds both."""
 
+import json
+import re
 from pathlib import Path
 
 import made
 import pytest
 import typer
+import versions
 
 import roughline as rl
 from roughline.cli import app
@@ -48,6 +51,32 @@ def test_every_quantity_is_listed_with_its_meaning():
     assert all(each.meaning in page for each in QUANTITIES.values())
 
 
+def test_each_exact_test_stands_on_the_page_of_validation():
+    root = GALLERY.parents[1]
+    page = made.page_of_validation(root / "docs" / "validation.json")
+    told = {each["test"] for each in json.loads((root / "docs" / "validation.json").read_text())}
+    files = ("halfspace/test_exact_solutions", "halfspace/test_hardness_exact")
+    found = {
+        f"tests/{file}.py::{name}"
+        for file in (*files, "reduction/test_exact_solutions")
+        for name, arguments in re.findall(
+            r"^def (test_\w+)\(([^)]*)\)", (root / "tests" / f"{file}.py").read_text("utf-8"), re.M
+        )
+        if "judged" in arguments
+    }
+    assert told == found
+    assert len(found) == 11
+    for each in told:
+        assert each.partition("::")[2].replace("_", " ") in page
+
+
+def test_a_rate_is_told_only_where_errors_fall():
+    row = {"solution": "s", "quantity": "q", "test": "tests/a.py::test_b"}
+    falling = {"8": 4e-2, "16": 1e-2, "32": 2.5e-3}
+    assert made._validated(row | {"errors": falling})[3] == "2.0"
+    assert made._validated(row | {"errors": falling | {"64": 1e-2}})[3] == ""
+
+
 def test_the_gallery_lists_its_examples():
     assert sorted(made.GALLERY) == sorted(path.stem for path in GALLERY.glob("*.py"))
     assert len(made.GALLERY) >= 18
@@ -61,6 +90,14 @@ def test_an_example_is_short_and_asks_a_question(name):
     assert title.endswith("?") or title.startswith("From ")
     assert set(lines[2]) == {"="}
     assert len(lines[2]) == len(title)
+
+
+def test_a_release_fills_the_version_switch(tmp_path):
+    for name in ("0.2.0", "0.10.0", "stable", ".git"):
+        (tmp_path / name).mkdir()
+    listed = versions.versions(tmp_path, "https://a.org/b")
+    assert [each["version"] for each in listed] == ["0.10.0", "0.2.0"]
+    assert listed[0] == {"version": "0.10.0", "url": "https://a.org/b/0.10.0/", "preferred": True}
 
 
 def test_the_citation_is_of_this_version():

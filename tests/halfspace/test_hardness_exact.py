@@ -31,7 +31,7 @@ def rate(sizes, errors):
     return -np.polyfit(np.log(sizes), np.log(np.abs(errors)), 1)[0]
 
 
-def test_a_ball_yields_first_in_its_middle_under_the_force_of_theory():
+def test_a_ball_yields_first_in_its_middle_under_the_force_of_theory(judged):
     sizes, errors = [17, 33, 65], []
     for n in sizes:
         surface = ball(n)
@@ -50,6 +50,7 @@ def test_a_ball_yields_first_in_its_middle_under_the_force_of_theory():
         assert np.argwhere(curve.fields[1].plastic).tolist() == [[n // 2, n // 2]]
         assert curve.indentation[0] == 0 < curve.indentation[1]
         errors.append(first / YIELD_FORCE - 1)
+        judged("ball with a hardness", "force of first yield", n, abs(errors[-1]))
     assert rate(sizes, errors) > 1.5
     assert abs(errors[-1]) < 2e-3
     radius = np.sqrt(curve.area_fraction_corrected[1] / np.pi)
@@ -73,7 +74,7 @@ def test_a_ball_far_beyond_yield_bears_its_hardness():
 
 
 @pytest.mark.parametrize("share", [0.5, 0.9])
-def test_a_disc_that_yields_at_its_rim(share):
+def test_a_disc_that_yields_at_its_rim(share, judged):
     disc = yielding.YieldingDisc(0.3, 1.0, HARDNESS)
     c, sizes = share * disc.radius, [33, 65, 129]
     errors = []
@@ -94,6 +95,11 @@ def test_a_disc_that_yields_at_its_rim(share):
             ]
         )
     errors = np.abs(errors)
+    solution = f"disc with a hardness, elastic within {share} of its radius"
+    quantities = ("depth", "stiffness", "unloading stiffness", "work", "yielded share")
+    for n, row in zip(sizes, errors, strict=True):
+        for quantity, error in zip(quantities, row, strict=True):
+            judged(solution, quantity, n, error)
     inner = r < 0.8 * c
     expected = disc.pressure(c, r)
     assert np.abs(curve.fields[0].pressure - expected)[inner].max() < 0.03 * HARDNESS
