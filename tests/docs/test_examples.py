@@ -46,6 +46,6 @@ def test_files_that_are_named_are_there(page):
 @pytest.mark.parametrize("page", PAGES, ids=name_of)
 def test_links_lead_somewhere(page):
     for target in LINK.findall(page.read_text("utf-8")):
-        if target.startswith("made/"):  # made when the handbook is built, which checks them
+        if "made" in Path(target).parts:  # made when the handbook is built, which checks them
             continue
         assert (page.parent / target).exists(), target
