@@ -48,6 +48,13 @@ sphinx_gallery_conf = {
     "write_computation_times": False,
 }
 
+WIDE = (
+    *("paper", "trust", "averaging", "area", "finite_size", "correlations", "engineering"),
+    *("peers-table", "speed-table", "lab-table", "made/validation", "made/materials"),
+    *("architecture", "conventions", "other_programs", "science", "speed"),
+    *("how-to/coverage", "how-to/grid_error", "how-to/interface_stiffness", "how-to/several_maps"),
+)
+
 html_theme = "pydata_sphinx_theme"
 html_title = f"roughline {version}"
 html_static_path = ["static"]
@@ -55,7 +62,8 @@ html_css_files = ["handbook.css"]
 html_theme_options = {
     "show_toc_level": 2,
     "navigation_with_keys": False,
-    "secondary_sidebar_items": ["page-toc"],
+    # Pages with wide tables have the whole width.
+    "secondary_sidebar_items": {"**": ["page-toc"]} | {page: [] for page in WIDE},
     "footer_start": ["copyright"],
     "footer_end": ["sphinx-version"],
 }

@@ -186,8 +186,10 @@ def page_of_validation(path: Path) -> str:
     rows = json.loads(path.read_text("utf-8"))
     for heading, folder in (("Full model", "halfspace"), ("Reduced model", "reduction")):
         of_model = [each for each in rows if each["test"].startswith(f"tests/{folder}/")]
-        header = ("solution", "quantity", "points along a side: relative error", "rate", "test")
-        parts += [f"## {heading}\n", table(header, map(_validated, of_model))]
+        files = sorted({each["test"].partition("::")[0] for each in of_model})
+        parts += [f"## {heading}\n", f"Tests in {', '.join(f'`{file}`' for file in files)}.\n"]
+        header = ("solution", "quantity", "points: error", "rate", "test")
+        parts.append(table(header, map(_validated, of_model)))
     return "\n".join(parts)
 
 
@@ -200,15 +202,19 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def _validated(row: Any) -> tuple[str, ...]:
-    file, _, test = row["test"].partition("::")
+    test = row["test"].partition("::")[2].removeprefix("test_")
     errors = row["errors"]
-    listed = "; ".join(f"{grid}: {error:.1e}" for grid, error in errors.items())
+    listed = "; ".join(_unbroken(f"{grid}: {error:.1e}") for grid, error in errors.items())
     sizes = [int(grid) for grid in errors if grid.isdecimal()]
     values = list(errors.values())
     rate = ""
     if len(sizes) >= 3 and (np.diff(values) < 0).all():
         rate = f"{-np.polyfit(np.log(sizes), np.log(values), 1)[0]:.1f}"
-    return row["solution"], row["quantity"], listed, rate, f"`{file}`: {test.replace('_', ' ')}"
+    return row["solution"], row["quantity"], listed, rate, test.replace("_", " ")
+
+
+def _unbroken(text: str) -> str:
+    return text.replace(" ", "\N{NO-BREAK SPACE}").replace("-", "\N{NON-BREAKING HYPHEN}")
 
 
 def _summary(heading: str, module: str, names: Iterable[str]) -> str:
