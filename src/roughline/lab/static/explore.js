@@ -92,6 +92,7 @@ class Explore {
 
   #cancel(works) {
     this.#stop(works);
+    this.#stopped = this.#turn;
     const left = {full: "the coarse answer is shown", curve: "the marks of the curves are of the surface before",
       back: "the way back is not shown", download: "nothing was saved"};
     this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
@@ -168,7 +169,8 @@ class Explore {
     this.#plots.set("area here", {x, y: area});
     this.#strip.add(header.strip, header.curve.unloading_bar === null ? OF_YIELD : []);
     this.#fillTables(header.strip);
-    this.#say(header.status, !header.is_coarse);
+    const wasStopped = header.is_coarse && turn === this.#stopped; // and says so already
+    if (!wasStopped) this.#say(header.status, !header.is_coarse);
     this.#undim(CONTACT);
     if (!header.is_coarse) this.#drawSpectrum(header);
   }
@@ -268,6 +270,7 @@ class Explore {
     fillTable("explore-area", ["F̄", "A/A_0"], area);
   }
 
+  #stopped = null; // turn whose finer answer was cancelled
   #turn = 0; // of the questions: controls and cursor follow the answer to the newest alone
 
   #settled(state, numbers, turn = this.#turn) {
