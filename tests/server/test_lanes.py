@@ -375,6 +375,8 @@ def test_names_stand_for_paths_in_sentences():
     arguments = {"session": {"names": {"/tmp/lab/abc/0123.txt": "mine.txt"}}}
     said = without_paths("cannot read /tmp/lab/abc/0123.txt: 0123.txt is empty", arguments)
     assert said == "cannot read mine.txt: mine.txt is empty"
+    arguments = {"session": {"names": {r"C:\lab\abc\0123.txt": "mine.txt"}}}
+    assert without_paths("0123.txt is empty", arguments) == "mine.txt is empty"
 
 
 def test_what_reads_no_file_shares_processes_until_they_are_renewed():

@@ -8,6 +8,7 @@ import secrets
 import shutil
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -138,7 +139,8 @@ class Session:
         """Delete a file."""
         upload = self.uploads.pop(key, None)
         if upload is not None:
-            upload.path.unlink(missing_ok=True)
+            with suppress(PermissionError):  # of Windows, while it is read; its folder goes later
+                upload.path.unlink(missing_ok=True)
 
     def close(self) -> None:
         """Stop what runs, and delete all files when it has stopped."""

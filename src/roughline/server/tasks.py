@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ntpath  # takes both kinds of slash
 import sys
 import traceback
 from collections.abc import Callable, Mapping
@@ -81,5 +82,5 @@ def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -
 def without_paths(text: str, arguments: Mapping[str, Any]) -> str:
     """Put the names that a user knows in the place of the lab's own names of files."""
     for path, name in arguments["session"]["names"].items():
-        text = text.replace(path, name).replace(path.rpartition("/")[2], name)
+        text = text.replace(path, name).replace(ntpath.basename(path), name)
     return text

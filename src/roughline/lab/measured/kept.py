@@ -48,10 +48,15 @@ def kept(
     folder.mkdir(parents=True, exist_ok=True)
     begun = place.with_suffix(f".{os.getpid()}")
     begun.write_bytes(pickle.dumps(made, protocol=5))
-    begun.replace(place)
+    try:
+        begun.replace(place)
+    except PermissionError:  # of Windows, while another process reads what is in its place
+        begun.unlink()
+        return made
     by_age = sorted(folder.glob(f"{kind}-*.pickle"), key=lambda each: each.stat().st_mtime)
     for older in by_age[: -(most or _MOST[kind])]:
-        older.unlink(missing_ok=True)
+        with suppress(PermissionError):  # of Windows, while it is read; it goes with a later one
+            older.unlink(missing_ok=True)
     return made
 
 
