@@ -51,7 +51,7 @@ def test_a_scheduler_that_does_not_answer(plan, tmp_path, address, monkeypatch):
 
 
 def test_a_scheduler_without_workers(plan, tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster, "_PATIENCE", 3.0)
+    monkeypatch.setattr(cluster, "_PATIENCE", 9.0)
     scheduler, address = start_scheduler(tmp_path)
     try:
         with pytest.raises(rl.ClusterError, match="has no workers; start some with"):
