@@ -7,7 +7,6 @@ belongs to this very value. The machine should have nothing else to do.
 
 import argparse
 import os
-import platform
 import statistics
 import sys
 import tempfile
@@ -15,10 +14,8 @@ import time
 from pathlib import Path
 
 import numpy as np
+from page import machine
 from playwright.sync_api import sync_playwright
-
-from roughline._version import __version__
-from roughline.computing.cores import available_cores, processor_name
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from lab_in_browser import Pages, RunningLab, launched
@@ -159,9 +156,8 @@ def table(times, browser):
         )
     return f"""# How soon the lab answers, measured
 
-Written by `make lab-benchmark`: roughline {__version__}, {available_cores()} cores, \
-{processor_name()}, {memory():.0f} GB of memory, Python {platform.python_version()}, \
-NumPy {np.__version__}, headless Chromium {browser} without a graphics card, on the same machine.
+Written by `make lab-benchmark`: {machine()}, {memory():.0f} GB of memory, headless Chromium \
+{browser} without a graphics card, on the same machine.
 
 | from, to | median | 95th percentile | longest | measured | wanted (median) |
 |---|---|---|---|---|---|

@@ -1,8 +1,9 @@
-"""How soon the lab answers one page and 20 at once, and the memory of it: ``make lab-sessions``.
+"""How soon the lab answers one page and 20 at once, and the memory of it.
 
 All pages are plain websockets in this process; each has a seed of its own. They ask all at the same
 instant (burst), or each moves a slider ten times a second for two seconds and rests then (people).
 The time of an answer ends when the page has it all; that of the browser comes on top.
+``make lab-sessions`` writes ``docs/sessions-table.md``.
 """
 
 import asyncio
@@ -14,12 +15,18 @@ import time
 from collections import defaultdict
 from contextlib import suppress
 
+import page
 import psutil
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 SESSIONS, LONELY_ROUNDS, MOVES, PAUSE = 20, 7, 20, 0.1
-TASKS = ("explore.reduced", "explore.coarse", "explore.full")
+ASKED = {
+    "explore.reduced": "reduced curve",
+    "explore.coarse": "coarse contact",
+    "explore.full": "contact at rest",
+}
+TASKS = tuple(ASKED)
 
 
 class Page:
@@ -95,11 +102,10 @@ class Page:
 
 
 def row(times, lonely):
-    """The percentiles of times, in ms and over the lonely median."""
+    """How many times there are, and their percentiles beside the lonely median."""
     times = sorted(times)
     parts = (statistics.median(times), times[int(0.95 * (len(times) - 1))], times[-1])
-    told = " ".join(f"{1e3 * part:7.0f} ({part / lonely:4.1f})" for part in parts)
-    return f"{len(times):4} {told}"
+    return len(times), *(f"{1e3 * part:.0f} ms, {part / lonely:.1f}" for part in parts)
 
 
 def megabytes(pid):
@@ -113,7 +119,7 @@ def megabytes(pid):
 
 
 async def measure(address, pid):
-    """Measure one page, and many; print the table."""
+    """Measure one page, and many; write the tables."""
     before = megabytes(pid)
     lone = await Page.open(address, 1000)
     lonely = {}
@@ -126,27 +132,35 @@ async def measure(address, pid):
         lonely[task] = statistics.median(taken)
     await lone.close()
     pages = [await Page.open(address, seed) for seed in range(SESSIONS)]
-    print(f"{SESSIONS} pages; answers, median, 95th percentile, worst in ms (in lonely medians)")
     burst, people = defaultdict(list), defaultdict(list)
     for task in TASKS:
-        for page in pages:
-            page.seed += SESSIONS
-        await asyncio.gather(*(page.ask_twice(task, burst) for page in pages))
-    await asyncio.gather(*(page.move(people) for page in pages))
-    for task in TASKS:
-        print(f"{task}, one page alone: {1e3 * lonely[task]:.0f} ms")
-        for name, times in {"burst": burst, "people": people}.items():
-            for what in (each for each in times if each.startswith(task)):
-                print(f"  {name:7} {what:28} {row(times[what], lonely[task])}")
+        for each in pages:
+            each.seed += SESSIONS
+        await asyncio.gather(*(each.ask_twice(task, burst) for each in pages))
+    await asyncio.gather(*(each.move(people) for each in pages))
     during = megabytes(pid)
-    await asyncio.gather(*(page.close() for page in pages))
+    await asyncio.gather(*(each.close() for each in pages))
     await asyncio.sleep(1)
-    for name, (server, everything) in {
-        "before": before,
-        "with all pages": during,
-        "closed again": megabytes(pid),
-    }.items():
-        print(f"memory {name:16} server {server:5.0f} MB, with its processes {everything:5.0f} MB")
+    written = page.Page("sessions-table.md", "Twenty pages at once, measured", "lab-sessions")
+    written.say(
+        f"{SESSIONS} pages ask for the same at once, and then move a slider {MOVES} times in two "
+        "seconds each. Beside each time stands how often it holds that of one page alone. A first "
+        "answer may be a coarser one; the whole is all of it.\n"
+    )
+    percentiles = ("answers", "median", "95th percentile", "worst")
+    written.table("question", "when", "one page alone", *percentiles)
+    for task in TASKS:
+        for when, times in {"all ask at once": burst, "all move a slider": people}.items():
+            for what in (each for each in times if each.startswith(task)):
+                question = ASKED[task] + what.removeprefix(task)
+                alone = f"{1e3 * lonely[task]:.0f} ms"
+                written.row(question, when, alone, *row(times[what], lonely[task]))
+    written.say("\n## Memory\n")
+    written.table("when", "the server", "with its processes")
+    held = {"no page is open": before, "all are open": during, "all are closed": megabytes(pid)}
+    for when, parts in held.items():
+        written.row(when, *(f"{part:.0f} MB" for part in parts))
+    written.save()
 
 
 def main():

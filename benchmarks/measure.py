@@ -7,7 +7,6 @@ ratios to a plain zero-padded convolution and to a plain inverse FFT of the same
 import argparse
 import multiprocessing
 import os
-import platform
 import statistics
 import subprocess
 import sys
@@ -17,13 +16,13 @@ from pathlib import Path
 
 import ducc0.fft
 import numpy as np
+from page import Page
 
 import roughline as rl
 from roughline.computing.cores import available_cores
 from roughline.halfspace.half_space import HalfSpace
 from roughline.halfspace.operator import GridNodes
 
-TABLE = Path(__file__).parents[1] / "docs" / "speed-table.md"
 CORES = available_cores()
 
 
@@ -189,24 +188,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", choices=[part.__name__ for part in parts])
     only = parser.parse_args().only
-    lines = []
-
-    def say(line):
-        print(line, flush=True)
-        lines.append(line)
-
     warm = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7)
     rl.press(warm, E_star=1.0, forces=[0.01, 0.02, 0.3])  # compiles
-    say("# Speed, measured\n")
-    say(
-        f"Written by `make benchmark`: roughline {rl.__version__}, {CORES} cores, "
-        f"{platform.machine()}, Python {platform.python_version()}, NumPy {np.__version__}.\n"
-    )
+    page = Page("speed-table.md", "Speed, measured", "benchmark")
     for part in parts:
         if only in (None, part.__name__):
-            part(say)
+            part(page.say)
     if only is None:
-        TABLE.write_text("\n".join(lines) + "\n")
+        page.save()
 
 
 if __name__ == "__main__":

@@ -1,26 +1,38 @@
-"""Measure the peak memory of presses beside its estimate, each in a process of its own.
+"""Measure the peak memory of presses beside its estimate: ``make memory``.
 
-``python benchmarks/memory.py 4096`` prints a row for three loads (``make memory``), and
-``python benchmarks/memory.py 4096 free 3`` one for a boundary and reduced forces. With ``table``
-for the boundary, rows for light loads, saturation and nearly full contact follow each other.
+Each press has a process of its own. All of them take some twenty minutes and 11 GB, and write
+``docs/memory-table.md``; ``python benchmarks/memory.py 4096 free 3`` prints a row for a grid, a
+boundary and reduced forces. With ``--hardness 3`` the bodies yield where the pressure is a third of
+the mean contact pressure of elastic ones, half of E* times the rms slope.
 """
 
+import argparse
+import itertools
 import resource
 import subprocess
 import sys
 import time
 
 import numpy as np
+from page import Page
 
 import roughline as rl
 from roughline.contact.estimates import expected_area_fraction
 from roughline.contact.loads import Loads
 
-LOADS = (0.03, 0.3, 3.0)
-TABLE = {
-    "free": ((0.03,), (3.0,), LOADS, (10.0,), (30.0,), (100.0,)),
-    "periodic": ((0.03,), (3.0,), LOADS, (10.0,), (30.0,), (60.0,)),
-}
+SEVERAL = (0.03, 0.3, 3.0)
+HISTORY = (0.1, 0.2, 0.5, 1.0, 0.5, 0.2, 0.1, 0.5, 1.0, 0.5)
+FREE = ((0.03,), (3.0,), SEVERAL, (10.0,), (30.0,), (100.0,))
+PERIODIC = (*FREE[:-1], (60.0,))
+ELASTIC = (
+    *((n, "free", forces) for n in (1024, 2048) for forces in FREE),
+    *((n, "periodic", forces) for n in (1024, 2048) for forces in PERIODIC),
+    *((4096, "free", (force,)) for force in (0.03, 0.3, 3.0, 30.0)),
+    *((4096, "periodic", (force,)) for force in (0.03, 3.0)),
+    *((8192, "free", (force,)) for force in (0.3, 3.0)),
+    (16384, "free", (0.3,)),
+)
+YIELDING = tuple(itertools.product((1024,), ("free", "periodic"), (HISTORY,), (1.0, 3.0, 6.0)))
 
 
 def peak():
@@ -29,41 +41,88 @@ def peak():
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 
 
-def print_row(n, boundary, force_bars):
-    """Print a row of the tables of docs/speed.md."""
+def estimated(surface, forces, hardness, *, periodic):
+    """Return what is estimated for a press, the heights included. [bytes/point]"""
+    loads = Loads("forces", np.array(forces))
+    share = expected_area_fraction(surface, 1.0, loads, hardness, periodic=periodic)
+    told = rl.estimate(
+        surface.shape,
+        len(forces),
+        periodic=periodic,
+        yielding=hardness is not None,
+        area_fraction=share,
+    )
+    return told.memory / surface.heights.size + surface.heights.itemsize
+
+
+def cells(n, boundary, forces, pressure_over_hardness=None):
+    """Press a surface; return the cells of its row."""
     periodic = boundary == "periodic"
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0)
-    rl.press(spectrum.surface(512, 0), E_star=1.0, forces=[0.01], periodic=periodic)  # compiles
+    small = spectrum.surface(64, 0)
+    rl.press(small, E_star=1.0, forces=[0.01], periodic=periodic, hardness=1.0)  # compiles
+    rl.press(small, E_star=1.0, forces=[0.01], periodic=periodic)
     interpreter = peak()
     surface = spectrum.surface(n, 7)
-    generated = peak()
+    hardness = None
+    if pressure_over_hardness:
+        hardness = surface.rms_slope / 2 / pressure_over_hardness
     start = time.perf_counter()
-    curve = rl.press(surface, E_star=1.0, forces=force_bars, periodic=periodic)
+    curve = rl.press(surface, E_star=1.0, forces=forces, periodic=periodic, hardness=hardness)
     wall = time.perf_counter() - start
-    generation, held = ((each - interpreter) / n**2 for each in (generated, peak()))
-    loads = Loads("forces", np.array(force_bars))
-    share = expected_area_fraction(surface, 1.0, loads, None, periodic=periodic)
-    told = rl.estimate(surface.shape, len(force_bars), periodic=periodic, area_fraction=share)
-    estimated = told.memory / n**2 + surface.heights.itemsize
-    print(
-        f"| {n}² | {boundary} | {', '.join(f'{each:g}' for each in force_bars)} | "
-        f"{curve.area_fraction.max():.2%} | {held:.0f} ({generation:.0f} by the generation) | "
-        f"{estimated:.0f} | {estimated / held - 1:+.0%} | {peak() / 1e9:.2f} GB | "
-        f"{wall / len(force_bars):.1f} s | {curve.residual.max():.0e} |",
-        flush=True,
-    )
+    held = (peak() - interpreter) / n**2
+    told = estimated(surface, forces, hardness, periodic=periodic)
+    asked = ["rising and falling" if forces == HISTORY else ", ".join(f"{f:g}" for f in forces)]
+    if pressure_over_hardness:
+        asked.insert(0, f"{pressure_over_hardness:g}")
+    return [
+        *(f"{n}²", boundary, *asked, f"{curve.area_fraction.max():.2%}"),
+        *(f"{held:.0f}", f"{told:.0f}", f"{told / held - 1:+.0%}"),
+        *(f"{peak() / 1e9:.2f} GB", f"{wall / len(forces):.1f} s", f"{curve.residual.max():.0e}"),
+    ]
+
+
+def measured(n, boundary, forces, pressure_over_hardness=None):
+    """Return the cells of a row that a process of its own has measured."""
+    call = [sys.executable, __file__, str(n), boundary, *map(str, forces)]
+    if pressure_over_hardness:
+        call += ["--hardness", str(pressure_over_hardness)]
+    row = subprocess.run(call, check=True, stdout=subprocess.PIPE, text=True).stdout
+    return row.strip().split(" | ")
 
 
 def main():
-    """Print one row, or many, each from a process of its own."""
-    n, boundary, *forces = [*sys.argv[1:], "free"] if len(sys.argv) == 2 else sys.argv[1:]
-    if boundary != "table":
-        print_row(int(n), boundary, [float(each) for each in forces] or list(LOADS))
+    """Print one row, or write the page."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("points", type=int, nargs="?")
+    parser.add_argument("boundary", choices=["free", "periodic"], default="free", nargs="?")
+    parser.add_argument("forces", type=float, nargs="*")
+    parser.add_argument("--hardness", type=float, metavar="RATIO", help="p_c / H")
+    asked = parser.parse_args()
+    if asked.points:
+        forces = tuple(asked.forces) or SEVERAL
+        print(" | ".join(cells(asked.points, asked.boundary, forces, asked.hardness)))
         return
-    for kind, rows in TABLE.items():
-        for force_bars in rows:
-            row = [sys.executable, __file__, n, kind, *map(str, force_bars)]
-            subprocess.run(row, check=True)
+    page = Page("memory-table.md", "Memory, measured", "memory")
+    page.say(
+        "Bytes a point are those above the interpreter, the generation of the surface included; "
+        "the estimate is `rl.estimate` with the contact that the loads are expected to bring "
+        "about, and the 8 bytes of the heights. H = 0.8, a process for each row. Seconds are "
+        "those of a load, where other programs may have run beside.\n"
+    )
+    measures = ("in contact", "bytes a point", "estimated", "", "peak", "a load", "residual")
+    page.table("grid", "half-space", "F̄", *measures)
+    for row in ELASTIC:
+        page.row(*measured(*row))
+    page.say("\n## Bodies that yield\n")
+    page.say(
+        "$p_c$ is the mean contact pressure of the elastic bodies, half of $E^*$ times the rms "
+        f"slope. Loads rise and fall: F̄ = {', '.join(f'{f:g}' for f in HISTORY)}.\n"
+    )
+    page.table("grid", "half-space", "$p_c/H$", "F̄", *measures)
+    for row in YIELDING:
+        page.row(*measured(*row))
+    page.save()
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Press thousands of random bodies and print how all of it ended: ``make robustness``."""
+"""Press thousands of random bodies: ``make robustness`` writes ``docs/robustness-table.md``."""
 
 import argparse
 import sys
@@ -7,6 +7,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+from page import Page
 
 import roughline as rl
 
@@ -14,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from random_problems import E_STAR, random_problem
 
+SLOWEST = "slowest over median of its size"
 _SLOW = 5.0  # times the median of all problems of about the same number of points
 
 
@@ -40,7 +42,7 @@ def slow_beside_others(rows, loads, size_class):
 
 
 def main():
-    """Solve the problems and print a table by kind."""
+    """Solve the problems and write a table by kind."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--problems", type=int, default=3000)
     parser.add_argument("--seed", type=int, default=0)
@@ -71,18 +73,18 @@ def main():
         problem, end, points, seconds, number = rows[i]
         rows[i] = (problem, end, points, min(seconds, timed(problem)[1]), number)
     slowness = slow_beside_others(rows, loads, size_class)
-    print(f"roughline {rl.__version__}, {len(rows)} problems, seed {arguments.seed}\n")
-    print("| bodies | problems | loads | certified | refused | slowest over median of its size |")
-    print("|---|---|---|---|---|---|")
+    page = Page("robustness-table.md", "Random problems, and how they ended", "robustness")
+    page.say(f"{len(rows)} problems, seed {arguments.seed}.\n")
+    page.table("bodies", "problems", "loads", "certified", "refused", SLOWEST)
     kinds = np.array([row[0].kind for row in rows])
     ends = np.array([row[1] for row in rows])
     for kind in [*sorted(set(kinds)), "all"]:
         here = (kinds == kind) | (kind == "all")
         count = Counter(ends[here])
-        print(
-            f"| {kind} | {here.sum()} | {loads[here].sum()} | {count['certified']} | "
-            f"{count['refused']} | {np.nanmax(slowness[here]):.1f} |"
-        )
+        slowest = f"{np.nanmax(slowness[here]):.1f}"
+        ended = (count["certified"], count["refused"])
+        page.row(kind, here.sum(), loads[here].sum(), *ended, slowest)
+    page.save()
     for i in np.flatnonzero(slowness > _SLOW):
         problem, _, _, seconds, number = rows[i]
         wrong.append(

@@ -1,8 +1,9 @@
-"""How soon a command answers, against the bare import of SurfaceTopography: ``make start-up``.
+"""How soon a command answers, against the bare import of SurfaceTopography.
 
 Each command describes or presses one surface of 256 x 256 points, and runs in a process of its own;
 commands and bare imports take turns, so that whatever else the machine does falls on all of them.
 The work itself is what the same command takes in a process that has run it before.
+``make start-up`` writes ``docs/start-up-table.md``.
 """
 
 import contextlib
@@ -15,6 +16,7 @@ import time
 from dataclasses import replace
 
 import numpy as np
+from page import Page
 
 import roughline as rl
 from roughline import cli
@@ -23,18 +25,18 @@ ROUNDS = 7
 SIDES = ("--unit", "um", "--size", "1 mm")
 LOAD = ("--modulus", "110 GPa", "--load", "1 N")
 COMMANDS = {
-    "info, array": ("info", "map.npy", *SIDES),
-    "info, our file": ("info", "map.nc"),
-    "info, text": ("info", "map.txt", *SIDES),
-    "press, array": ("press", "map.npy", *SIDES, *LOAD),
-    "press, our file": ("press", "map.nc", *LOAD),
-    "press, text": ("press", "map.txt", *SIDES, *LOAD),
+    "`info`, an array": ("info", "map.npy", *SIDES),
+    "`info`, our own file": ("info", "map.nc"),
+    "`info`, a text, read by SurfaceTopography": ("info", "map.txt", *SIDES),
+    "`press`, an array": ("press", "map.npy", *SIDES, *LOAD),
+    "`press`, our own file": ("press", "map.nc", *LOAD),
+    "`press`, a text, read by SurfaceTopography": ("press", "map.txt", *SIDES, *LOAD),
 }
 LIBRARY = [sys.executable, "-W", "ignore", "-c", "import SurfaceTopography"]
 
 
 def main():
-    """Time the commands and print the table."""
+    """Time the commands and write the table."""
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         write_surface()
         ours = [sys.executable, "-m", "roughline"]
@@ -46,14 +48,14 @@ def main():
                 times[name].append(seconds(call))
         work = {name: seconds_of_work(arguments) for name, arguments in COMMANDS.items()}
     bare = statistics.median(times.pop("the import"))
-    print(f"import SurfaceTopography: {bare:.2f} s, the median of {ROUNDS} as all below")
-    print(f"{'command':16} {'seconds':>8} {'its work':>9} {'over import':>12} {'without work':>13}")
+    page = Page("start-up-table.md", "How soon a command answers, measured", "start-up")
+    page.say(f"`import SurfaceTopography` takes {bare:.2f} s, the median of {ROUNDS}, as below.\n")
+    page.table("command", "time", "its work", "time over the import", "without its work")
     for name, each in times.items():
         whole = statistics.median(each)
-        print(
-            f"{name:16} {whole:8.2f} {work[name]:9.2f} {whole / bare:12.2f} "
-            f"{(whole - work[name]) / bare:13.2f}"
-        )
+        ratios = (f"{part / bare:.2f}" for part in (whole, whole - work[name]))
+        page.row(name, f"{whole:.2f} s", f"{work[name]:.2f} s", *ratios)
+    page.save()
 
 
 def write_surface():

@@ -1,7 +1,8 @@
-"""Compare metals that yield with elastic bodies, in time and in memory: ``make yielding``.
+"""Compare metals that yield with elastic bodies, in time and in memory.
 
 The hardness is a third of the mean elastic contact pressure of the (last) load. Times are the best
 of several, elastic and yielding in turn; memory is that of processes of their own.
+``make yielding`` writes ``docs/yielding-table.md``.
 """
 
 import argparse
@@ -13,6 +14,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
+from page import Page
 
 import roughline as rl
 
@@ -33,13 +35,12 @@ def timed(surface, forces, hardness):
     return curve, time.perf_counter() - start
 
 
-def print_times(repeats):
-    """Print the table of times and convolutions."""
+def add_times(page, repeats):
+    """Add the table of times and convolutions."""
     timed(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7), [0.4], 10.0)  # compiles
-    print(
-        "\n| loads | grid | H | yield | elastic | with yield | ratio | convolutions | with yield |"
-    )
-    print("|---" * 9 + "|")
+    page.say(f"\n## Time, the best of {repeats}\n")
+    case = ("loads", "grid", "H", "of the contact yields")
+    page.table(*case, "elastic", "with yield", "ratio", "convolutions", "with yield")
     for loads, forces in FORCES.items():
         for n in (512, 1024):
             for hurst in (0.2, 0.8):
@@ -50,13 +51,11 @@ def print_times(repeats):
                         curves[given], wall = timed(surface, forces, given)
                         best[given] = min(wall, best.get(given, wall))
                 elastic, yielding = curves.values()
-                print(
-                    f"| {loads} | {n}² | {hurst} | {yielding.plastic_fraction[-1]:.0%} "
-                    f"| {best[None]:.2f} s | {best[hardness]:.2f} s "
-                    f"| {best[hardness] / best[None]:.2f} "
-                    f"| {elastic.convolutions.sum()} | {yielding.convolutions.sum()} |",
-                    flush=True,
-                )
+                share = f"{yielding.plastic_fraction[-1]:.0%}"
+                times = (f"{best[None]:.2f} s", f"{best[hardness]:.2f} s")
+                ratio = f"{best[hardness] / best[None]:.2f}"
+                counts = (elastic.convolutions.sum(), yielding.convolutions.sum())
+                page.row(loads, f"{n}²", hurst, share, *times, ratio, *counts)
 
 
 def peak(n, hardness):
@@ -68,10 +67,10 @@ def peak(n, hardness):
     return (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * unit
 
 
-def print_memory():
-    """Print the table of memory; processes count what the one that starts them holds."""
-    print("| loads | grid | H | elastic | with yield | ratio |")
-    print("|---" * 6 + "|")
+def add_memory(page):
+    """Add the table of memory; processes count what the one that starts them holds."""
+    page.say("## Memory over the interpreter, the generation included\n")
+    page.table("loads", "grid", "H", "elastic", "with yield", "ratio")
     for n in (1024, 2048):
         with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as elsewhere:
             _, hardness = elsewhere.submit(problem, n, 0.8, "12 loads").result()
@@ -79,15 +78,12 @@ def print_memory():
             int(subprocess.check_output([sys.executable, __file__, "--peak", str(n), str(each)]))
             for each in (np.inf, hardness)
         )
-        print(
-            f"| 12 loads | {n}² | 0.8 | {elastic / n**2:.0f} B a point | "
-            f"{yielding / n**2:.0f} B a point | {yielding / elastic:.2f} |",
-            flush=True,
-        )
+        bytes_a_point = (f"{each / n**2:.0f} bytes a point" for each in (elastic, yielding))
+        page.row("12 loads", f"{n}²", 0.8, *bytes_a_point, f"{yielding / elastic:.2f}")
 
 
 def main():
-    """Print both tables, or the memory of one case."""
+    """Write both tables, or print the memory of one case."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--peak", nargs=2, metavar=("POINTS", "HARDNESS"), help=argparse.SUPPRESS)
@@ -95,9 +91,10 @@ def main():
     if arguments.peak:
         print(peak(int(arguments.peak[0]), float(arguments.peak[1])))
         return
-    print(f"roughline {rl.__version__}\n")
-    print_memory()
-    print_times(arguments.repeats)
+    page = Page("yielding-table.md", "Elastic bodies and bodies that yield, measured", "yielding")
+    add_memory(page)
+    add_times(page, arguments.repeats)
+    page.save()
 
 
 if __name__ == "__main__":

@@ -50,8 +50,17 @@ sphinx_gallery_conf = {
 
 WIDE = (
     *("paper", "trust", "averaging", "area", "finite_size", "correlations", "engineering"),
-    *("peers-table", "speed-table", "lab-table", "made/validation", "made/materials"),
-    *("architecture", "conventions", "other_programs", "science", "speed"),
+    *(
+        "peers-table",
+        "speed-table",
+        "lab-table",
+        "sessions-table",
+        "memory-table",
+        "yielding-table",
+        "made/validation",
+        "made/materials",
+    ),
+    *("architecture", "conventions", "other_programs", "science"),
     *("how-to/coverage", "how-to/grid_error", "how-to/interface_stiffness", "how-to/several_maps"),
 )
 

@@ -1,7 +1,6 @@
-"""Output quantities: declared once, the same in curves, files, JSON and the glossary."""
+"""Output quantities: declared once, the same in curves, files and JSON."""
 
 import dataclasses
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,7 +9,6 @@ import roughline as rl
 from roughline.contact.quantities import IN_FILES, IN_JSON, QUANTITIES
 from roughline.contact.quantity import OVER_LOADS, Quantity
 
-GLOSSARY = Path(__file__).parents[2] / "docs" / "conventions.md"
 OVER_THE_LOADS = [each for each in QUANTITIES.values() if each.dims == OVER_LOADS]
 ON_THE_GRID = [each for each in QUANTITIES.values() if each.dims != OVER_LOADS]
 
@@ -35,20 +33,6 @@ def line_curve():
 def yielding_curve(surface):
     forces, errors = [0.1, 0.3], {"fields": True, "grid_error": True}
     return rl.press(surface, E_star=1.0, hardness=5.0, forces=forces, **errors)
-
-
-def row_of(quantity):
-    """The row of the glossary's table that a declaration gives."""
-    symbol = f"${quantity.symbol}$ |" if quantity.symbol else "|"
-    unit, dims = quantity.dimension or "-", ", ".join(quantity.dims)
-    return f"| `{quantity.name}` | {symbol} {quantity.meaning} | {unit} | {dims} |"
-
-
-def test_the_glossary_lists_what_is_declared():
-    _, _, section = GLOSSARY.read_text("utf-8").partition("## Output quantities of a curve\n")
-    section, _, _ = section.partition("\n## ")
-    rows = [line for line in section.splitlines() if line.startswith("| `")]
-    assert rows == [row_of(each) for each in QUANTITIES.values()]
 
 
 def test_a_curve_has_what_is_declared_and_no_more(curve):

@@ -118,19 +118,19 @@ def test_laws_of_the_model_hold_in_the_data(main_samples):
 def test_sentences_without_numbers_are_true_too(main_samples):
     elastic_band = change_with_band(ELASTIC, MIDDLE, min(BANDS), max(ELASTIC_BANDS))
     plastic_band = change_with_band(FULL, MIDDLE, min(BANDS), max(BANDS))
-    # "elastic conductance hardly knows the short waves", "that of the surface does not keep up"
+    # "elastic conductance hardly depends on short waves", "that of the surface grows less"
     assert -0.15 < elastic_band.low < elastic_band.high < 0.15
     assert plastic_band.high < -0.15
     # "conductance rises faster at the highest pressures"
     for one in main_samples[: len(DIMENSIONS)]:
         mean = average(one.ratio).mean
         assert mean[-1] > mean[-3]
-    # "in its own limit each promises too much, and between them both promise too little"
+    # "in its own limit each overestimates the conductance, between them both underestimate it"
     for hardness in (ELASTIC, FULL):
         assert extremes(lambda each: each.ratio, (hardness,))[1] < 1
     assert extremes(lambda each: each.over_mikic, (BETWEEN,))[0] > 1
     assert extremes(lambda each: each.over_yovanovich, (BETWEEN,))[0] > 1
-    # "spots apart conduct better"
+    # "separate spots conduct better"
     for dimension in DIMENSIONS:
         plastic = sample("main", FULL, dimension)
         assert (average(over_holm(plastic)).low[plastic.in_window] > 1).all()

@@ -1,0 +1,140 @@
+"""Pages of measurements are those of their benchmarks, and of the present code where it decides.
+
+Times are never held. Counts, contacts, estimates and cases depend on the code alone, so that a
+table which was not measured again after they changed fails here.
+"""
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from random_problems import random_problem
+from roughline.contact.estimates import expected_area_fraction
+from roughline.contact.loads import Loads
+
+ROOT = Path(__file__).parents[2]
+TABLES = sorted((ROOT / "docs").glob("*-table.md"))
+MAKEFILE = (ROOT / "Makefile").read_text("utf-8")
+
+
+def rows_of(name, section=""):
+    """The rows of a table as dictionaries; where columns have one name, the last counts."""
+    text = (ROOT / "docs" / f"{name}-table.md").read_text("utf-8")
+    text = text.partition(f"## {section}\n")[2] if section else text
+    lines = [line for line in text.partition("\n## ")[0].splitlines() if line.startswith("|")]
+    head, _, *rows = ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)
+    return [dict(zip(head, row, strict=True)) for row in rows]
+
+
+def number(text):
+    """The first number in a cell; a share where it is a percentage."""
+    found = re.search(r"[\d.]+", text)[0]
+    return float(found) / (100 if f"{found}%" in text else 1)
+
+
+def surface_of(row):
+    n = int(row["grid"].removesuffix("²"))
+    return rl.SelfAffine(hurst=float(row.get("H", 0.8)), rms_height=1.0).surface(n, 7)
+
+
+@pytest.mark.parametrize("page", TABLES, ids=lambda page: page.stem)
+def test_a_table_names_the_command_that_writes_it(page):
+    head = page.read_text("utf-8").splitlines()[2]
+    target = re.match(r"Written by `make ([\w-]+)`: roughline \d+\.\d+\.\d+\b", head)[1]
+    recipe = MAKEFILE.partition(f"\n{target}: ")[2].partition("\n\n")[0]
+    (program,) = re.findall(r"benchmarks/\w+\.py", recipe)
+    assert page.name in (ROOT / program).read_text("utf-8")
+
+
+def test_random_problems_are_those_of_the_table():
+    rows = {row["bodies"]: row for row in rows_of("robustness")}
+    problems = [random_problem(np.random.default_rng([0, i])) for i in range(3000)]
+    for kind in {problem.kind for problem in problems}:
+        loads = [len(next(iter(each.loads.values()))) for each in problems if each.kind == kind]
+        assert (int(rows[kind]["problems"]), int(rows[kind]["loads"])) == (len(loads), sum(loads))
+    for row in rows.values():
+        assert (row["certified"], row["refused"]) == (row["problems"], "0")
+
+
+def test_kills_add_up():
+    kills = sum(int(row["times"]) for row in rows_of("soak"))
+    assert f"seed 1, {kills} kills in " in (ROOT / "docs" / "soak-table.md").read_text("utf-8")
+
+
+def test_the_lab_is_measured_as_its_benchmark_does():
+    program = (ROOT / "benchmarks" / "lab.py").read_text("utf-8")
+    for row in rows_of("lab"):
+        assert f'"{row["from, to"]}"' in program
+
+
+@pytest.mark.parametrize("hurst", ["0.2", "0.5", "0.8"])
+def test_paths_of_loads_are_those_of_the_table(hurst):
+    rows = rows_of("speed", "Full model: 20 loads from first touch to saturation")
+    (row,) = (each for each in rows if (each["grid"], each["H"]) == ("512²", hurst))
+    curve = rl.press(surface_of(row), E_star=1.0, n_loads=20)
+    assert curve.stiffness_bar[-1] == pytest.approx(number(row["last k"]), abs=0.005)
+    assert curve.convolutions.mean() == pytest.approx(number(row["own convolutions"]), abs=1)
+
+
+@pytest.mark.parametrize("hurst", ["0.2", "0.8"])
+def test_contacts_beside_other_programs_are_those_of_the_table(hurst):
+    rows = rows_of("peers", "Contact areas of these loads")
+    rows = [row for row in rows if (row["grid"], row["H"]) == ("512²", hurst)]
+    forces = [float(row["F̄"]) for row in rows]
+    curve = rl.press(surface_of(rows[0]), E_star=1.0, forces=forces)
+    found = [number(row["roughline"]) for row in rows]
+    assert len(found) == 4
+    assert curve.area_fraction == pytest.approx(found, abs=6e-7)
+
+
+def test_memory_is_estimated_as_the_table_says():
+    rows = [row for row in rows_of("memory") if row["grid"] == "1024²"]
+    surface = surface_of(rows[0])
+    for row in rows:
+        periodic, forces = row["half-space"] == "periodic", json.loads(f"[{row['F̄']}]")
+        loads = Loads("forces", np.array(forces))
+        share = expected_area_fraction(surface, 1.0, loads, None, periodic=periodic)
+        told = rl.estimate(surface.shape, len(forces), periodic=periodic, area_fraction=share)
+        assert round(told.memory / surface.heights.size + 8) == int(row["estimated"])
+    assert len(rows) == 12
+
+
+@pytest.mark.parametrize("hurst", ["0.2", "0.8"])
+def test_what_yields_is_what_the_table_says(hurst):
+    rows = rows_of("yielding", "Time, the best of 5")
+    case = ("one load", "512²", hurst)
+    (row,) = (each for each in rows if (each["loads"], each["grid"], each["H"]) == case)
+    surface = surface_of(row)
+    elastic = rl.press(surface, E_star=1.0, forces=[0.4])
+    hardness = elastic.force[0] / (elastic.area_fraction[0] * surface.area) / 3
+    curve = rl.press(surface, E_star=1.0, forces=[0.4], hardness=hardness)
+    assert curve.plastic_fraction[0] == pytest.approx(
+        number(row["of the contact yields"]), abs=0.006
+    )
+
+
+def test_the_page_of_speed_quotes_its_tables():
+    page = " ".join((ROOT / "docs" / "speed.md").read_text("utf-8").split())
+    paths = rows_of("speed", "Full model: 20 loads from first touch to saturation")
+    times = [number(row["per load"]) for row in paths if row["grid"] == "2048²"]
+    span = f"{min(times):.1f} to {max(times):.1f} s a load"
+    assert span in page
+    assert span in " ".join((ROOT / "README.md").read_text("utf-8").split())
+    cold = rows_of("peers", "One cold load")
+    lines = (ROOT / "docs" / "peers-table.md").read_text("utf-8").splitlines()
+    ratios = [
+        number(line.split("|")[7].replace("*", ""))
+        for line in lines
+        if re.match(r"\| \d+² \| 0.\d \| [\d.]+ \| [\d.]+% \| [\d.]+ s \|", line)
+    ]
+    contact = [number(row["contact"]) for row in cold]
+    assert len(ratios) == len(contact) == 24
+    heavy = [ratio for ratio, share in zip(ratios, contact, strict=True) if share > 0.06]
+    assert f"takes {min(heavy):.1f} to {max(heavy):.0f} times as long" in page
+    lightest = [ratio for ratio, row in zip(ratios, cold, strict=True) if row["F̄"] == "0.03"]
+    assert f"it takes {min(lightest):.1f} to {max(lightest):.1f} times as long" in page
+    assert f"at {sum(ratio > 1 for ratio in ratios)} of the 24 cold loads" in page
