@@ -5,21 +5,24 @@
 ``FOLDER`` holds one folder for each version, and ``ADDRESS`` is where it is served.
 """
 
+import contextlib
 import json
-import re
 import sys
 from pathlib import Path
 
-VERSION = re.compile(r"\d+\.\d+\.\d+")
+from packaging.version import InvalidVersion, Version
 
 
 def versions(folder: Path, address: str) -> list[dict[str, str | bool]]:
     """Return the versions that the folder holds, newest first, as the theme wants them."""
-    found = [each.name for each in folder.iterdir() if VERSION.fullmatch(each.name)]
-    found.sort(key=lambda name: tuple(map(int, name.split("."))), reverse=True)
+    found = {}
+    for each in folder.iterdir():
+        with contextlib.suppress(InvalidVersion):
+            found[Version(each.name)] = each.name
+    names = [found[version] for version in sorted(found, reverse=True)]
     return [
-        {"version": name, "url": f"{address}/{name}/", "preferred": name == found[0]}
-        for name in found
+        {"version": name, "url": f"{address}/{name}/", "preferred": name == names[0]}
+        for name in names
     ]
 
 

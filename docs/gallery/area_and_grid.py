@@ -2,8 +2,9 @@
 How large is the real contact area, and how far is the grid off?
 ================================================================
 
-Whole cells overstate an outline. The area is corrected for that, and with ``grid_error=True`` the
-surface is pressed on coarser grids too, which shows how far stiffness and area may be off.
+Counting whole cells along the outline of a contact overstates its area. The area is corrected for
+this, and with ``grid_error=True`` the surface is pressed on coarser grids too, which shows how far
+stiffness and area may be off.
 """
 
 from matplotlib import pyplot
@@ -16,7 +17,7 @@ curve = rl.press(surface, E_star=1.0, forces=[0.003, 0.01, 0.03, 0.1, 0.3, 1], g
 axes = rl.plot.area(curve)
 
 # %%
-# The interval runs from v / (1 + e / v) to v + e, with the estimated error e.
+# The interval of a value v runs from v / (1 + e / v) to v + e, with the estimated error e.
 
 value, error = curve.area_fraction_corrected, curve.area_fraction_error
 axes.vlines(curve.force, value / (1 + error / value), value + error, color="tab:red")

@@ -3,7 +3,7 @@ Do both models give the same stiffness?
 =======================================
 
 The reduced model presses a rough line on independent springs, exactly and in milliseconds. The full
-model presses a surface with every interaction. ``rl.compare`` presses both with the same waves.
+model presses a surface whose points all interact. ``rl.compare`` presses both with the same waves.
 """
 
 from matplotlib import pyplot
@@ -18,7 +18,8 @@ rl.plot.comparison(compared, axes=left)
 rl.plot.difference(compared, tolerance=0.1, axes=right)
 
 # %%
-# The verdict on each load takes the whole interval: within the tolerance, outside, or undecided.
+# A verdict on each load: the whole interval lies within the tolerance (confirmed) or outside
+# (refuted), or neither (undecided).
 
 for force, difference in zip(compared.force_bar[::3], compared.differences()[::3], strict=True):
     print(f"F̄ = {force:.2g}: {difference}, {difference.verdict(0.1).value}")

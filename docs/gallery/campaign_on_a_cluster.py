@@ -2,9 +2,9 @@
 How are hundreds of surfaces pressed?
 =====================================
 
-A campaign presses ensembles on all cores, or on a Dask cluster, into a store that survives kills
-and grows without changing. Here it is a small one with two workers; a scheduler's address instead
-of ``workers`` takes it to any cluster.
+A campaign presses ensembles on all cores, or on a Dask cluster. Its store survives kills, and can
+be enlarged without changing what is in it. This is a small campaign with two workers; with a
+scheduler's address instead of ``workers`` it runs on a cluster.
 """
 
 import tempfile

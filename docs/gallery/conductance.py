@@ -2,9 +2,9 @@
 How well does a joint conduct current?
 ======================================
 
-The conductance of a rough joint is proportional to its elastic stiffness (Barber). With the
-materials of both bodies the resistance follows, with an interval, and beside it the elastic answer,
-which is far off where metals yield.
+The conductance of a rough joint is proportional to its elastic stiffness (Barber). The
+materials of both bodies give the resistance, with an interval. The elastic answer is drawn beside
+it; it is far off where metals yield.
 """
 
 from matplotlib import pyplot

@@ -3,7 +3,7 @@ How stiff is a rough contact?
 =============================
 
 A random rough surface is pressed against a smooth half-space. The full model gives its stiffness
-k = dF/dd with every load, from the first ten cells in contact to saturation.
+k = dF/dd with every load, from the first ten cells in contact to saturation of the stiffness.
 """
 
 import roughline as rl
@@ -15,7 +15,7 @@ rl.plot.topography(surface)
 
 # %%
 # E* = 110 GPa is about that of steel on steel. Every load is solved to a relative residual of 1e-6,
-# which is computed anew for what is returned.
+# which is computed again for what is returned.
 
 curve = rl.press(surface, E_star=110e9, n_loads=16, fields=True)
 rl.plot.curve(curve)

@@ -3,7 +3,7 @@ Is Hertz's solution met?
 ========================
 
 A paraboloid with tip radius R has the force F = 4/3 E* √R d^(3/2) and the contact radius
-a = √(R d). The full model is held against it.
+a = √(R d) at the depth d. The full model is compared with it.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ left.set(xlabel="depth $d / R$", ylabel="force $F / (E^* R^2)$")
 left.legend()
 
 # %%
-# The stiffness is dF/dd, exact for the grid's own contact: 2 E* a.
+# The stiffness dF/dd, exact for the contact on the grid, is compared with Hertz's 2 E* a.
 
 right.semilogx(depths, curve.stiffness / (2 * np.sqrt(R * depths)) - 1, "o-")
 right.semilogx(depths, curve.force / (4 / 3 * np.sqrt(R) * depths**1.5) - 1, "s-")

@@ -2,8 +2,8 @@
 What does a line scan tell of a contact?
 ========================================
 
-A stylus gives one straight cut. The scan's spectrum leads to that of surfaces which it may be cut
-from, and reduced lines of these are pressed. The interval holds what one scan leaves open.
+A stylus gives one straight cut. From the scan's spectrum follow those of surfaces that it may be
+cut from, and reduced lines of these are pressed. The interval covers what one scan cannot show.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ scan = rl.Line(surface.heights[:, 100], length=1.0, kind="profile")
 rl.plot.spectrum(scan)
 
 # %%
-# The full model of the whole surface judges the answer.
+# The answer is compared with the full model of the whole surface.
 
 forces = np.geomspace(1e-3, 1, 10)
 pressed = rl.press_scan(scan, E_star=1.0, forces=forces)

@@ -2,8 +2,8 @@
 What remains when a load is taken off?
 ======================================
 
-With a hardness, points give way at it and stay indented. Unloaded, the contact keeps more area and
-stiffness than it had under the same load on the way up.
+If a hardness is given, no point bears more: points at the hardness give way and stay indented. On
+unloading the contact has more area and stiffness than under the same load on the way up.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ rl.plot.curve(curve, "depth", "force", axes=left)
 rl.plot.contact(curve, load=11, axes=right)
 
 # %%
-# The work that the load did, less what came back, went into the indentations.
+# The work done by the load, minus what came back, went into the indentations.
 
 print(f"dissipated: {curve.dissipated_work[-1]:.3g} J of {curve.work[11]:.3g} J")
 print(f"permanent indentation: {curve.indentation[-1] * 1e9:.0f} nm at most")

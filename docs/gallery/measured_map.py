@@ -3,7 +3,7 @@ How do I get from a file to numbers for a report?
 =================================================
 
 A map of heights is read, its tilt is removed, and it is pressed with the load and the materials of
-the joint. The file is written here; ``rl.read`` knows some forty formats of instruments.
+the joint. The file is made up here; ``rl.read`` knows some forty formats of instruments.
 """
 
 import tempfile

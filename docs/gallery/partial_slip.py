@@ -2,8 +2,8 @@
 When does a joint begin to slide?
 =================================
 
-Under a tangential force the border of every spot slips first. The path from sticking to sliding
-follows from the normal curve alone (Ciavarella, Jäger).
+Under a tangential force the border of every spot slips first. How the tangential force
+grows from sticking to sliding follows from the normal load curve alone (Ciavarella, Jäger).
 """
 
 from matplotlib import pyplot

@@ -2,8 +2,9 @@
 Free or periodic half-space?
 ============================
 
-A free surface is a specimen: its border gives way, and in full contact it is a punch. A periodic
-one goes on for ever: depth is that of the interface, and its stiffness grows without limit.
+A free surface is a whole specimen: nothing beyond its border carries load, and in full contact it
+is a flat punch. A periodic surface repeats without end: depth and stiffness are those of the
+interface alone, and the stiffness grows without limit.
 """
 
 from matplotlib import pyplot

@@ -3,7 +3,7 @@ Which exponent, and how sure is it?
 ===================================
 
 Stiffness follows a power law of the force, with α = 1 / (1 + H) expected for self-affine
-roughness. One surface is one draw; the mean of many has an interval.
+roughness of Hurst exponent H. One surface is a single sample; the mean of many has an interval.
 """
 
 import numpy as np

@@ -1,9 +1,10 @@
 """
-Why does a large surface behave otherwise than a small one?
-===========================================================
+Why does a large surface behave differently from a small one?
+=============================================================
 
-A surface of one roll-off wave follows a power law with α near 1 / (1 + H). One of many such waves
-is made of many independent contacts, and its stiffness grows in proportion to the force.
+A surface as large as one roll-off wavelength follows a power law with α near 1 / (1 + H). One with
+many roll-off wavelengths along its side has many independent contacts, and its stiffness grows in
+proportion to the force.
 """
 
 import numpy as np

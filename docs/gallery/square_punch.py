@@ -2,8 +2,8 @@
 How stiff is a surface in full contact?
 =======================================
 
-A rough square that touches everywhere is a flat square punch. Its stiffness is 1.1523 E* L; the
-literature has 1.1419 as well, which is 0.9 % low.
+A rough square of side L that touches everywhere is a flat square punch. Its stiffness is
+1.1523 E* L; the literature has 1.1419 E* L as well, which is 0.9 % low.
 """
 
 import numpy as np
@@ -16,8 +16,8 @@ curves = [rl.press(rl.Surface(np.zeros((k, k)), (1.0, 1.0)), E_star=1.0, depths=
 stiffness = np.array([curve.stiffness[0] for curve in curves])
 
 # %%
-# Cells at the border carry the singular pressure badly, so the error falls like one over the points
-# along a side.
+# Cells of uniform pressure represent the singular pressure at the border badly, so the error falls
+# only like one over the number of points along a side.
 
 figure, axes = pyplot.subplots(figsize=(4.5, 3.2), layout="constrained")
 axes.loglog(n, 1 - stiffness / rl.EXACT_PUNCH, "o-", label=f"to {rl.EXACT_PUNCH:.5f}")

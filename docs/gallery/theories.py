@@ -3,7 +3,7 @@ How far are the theories from the numbers?
 ==========================================
 
 Persson, Bush, Gibson and Thomas, and Greenwood and Williamson predict the contact area from the
-spectrum alone. The full model of a periodic surface with the same spectrum judges them.
+spectrum alone. They are compared with the full model of a periodic surface with the same spectrum.
 """
 
 import numpy as np

@@ -2,8 +2,8 @@
 Where may the reduced model be trusted?
 =======================================
 
-The map that comes with the package holds the difference of the two models over load, fractal
-dimension and roll-off, each from 20 surfaces and 200 lines.
+The map that comes with the package gives the difference between the two models over load, fractal
+dimension and roll-off, each place from 20 surfaces and 200 lines.
 """
 
 from matplotlib import pyplot
@@ -15,7 +15,7 @@ for axes, roll_off in zip(panels, (1, 4), strict=True):
     rl.plot.trust_map(roll_off_ratio=roll_off, axes=axes)
 
 # %%
-# For a surface of your own, the map tells the difference with its interval and a verdict.
+# For a surface of your own, the map gives the difference with its interval and a verdict.
 
 for fractal_dimension in (2.1, 2.5, 2.9):
     found = rl.trust_map().at(fractal_dimension=fractal_dimension, force_bar=0.02)

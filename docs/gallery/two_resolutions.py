@@ -2,8 +2,8 @@
 What does a finer grid change?
 ==============================
 
-The same seed on more points is the same surface with more detail. Stiffness hardly notices the new
-short waves; the real contact area does.
+The same seed on more points is the same surface with more detail. The new short waves hardly
+change the stiffness, but they change the real contact area.
 """
 
 from matplotlib import pyplot

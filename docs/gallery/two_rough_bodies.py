@@ -2,8 +2,8 @@
 How are two rough bodies pressed?
 =================================
 
-Gap and elastic contact depend on the sum of the heights of both bodies alone. ``rl.facing`` turns
-one over, fits it to the other and adds.
+Gap and elastic contact depend on nothing but the sum of the heights of both bodies. ``rl.facing``
+turns one of them over, fits it to the grid of the other and adds the heights.
 """
 
 from matplotlib import pyplot

@@ -2,8 +2,8 @@
 How much of an ultrasonic wave does a joint reflect?
 ====================================================
 
-At long wavelengths a joint acts on a wave as a spring. Its stiffness for each area decides how much
-is reflected, and how that falls when the joint is loaded.
+On a wave that is long enough a joint acts as a spring. Its stiffness per area decides how much is
+reflected; the reflection falls as the joint is loaded.
 """
 
 from matplotlib import pyplot
