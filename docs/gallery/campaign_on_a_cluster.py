@@ -3,8 +3,8 @@ How are hundreds of surfaces pressed?
 =====================================
 
 A campaign presses ensembles on all cores, or on a Dask cluster. Its store survives kills, and can
-be enlarged without changing what is in it. This is a small campaign with two workers; with a
-scheduler's address instead of ``workers`` it runs on a cluster.
+be enlarged without changing what is in it. This one has two workers; with a scheduler's address
+instead of ``workers`` it runs on a cluster. Workers are processes, so a script needs the guard.
 """
 
 import tempfile
@@ -29,9 +29,9 @@ plan = campaign.plan_from(
         ],
     }
 )
-store = Path(tempfile.mkdtemp()) / "store.zarr"
-print(campaign.run(plan, store, workers=2).done)
-
-data = campaign.Store(store).dataset("surfaces").isel(fractal_dimension=0)
-law = rl.fit_power_law(data.force_bar, data.stiffness, window=(1e-2, 1e-1))
-rl.plot.power_law(data.force_bar, data.stiffness, law)
+if __name__ == "__main__":
+    store = Path(tempfile.mkdtemp()) / "store.zarr"
+    print(campaign.run(plan, store, workers=2).done)
+    data = campaign.Store(store).dataset("surfaces").isel(fractal_dimension=0)
+    law = rl.fit_power_law(data.force_bar, data.stiffness, window=(1e-2, 1e-1))
+    rl.plot.power_law(data.force_bar, data.stiffness, law)
