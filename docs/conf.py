@@ -30,6 +30,7 @@ templates_path = ["templates"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 autosummary_generate = True
+autosummary_filename_map = made.FILES_OF_NAMES
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the docstrings tell types, with shapes and units
 numpydoc_show_class_members = False

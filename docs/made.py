@@ -69,6 +69,13 @@ GALLERY = (
 
 CONSTANTS = {"PAPER_PUNCH", "EXACT_PUNCH"}
 
+FILES_OF_NAMES = {
+    f"roughline.{name}": f"roughline.{name}-function"
+    for name in rl.__all__
+    if name != name.capitalize() and name.capitalize() in rl.__all__
+}
+"""Pages whose names would differ in capitals alone, which some systems take for the same file."""
+
 
 def write_pages(source: str | Path) -> None:
     """Write all made pages into the folder ``made`` of the handbook's source."""
@@ -154,7 +161,12 @@ def page_of_materials() -> str:
         .splitlines()
         if line.startswith("#")
     ]
-    return f"# Materials\n\n{' '.join(comments)}\n\n{table(header, rows)}"
+    own = (
+        'Other values are given as `--materials "E=210 GPa nu=0.31 hardness=12 GPa, steel"`, or as '
+        "`rl.Material(...)`. [A new line of this table](../tutorials/extend.md#add-a-material) "
+        "changes the package.\n"
+    )
+    return f"# Materials\n\n{' '.join(comments)}\n\n{own}\n{table(header, rows)}"
 
 
 def page_of_quantities() -> str:

@@ -15,14 +15,14 @@ _COUNTLESS = 100_000  # realisations above which the mean lies on the border of 
 
 @dataclass(frozen=True)
 class WidenedInterval:
-    """Interval of a mean that an error of the grid has widened, too.
+    """Interval of a mean, widened by an error of the grid.
 
     Attributes
     ----------
     low, high : float
         Its ends.
     least, most : float
-        What the grid alone leaves open of the mean, within them.
+        Range that the error of the grid alone leaves open for the mean, within these ends.
     """
 
     low: float
@@ -100,7 +100,7 @@ def finding_of_cases(
 
 
 def confidence_of_each(cases: int, level: float = 0.95) -> float:
-    """Return what each of some intervals must hold for all to hold at a level (Bonferroni)."""
+    """Return the level of each interval for all to hold together at a level (Bonferroni)."""
     return 1 - (1 - level) / cases
 
 

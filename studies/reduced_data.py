@@ -16,7 +16,7 @@ from roughline.campaign import Ensemble, Plan, Store
 from roughline.campaign.layout import DONE
 from roughline.errors import RoughlineError, StoreError
 
-_AGAIN = "reduce the study anew, or take the plan back"
+_AGAIN = "reduce the study again, or restore its plan"
 _SMALL = 8192  # bytes of an array below which packing costs more than it saves
 _PACKED = {"zlib": True, "complevel": 9, "shuffle": True}
 
@@ -54,7 +54,7 @@ def finished(store: Store, ensemble: Ensemble) -> xarray.Dataset:
     except (OSError, ValueError, KeyError, RuntimeError) as error:
         raise StoreError(
             f"{store.path}: the ensemble {ensemble.name!r} cannot be read ({error}); run the "
-            "campaign again, it computes what is damaged anew"
+            "campaign again, it computes the damaged part again"
         ) from error
     refuse_other_settings(data.attrs, ensemble, str(store.path))
     there = set(data.fractal_dimension.values.tolist())

@@ -12,7 +12,8 @@ class RoughlineError(Exception):
 class InputError(RoughlineError, ValueError):
     """The input is not usable; the message says what came, what is allowed and what to do.
 
-    An argument that would mend it stands in the message with an equals sign, such as unit="um".
+    An argument that solves the problem is named in the message with an equals sign, such as
+    unit="um".
     """
 
 
@@ -29,7 +30,7 @@ class ClusterError(RoughlineError):
 
 
 class ContinuumWarning(UserWarning):
-    """A quantity of the continuum is more than 5 % off that of the bodies which belong to it."""
+    """A quantity of the continuum differs by more than 5 % from that of the generated bodies."""
 
 
 class ConvergenceError(RoughlineError):
@@ -38,7 +39,7 @@ class ConvergenceError(RoughlineError):
     Attributes
     ----------
     curve : roughline.Curve or None
-        What was solved. Loads that were not are NaN, and ``curve.status`` says why.
+        The curve; loads that were not solved are NaN, and ``curve.status`` says why.
     """
 
     def __init__(self, message: str, curve: Any = None) -> None:
@@ -47,12 +48,12 @@ class ConvergenceError(RoughlineError):
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C came while loads were being solved.
+    """The computation was interrupted (Ctrl-C) while loads were being solved.
 
     Attributes
     ----------
     curve : roughline.Curve
-        The loads that were solved before. The others are NaN and marked in ``curve.status``.
+        The loads that were solved before it. The others are NaN and marked in ``curve.status``.
     """
 
     def __init__(self, curve: Any) -> None:
@@ -60,6 +61,6 @@ class Interrupted(KeyboardInterrupt):
         self.curve = curve
 
     def __str__(self) -> str:
-        """Say how far it came."""
+        """Say how many of the loads were solved."""
         solved, loads = int(self.curve.converged.sum()), self.curve.status.size
         return f"interrupted: {solved} of {loads} loads were solved"

@@ -1,4 +1,4 @@
-"""Quantities with units, read once at the edge; inside, everything is SI."""
+"""Quantities with units: input is converted to SI once, and all computations are in SI."""
 
 from __future__ import annotations
 
@@ -102,7 +102,8 @@ def in_si(text: str, unit: str, name: str) -> float:
     except Exception as error:  # of a senseless unit the parser raises errors of any type
         vickers = "; 1 HV is 10.6 MPa on the projected indent" if "HV" in text else ""
         raise UnitError(
-            f'{name} is "{text}", which is no quantity in {unit}; such as "{example}" is{vickers}'
+            f'{name} is "{text}", which is no quantity in {unit}; give one such as "{example}"'
+            f"{vickers}"
         ) from error
 
 
@@ -171,7 +172,7 @@ def load_in_newtons(text: str, area: float) -> float:
     Raises
     ------
     UnitError
-        If it is neither.
+        If it is neither a force nor a pressure.
     """
     refuse_decimal_comma(text, "load")
     for unit, factor in (("N", 1.0), ("Pa", area)):
@@ -192,7 +193,7 @@ def engineering(value: float, unit: str, digits: int = 4) -> str:
 
 
 def prefix(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
-    """Choose a prefix for an SI value that is written with so many digits.
+    """Choose a prefix for an SI value that is written with a number of digits.
 
     Parameters
     ----------
@@ -226,7 +227,7 @@ def _within_prefixes(exponent: int) -> int:
 
 
 def decimal(value: float, digits: int) -> str:
-    """Write a number with so many significant digits, without an exponent where it is short."""
+    """Write a number with significant digits, without an exponent where that is short."""
     return (
         f"{float(f'{value:.{digits}g}'):.10g}"
         if 1e-4 <= abs(value) < 1e6

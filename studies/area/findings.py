@@ -1,4 +1,4 @@
-"""What the study finds: one law for all spectra, and what is said of the area elsewhere."""
+"""What the study finds: one law for all spectra, and statements on the area from the literature."""
 
 from __future__ import annotations
 
@@ -174,7 +174,7 @@ def _nayak_alone() -> Finding:
         )
 
     return _of_samples(
-        f"Nayak's parameter alone says κ, whatever the Hurst exponent (here), to {SAME:.0%}",
+        f"Nayak's parameter alone determines κ, whatever the Hurst exponent (here), to {SAME:.0%}",
         f"κ at {MIDDLE:.0%} in contact over {line}",
         over_law,
         (1 - SAME, 1 + SAME),

@@ -35,7 +35,7 @@ BANDS = (4, 8, 16, 32, 64)
 FINE_BANDS, LARGE_BANDS = (4, 8, 16), (4, 16)
 """Those pressed with 16 cells for the shortest wave, and with eight roll-off waves a side too."""
 AREAS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.15)
-"""Shares of the area in contact at which kappa is told."""
+"""Shares of the area in contact at which kappa is reported."""
 HALVES = 2.0
 """An error that halves with the spacing is twice the difference of two grids."""
 

@@ -58,10 +58,10 @@ def lead() -> str:
     return (
         "The real contact area of rough elastic surfaces is nearly proportional to the force, A = "
         "κ F / (E* ∇h). Theories give κ = 2.507 and 1.596. Here it is computed with every "
-        "interaction on surfaces whose shortest waves are resolved, so that κ is the surface's "
-        f"and not the grid's: {min(light):.2f} to {max(light):.2f} at {LIGHT:.1%} in contact, less "
-        "under heavier loads. It depends on the spectrum through Nayak's parameter α alone: at "
-        f"{MIDDLE:.0%} in contact it is {line}, to "
+        "interaction on surfaces whose shortest waves are resolved, so that κ depends on the "
+        f"surface and not on the grid: {min(light):.2f} to {max(light):.2f} at {LIGHT:.1%} in "
+        "contact, less under heavier loads. It depends on the spectrum through Nayak's parameter "
+        f"α alone: at {MIDDLE:.0%} in contact it is {line}, to "
         f"{law.deviation:.1%}, for Hurst exponents from {min(HURSTS):g} to {max(HURSTS):g}. On "
         f"infinitely fine grids κ would be up to {grid_error(MIDDLE):.1%} higher."
     )
@@ -73,7 +73,7 @@ def _question() -> Section:
         [
             "Is κ of A = κ F / (E* ∇h) one number for all surfaces, and which? ∇h is the rms "
             "slope. The founding paper quotes the law as its eq. 4. On grids that cut the spectrum "
-            "at their own end κ is a number of the grid: the shortest waves are not resolved, and "
+            "at their own end κ depends on the grid: the shortest waves are not resolved, and "
             "the area in cells grows with the outline of the contact.",
         ],
     )
@@ -125,14 +125,14 @@ def _verdicts() -> Section:
         "Verdicts",
         [
             "Confirmed: the whole interval lies within the tolerance for every spectrum. Refuted: "
-            "it lies outside for some. Undecided: else; how many surfaces of each spectrum would "
-            "decide is told from the scatter, if the mean stays where it is. The intervals hold at "
-            "95 % for all spectra of a row together; those of light loads are widened to one side "
-            "by the grid's error.",
+            "it lies outside for some. Undecided: otherwise; how many surfaces of each spectrum "
+            "would decide is estimated from the scatter, for an unchanged mean. The intervals hold "
+            "at 95 % for all spectra of a row together; those of light loads are widened to one "
+            "side by the grid's error.",
         ],
         note=f"The lightest loads are those at {LIGHT:.1%} in contact. κ still rises towards "
-        "lighter ones, so the limit of vanishing load, in which Bush, Gibson and Thomas's number "
-        "is meant, is not judged.",
+        "lighter ones, so the limit of vanishing load, to which Bush, Gibson and Thomas's number "
+        "refers, is not judged.",
         tables=[verdict_table()],
     )
 
@@ -179,7 +179,7 @@ def _law() -> Section:
     return Section(
         "One law for all",
         [
-            "Lines over log α, by least squares over all fifteen spectra, which count alike: κ = "
+            "Lines over log α, by least squares over all fifteen spectra, weighted equally: κ = "
             "κ_10 + b log10(α/10), with 95 % intervals from resampled surfaces; the error of the "
             f"grid, by which κ is up to {grid_error(MIDDLE):.1%} higher, is not in them. To use "
             "the lines: take α and ∇h of the surface down to its shortest wave, and the area from "
@@ -204,10 +204,10 @@ def _grid() -> Section:
         "The grid",
         [
             "How much higher κ is with 16 cells for the shortest wave than with eight, of the same "
-            "surfaces, with 95 % intervals. Verdicts on light loads take twice that as the error "
-            "of eight cells, as of an error that halves with the spacing. Wider bands were not "
-            "pressed on the finer grid and are given the error of the widest that was: the "
-            "shortest wave, which decides, has as many cells in all of them.",
+            "surfaces, with 95 % intervals. Verdicts on light loads take twice this difference "
+            "as the error of eight cells, as it holds for an error that halves with the spacing. "
+            "Wider bands were not pressed on the finer grid and are assigned the error of the "
+            "widest band that was: the shortest wave, which decides, has as many cells in all.",
         ],
         tables=[Table(header, rows, range(len(header)))],
     )
@@ -240,7 +240,7 @@ def _repeat() -> Section:
         [
             "The plan, the reduction and the data lie in `studies/area`: areas and statuses of "
             "every surface and load as NetCDF, in single precision. Surface i has the seed "
-            "`SeedSequence(2017, spawn_key=(i,))`. `make area` computes everything anew, in less "
+            "`SeedSequence(2017, spawn_key=(i,))`. `make area` computes everything again, in less "
             "than an hour on two cores, and goes on where it stopped. Made with roughline "
             f"{__version__}.",
         ],

@@ -14,7 +14,7 @@ from studies.reduced_data import errors_in_one_line
 
 
 def main() -> None:
-    """Draw everything anew."""
+    """Draw everything again."""
     publish("area", page, {"kappa": kappa_figure}, summary)
 
 

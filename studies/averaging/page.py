@@ -104,8 +104,8 @@ def _method() -> Section:
             "α is the least-squares slope of ln mean k over ln mean F where the mean force is in "
             "the window; no number is given where the means do not cover it.",
             "Intervals are studentised, from resampled bodies; at fixed level they are too narrow "
-            f"and hold a known exponent in {HELD_AT_LEVEL:.0%} of samples of 40 bodies. Below its "
-            "smallest load a body follows the power law of its first two loads.",
+            f"and contain a known exponent in {HELD_AT_LEVEL:.0%} of samples of 40 bodies. Below "
+            "its smallest load a body follows the power law of its first two loads.",
         ],
     )
 
@@ -263,7 +263,7 @@ def _repeat() -> Section:
         [
             "The plan, the reduction and the exponents lie in `studies/averaging`; the surfaces "
             "and lines come with the package (`studies/paper`). `make averaging` fits everything "
-            f"anew in a minute. Made with roughline {__version__}.",
+            f"again in a minute. Made with roughline {__version__}.",
         ],
     )
 

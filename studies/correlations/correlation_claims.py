@@ -1,4 +1,4 @@
-"""What is said of the conductance, what was found, and the verdicts."""
+"""Statements on the conductance, what was found, and the verdicts."""
 
 from __future__ import annotations
 
@@ -96,8 +96,8 @@ def claims() -> list[Claim]:
             mixed,
             over_root_sum,
         ),
-        _of_bands("Elastic: σ and m alone say what the surface does", ELASTIC, 16),
-        _of_bands("Fully plastic: σ and m alone say what the surface does", FULL, 16),
+        _of_bands("Elastic: of the surface, only σ and m matter", ELASTIC, 16),
+        _of_bands("Fully plastic: of the surface, only σ and m matter", FULL, 16),
         _of_ratios(
             "Fully plastic: all load on a single round spot (Holm)",
             "conductance over Holm's",

@@ -48,11 +48,11 @@ def _band_section() -> Section:
         "How wide the band of waves is",
         [
             "The same roll-off with fewer and with more waves below it, eight cells for the "
-            f"shortest, at a pressure of 0.01. Elastic conductance hardly knows the short waves: "
+            f"shortest, at a pressure of 0.01. Elastic conductance hardly depends on short waves: "
             f"from q_high/q_roll = {narrow} to {elastic_widest} its ratio to Mikic's changes by "
             f"{_percents(elastic)} at {_HURST}.",
             "In the plastic limit CMY's conductance grows with the slope m, to which ever shorter "
-            "waves add, and that of the surface does not keep up: short waves cut a contact spot "
+            "waves contribute, and that of the surface grows less: short waves cut a contact spot "
             "into fragments, which lie close together and conduct almost as one. From "
             f"q_high/q_roll = {narrow} to {widest} the ratio changes by {_percents(plastic)} at "
             f"{_HURST}. So the m to put in depends on the finest scale that was measured, and no "
@@ -91,7 +91,7 @@ def _boundary_section() -> Section:
             f"{_percents(light_plastic)} (fully plastic) at {WINDOW[0]:g}, and by "
             f"{_percents(heavy_elastic)} and {_percents(heavy_plastic)} at {WINDOW[1]:g}. A free "
             "piece is not pressed evenly, and where the interface is stiffer than the block, "
-            "little of it is left in the difference. The verdicts are for the periodic "
+            "1/k - 1/k_s is a small difference of two numbers. The verdicts are for the periodic "
             f"half-space. {_HURST}.",
         ],
         tables=[boundary_table()],

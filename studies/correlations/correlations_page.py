@@ -68,12 +68,12 @@ def _lead() -> str:
     return (
         "Handbooks give the conductance of a joint by a correlation: Mikic's for elastic contact, "
         "Cooper, Mikic and Yovanovich's (CMY) for plastic contact, Holm's for a single spot. Here "
-        "they are held against contact with every interaction, on Gaussian isotropic surfaces "
-        f"with a hardness, at pressures from {_FROM_TO} of E*∇h or of H. Elastic surfaces conduct "
-        f"{_spread(elastic)} of what Mikic's correlation says, and fully plastic ones "
-        f"{_spread(plastic)} of what CMY's says, where the longest waves are {_main_band()} times "
-        f"as long as the shortest. From {min(BANDS)} to {max(BANDS)} times, the ratio to CMY's "
-        f"changes by {band.value:+.0%}. To our knowledge they had not been tested so before."
+        "they are compared with contact computed with every interaction, on Gaussian isotropic "
+        f"surfaces with a hardness, at pressures from {_FROM_TO} of E*∇h or of H. Elastic surfaces "
+        f"conduct {_spread(elastic)} of what Mikic's correlation says, and fully plastic ones "
+        f"{_spread(plastic)} of what CMY's says, where the roll-off waves are {_main_band()} "
+        f"times as long as the shortest. From {min(BANDS)} to {max(BANDS)} times, the ratio to CMY's "
+        f"changes by {band.value:+.0%}. To our knowledge they had not been tested in this way."
     )
 
 
@@ -82,11 +82,11 @@ def _claims_section() -> Section:
         "Verdicts",
         [
             "A statement is confirmed where the whole interval lies within the tolerance, refuted "
-            "where it lies outside at some pressure, and undecided else. The intervals hold at "
-            f"{LEVEL:.0%} for all pressures together, and are widened to one side by twice the "
-            "difference of two grids, which is the error of one that halves with the spacing. "
+            "where it lies outside at some pressure, and undecided otherwise. The intervals hold "
+            f"at {LEVEL:.0%} for all pressures together, and are widened to one side by twice the "
+            "difference of two grids, which is the error if it halves with the spacing. "
             f"Exponents are judged to ±{EXPONENT_TOLERANCE:g}. How many surfaces would decide is "
-            "told from the scatter, if the mean stays where it is.",
+            "estimated from the scatter, for an unchanged mean.",
         ],
         tables=[claims_table(claims())],
     )
@@ -149,10 +149,11 @@ def _between_section() -> Section:
             "The conductance under the same p/H over both correlations, with the mean contact "
             "pressure p_c over H that the elastic body would have at p/(E*∇h) = 0.01, and the "
             "share of the contact that is at the hardness, at p/H = 0.01.",
-            f"In its own limit each correlation promises too much, and between them both promise "
-            f"too little: at H/(E*∇h) = {BETWEEN:g} surfaces conduct {_spread(over_cmy)} of what "
-            f"CMY's says and {_spread(over_mikic)} of what Mikic's says, from {_FROM_TO}.",
-            "The second table holds a rule against the data that was found here and has no "
+            "In its own limit each correlation overestimates the conductance. Between the limits, "
+            f"at H/(E*∇h) = {BETWEEN:g}, both underestimate it: surfaces conduct "
+            f"{_spread(over_cmy)} of what CMY's says and {_spread(over_mikic)} of what Mikic's "
+            f"says, from {_FROM_TO}.",
+            "The second table compares the data with a rule that was found here and has no "
             "derivation: h_c² = h_e² + h_p², with h_e of the elastic body under the same load and "
             f"h_p of the fully plastic one under the same p/H. Conductance over that is "
             f"{least:.2f} to {most:.2f} in the mean from {_FROM_TO}.",
@@ -167,11 +168,11 @@ def _area_section() -> Section:
         "The plastic limit: area, and Holm's spot",
         [
             f"In the plastic limit the real area is p/H times the nominal one: {least:.3f} to "
-            f"{most:.3f} times that from {_FROM_TO} at H/(E*∇h) = {FULL:g}. The area never is "
-            "smaller, as no point bears more than H. So the correlation's area is right, and what "
-            "it is wrong about is how well that area conducts.",
-            "Holm's formula puts all load on one round spot. Spots apart conduct better, the "
-            "more so the larger the nominal area is: the numbers are for one with "
+            f"{most:.3f} times that from {_FROM_TO} at H/(E*∇h) = {FULL:g}. The area is "
+            "never smaller, as no point bears more than H. So the correlation's area is right, and "
+            "its error is in how well that area conducts.",
+            "Holm's formula puts all load on one round spot. Separate spots conduct better, the "
+            "more so the larger the nominal area is: the numbers are for a nominal area with "
             f"{_main_waves()} roll-off waves along its side. Hurst {3 - MIDDLE:.1f}.",
         ],
         tables=[area_table()],
@@ -183,7 +184,7 @@ def _scatter_section() -> Section:
         "How far a single surface is off",
         [
             "Standard deviation of single surfaces over the mean, of nominal areas with "
-            f"{_main_waves()} roll-off waves along a side. A correlation cannot know it.",
+            f"{_main_waves()} roll-off waves along a side. A correlation does not describe it.",
         ],
         tables=[scatter_table()],
     )
@@ -199,9 +200,9 @@ def _methods_section() -> Section:
         "What was computed, and how",
         [
             "Elastic, perfectly plastic contact: pressures from 0 to H, overlap at H becomes a "
-            "permanent indentation ([the model](science.md)). What is displaced vanishes: there "
-            "is no pile-up, and H is the same everywhere and at every depth. Barber's identity "
-            "gives the conductance from the stiffness on unloading of a periodic surface, "
+            "permanent indentation ([the model](science.md)). Displaced material vanishes: "
+            "there is no pile-up, and H is the same everywhere and at every depth. Barber's "
+            "identity gives the conductance from the stiffness on unloading of a periodic surface, "
             "h_c = κ_s k_u/(E* A_0), exactly. H is given over E* times each surface's own rms "
             "slope, from differences on its grid, and the same slope is used in m. Slopes of "
             f"surfaces of one ensemble differ by {slope_spread():.0e}. Means over the surfaces at "
@@ -209,15 +210,15 @@ def _methods_section() -> Section:
             "Moduli of the waves are fixed and their phases random; the many waves make the "
             f"heights Gaussian: skewness {found.skewness[0]:+.3f} (standard deviation "
             f"{found.skewness[1]:.3f}), excess kurtosis {found.excess_kurtosis[0]:+.3f} "
-            f'({found.excess_kurtosis[1]:.3f}) in the ensembles "main". Of their area {bearing} '
-            f"(standard errors) lies above the heights above which {gaussian} of a Gaussian "
-            "surface lies.",
+            f'({found.excess_kurtosis[1]:.3f}) in the ensembles "main". Above the '
+            f"heights that {gaussian} of a Gaussian surface exceed lie {bearing} (standard errors) "
+            "of their area.",
             f"{unsolved} of {loads}, each certified below 1e-6; means leave out the others.",
         ],
         tables=[ensembles_table()],
         note=(
             f"To repeat: `make correlations` (version {__version__}), about "
-            f"{core_seconds() / 60:.0f} min on one core, beside other work; it can be interrupted, "
+            f"{core_seconds() / 60:.0f} min on one core, during other work; it can be interrupted, "
             f"and goes on. Surface i has the seed SeedSequence({seed}, spawn_key=(i,))."
         ),
     )

@@ -13,7 +13,7 @@ from studies.reduced_data import errors_in_one_line
 
 
 def main() -> None:
-    """Draw everything anew."""
+    """Draw everything again."""
     publish("correlations", page, {"conductance": conductance_figure, "ratios": ratio_figure})
 
 

@@ -174,7 +174,7 @@ def _between() -> Finding:
 
 
 def _persson() -> Finding:
-    """Judge Persson's theory under the load of gamma, and lighter ones."""
+    """Judge Persson's theory at the load of gamma, and at lighter ones."""
     cases = _many()
     level = confidence_of_each(len(_BELOW) * len(cases))
     found = {below: [over_persson(one, below, level) for one in cases.values()] for below in _BELOW}

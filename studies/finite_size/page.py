@@ -65,12 +65,13 @@ def lead() -> str:
     return (
         "The stiffness of a rough contact is said to follow a power law, k ~ F^(1/(1+H)), while a "
         "single wave of the roll-off length carries the load, and to be proportional to it, "
-        "k = p/(γ h), when many do. Both ends of the way between them are found here, and each "
-        "collapses in its own unit. The power law is a matter of the force on a single wave: at "
-        f"Hurst {_LEAD_HURST:g} it is half gone at F/(E* h λ_r) = {halves[0]:.2g} on surfaces of "
-        f"one wave and {min(halves[1:]):.2g} to {max(halves[1:]):.2g} on those of {MANY} to "
-        f"{max(SIZES[BAND])}, so under ever lower mean pressures. Then k ~ F^{min(middle):.2f} to "
-        f"F^{max(middle):.2f}, over more decades the larger the surface is. The linear "
+        "k = p/(γ h), when many do. Both ends of the transition between these laws are found here, "
+        "and each collapses in its own unit. The power law depends on the force on a single wave: "
+        f"at Hurst {_LEAD_HURST:g} the exponent is half way to {BETWEEN_THEM:g} at "
+        f"F/(E* h λ_r) = {halves[0]:.2g} on surfaces of one wave and {min(halves[1:]):.2g} to "
+        f"{max(halves[1:]):.2g} on those of {MANY} to {max(SIZES[BAND])}, so at ever lower "
+        f"mean pressures. Then k ~ F^{min(middle):.2f} to F^{max(middle):.2f}, over more "
+        "decades the larger the surface is. The linear "
         f"law begins only where the mean pressure is {min(begins):.2f} to {max(begins):.2f} of "
         "E* h/λ_r, whatever the size and the band of waves; there γ is "
         f"{np.nanmin(gammas):.3f} to {np.nanmax(gammas):.3f}."
@@ -115,19 +116,20 @@ def _method() -> Section:
             f"Gaussian isotropic surfaces with L/λ_r = {', '.join(map(str, SIZES[BAND]))} roll-off "
             f"waves along a side and waves down to λ_r/{BAND}, four cells for the shortest; Hurst "
             f"exponents {', '.join(f'{hurst:g}' for hurst in HURSTS)}. {counts} surfaces for each; "
-            f"beside them waves down to λ_r/{WIDE}, for up to {max(SIZES[WIDE])} roll-off waves.",
+            f"further ones have waves down to λ_r/{WIDE}, for up to {max(SIZES[WIDE])} roll-off "
+            "waves.",
             "Periodic half-space; free half-space, of whose stiffness that of the interface is "
             "shown, 1/(1/k − 1/k_s); and lines on springs with the same waves (reduced model).",
             "The local exponent is the slope of ln mean k over ln F at three neighbouring loads, "
-            "half a decade. The power law ends where it is for good more than 0.05 above "
-            f"1/(1+H), it is half gone where it is above the middle of that and {BETWEEN_THEM:g}, "
-            "and the linear law begins where it is less than 0.05 below 1.",
-            "γ is F/(k h) where it is largest, which is where the exponent is 1; where it is "
-            "largest under the heaviest load it is more than that. Intervals are studentised, from "
-            "resampled surfaces; that of a load reaches from the last load at which the interval "
-            "of the exponent lies below to the first from which on all lie above.",
-            f"{loads - unsolved:,} of {loads:,} loads are certified to 1e-6. Loads count from "
-            f"which on {RESOLVED:.0%} of the surfaces have ten cells in contact.",
+            "half a decade. The power law ends where this exponent stays more than 0.05 above "
+            f"1/(1+H), the exponent is half way where it stays above the middle of 1/(1+H) and "
+            f"{BETWEEN_THEM:g}, and the linear law begins where it is less than 0.05 below 1.",
+            "γ is the largest F/(k h), which is found where the exponent is 1; if it is found at "
+            "the heaviest load, γ is larger than that. Intervals are studentised, from resampled "
+            "surfaces; that of a load reaches from the last load at which the interval of the "
+            "exponent lies below the threshold to the first from which on all lie above it.",
+            f"{loads - unsolved:,} of {loads:,} loads are certified to 1e-6. Loads are used where "
+            f"{RESOLVED:.0%} of the surfaces have ten cells in contact.",
         ],
     )
 
@@ -151,9 +153,9 @@ def _verdicts() -> Section:
         "Verdicts",
         [
             "Confirmed: the whole interval lies within the tolerance in every case. Refuted: it "
-            "lies outside in some. Undecided: else; how many surfaces would decide is told from "
-            "the scatter, if the mean stays where it is. The intervals hold at 95 % for all cases "
-            "of a row together; those of the tables below hold at 95 % each.",
+            "lies outside in some. Undecided: otherwise; how many surfaces would decide is "
+            "estimated from the scatter, for an unchanged mean. The intervals hold at 95 % for all "
+            "cases of a row together; those of the tables below hold at 95 % each.",
         ],
         tables=[findings_table(findings())],
     )
@@ -168,7 +170,7 @@ def _crossings(geometry: Geometry) -> Section:
             f"E* h λ_r and over E* h L, the exponent from F/(E* h λ_r) = {BETWEEN[0]:g} to "
             f"{BETWEEN[1]:g}, the beginning of the linear law, γ and the pressure where it is "
             "found. A dash: not within the loads. At Hurst 0.2 the exponents of the two ranges "
-            "are so near each other that the end is told poorly.",
+            "are so close to each other that the end is poorly determined.",
         ],
         tables=[crossing_table(geometry, BAND)],
     )
@@ -215,7 +217,7 @@ def _repeat() -> Section:
             "The plan, the reduction and the data lie in `studies/finite_size`: stiffnesses and "
             "statuses of every body and load as NetCDF, in single precision. Body i has the seed "
             f"`SeedSequence({plan().ensembles[0].seed}, spawn_key=(i,))`. `make finite-size` "
-            "computes everything anew and goes on where it stopped. Made with roughline "
+            "computes everything again and goes on where it stopped. Made with roughline "
             f"{__version__}.",
         ],
     )

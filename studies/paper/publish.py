@@ -39,7 +39,7 @@ FOLDER_IN_PAGES = "figures/paper"
 
 
 def main() -> None:
-    """Draw everything anew."""
+    """Draw everything again."""
     refuse_another_plan()
     shutil.rmtree(FIGURES, ignore_errors=True)
     FIGURES.mkdir(parents=True)

@@ -110,7 +110,7 @@ def test_where_a_crop_leaves_no_filled_point_the_filling_changes_nothing(holed):
         reading=rl.Reading(unit="m", sizes="1 mm"),
         preparation=rl.Preparation(crop=(5e-4, 1e-3, 5e-4, 1e-3), trend="none"),
     )
-    assert "no filled point is left in what is pressed" in rl.assess(question).notes
+    assert "no filled point is left in the piece that is pressed" in rl.assess(question).notes
 
 
 def test_a_body_in_memory_is_assessed_like_its_file(rough):

@@ -124,7 +124,7 @@ def test_what_is_left_out_of_a_joint_is_told_with_its_size(part):
         sum(RESISTIVITIES) / (4 * radius)
     )
     assert any("evenly loaded" in note for note in light.notes)
-    assert any("evenly loaded" in note and "decide as well" in note for note in heavy.warnings)
+    assert any("evenly loaded" in note and "matter as well" in note for note in heavy.warnings)
 
 
 def test_without_a_joint_forces_act_on_the_map_and_the_notes_say_so(part):

@@ -213,7 +213,7 @@ def test_questions_of_several_maps_that_cannot_be(asked, message):
 def test_the_maps_of_a_part_are_asked_the_same(maps):
     questions = [rl.Question(each, loads="5 MPa", **ASKED) for each in maps[:2]]
     other = rl.Question(maps[2], loads="6 MPa", **ASKED)
-    with pytest.raises(rl.InputError, match="asked the same, and loads differs"):
+    with pytest.raises(rl.InputError, match="asked the same question, but loads differs"):
         rl.assess_part([*questions, other])
     named = rl.assess_part(questions, names=["left", "right"])
     assert named.names == ["left", "right"]

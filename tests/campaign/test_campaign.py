@@ -120,7 +120,7 @@ def test_a_store_of_other_settings_is_refused_and_not_touched(plan, finished):
     ):
         more = replace(lines, realisations=100)
         other = replace(plan, ensembles=(more, replace(surfaces, **changes)))
-        with pytest.raises(rl.StoreError, match="'surfaces' of other settings") as caught:
+        with pytest.raises(rl.StoreError, match="'surfaces' with other settings") as caught:
             campaign.run(other, finished)
         assert key in str(caught.value)
     assert tree(finished) == before
@@ -144,11 +144,11 @@ def test_folders_that_are_no_store(plan, finished, tmp_path):
     thesis = tmp_path / "thesis"
     thesis.mkdir()
     (thesis / "chapter_1.txt").write_text("")
-    with pytest.raises(rl.StoreError, match="is no store of roughline"):
+    with pytest.raises(rl.StoreError, match="is not a store of roughline"):
         campaign.run(plan, thesis)
     assert [path.name for path in thesis.iterdir()] == ["chapter_1.txt"]
     zarr.create_group(tmp_path / "foreign")
-    with pytest.raises(rl.StoreError, match="is no store of roughline"):
+    with pytest.raises(rl.StoreError, match="is not a store of roughline"):
         campaign.run(plan, tmp_path / "foreign")
     (tmp_path / "file").write_text("")
     with pytest.raises(rl.StoreError):

@@ -76,7 +76,7 @@ def test_workers_of_another_version(plan, tmp_path, invoke):
         )
         assert code == 2
         last = err.splitlines()[-1]
-        assert "a worker has roughline 0.0.9, this is" in last
+        assert "a worker has roughline 0.0.9, and the campaign has" in last
         assert f"install version {rl.__version__} there" in last
         assert "Traceback" not in err
     finally:

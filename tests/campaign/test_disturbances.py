@@ -284,4 +284,4 @@ asyncio.run(cell())
         [sys.executable, "-"], input=script, capture_output=True, text=True, check=False
     )
     assert done.returncode == 1
-    assert "cannot start workers, as they must import it: save it in a file" in done.stderr
+    assert "cannot start workers, because they must import it: save it in a file" in done.stderr

@@ -23,7 +23,7 @@ batch.evaluate_case = evaluate_case
     [
         ("raise FloatingPointError('the sky fell')", "FloatingPointError: the sky fell"),
         ("raise MemoryError", "MemoryError: "),
-        ("import os; os._exit(9)", "its worker died again and again, perhaps for want of memory"),
+        ("import os; os._exit(9)", "its worker died repeatedly, perhaps because memory ran out"),
     ],
 )
 def test_a_case_that_fails(few_plan_file, few_undisturbed, two_workers, tmp_path, what, reason):

@@ -88,15 +88,18 @@ def test_elastic_bodies_are_known_by_the_settings_that_they_always_had():
         ({"hardness_bar": float("-inf")}, "hardness_bar is -inf; a positive"),
         ({"hardness_bar": float("nan")}, "hardness_bar is nan; a positive"),
         ({"hardness_bar": "2 GPa"}, "hardness_bar is '2 GPa'; a number is needed"),
-        ({"hardness_bars": 0.3}, "'hardness_bars' is not known; is 'hardness_bar' meant?"),
+        ({"hardness_bars": 0.3}, "'hardness_bars' is not known; did you mean 'hardness_bar'?"),
         (
             {"hardness_bar": 0.3, "model": "reduced", "boundary": "none"},
             "hardness_bar is 0.3, and the reduced model has no yield: leave it out, or take model",
         ),
-        ({"hardness_bar": 0.3}, "force_bar 1000 at fractal dimension 2.2: bodies of hardness_bar"),
+        (
+            {"hardness_bar": 0.3},
+            "force_bar 1000 at fractal dimension 2.2: bodies with hardness_bar",
+        ),
         (
             {"force_bars": [1.0, 2.0, 1.0], "hardness_bar": 1},
-            "rising, and 1 came after 2: sort them; a plan has no histories",
+            "rising, and 1 came after 2: sort them; a plan has no loading histories",
         ),
     ],
 )

@@ -68,8 +68,8 @@ def test_a_spectrum_has_the_cutoffs_of_its_plan():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"realizations": 3}, "'realizations' is not known; is 'realisations' meant?"),
-        ({"realizations": 3, "realisations": None}, "'realizations' is not known, is it meant?"),
+        ({"realizations": 3}, "'realizations' is not known; did you mean 'realisations'?"),
+        ({"realizations": 3, "realisations": None}, "'realizations' is not known: was it meant?"),
         ({"xyzzy": 3}, "'xyzzy' is not known; known are name, model,"),
         ({"points": None}, "has no 'points'"),
         ({"points": "many"}, "points is 'many'; a whole number is needed"),
@@ -109,11 +109,11 @@ def test_what_cannot_be_is_said_in_one_line(changes, message):
     [
         ({"ensemble": []}, "the plan has no ensemble"),
         ({}, "the plan has no 'ensemble'"),
-        ({"ensembles": [ENSEMBLE]}, "'ensembles' is not known, is it meant?"),
+        ({"ensembles": [ENSEMBLE]}, "'ensembles' is not known: was it meant?"),
         ({"ensemble": [ENSEMBLE, ENSEMBLE]}, "two ensembles are named 'lines'"),
         ({"ensemble": ENSEMBLE}, "a list of tables [[ensemble]] is needed"),
         ({"seed": -1, "ensemble": [ENSEMBLE]}, "seed is -1"),
-        ({"sede": 1, "ensemble": [ENSEMBLE]}, "'sede' is not known; is 'seed' meant?"),
+        ({"sede": 1, "ensemble": [ENSEMBLE]}, "'sede' is not known; did you mean 'seed'?"),
     ],
 )
 def test_whole_plans_are_checked_too(content, message):
@@ -125,9 +125,9 @@ def test_whole_plans_are_checked_too(content, message):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("not toml at all", "is no TOML"),
+        ("not toml at all", "is not valid TOML"),
         ("", "the plan has no 'ensemble'"),
-        ("\xff\xfe", "is no TOML"),
+        ("\xff\xfe", "is not valid TOML"),
     ],
 )
 def test_files_that_are_no_plans(tmp_path, text, message):

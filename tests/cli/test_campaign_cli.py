@@ -52,11 +52,11 @@ def test_a_campaign_from_plan_to_files(invoke, plan, tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (PLAN.replace("realisations", "realizations"), "is not known, is it meant?"),
+        (PLAN.replace("realisations", "realizations"), "is not known: was it meant?"),
         (PLAN.replace("1024", '"1024"'), "points is '1024'; a whole number is needed"),
         (PLAN.replace("[2.2, 2.8]", "[]"), "fractal_dimensions is []; at least one"),
         (PLAN.replace("1024", "100_000_000_000"), "points; allowed are 3 to"),
-        ("seed = ", "is no TOML"),
+        ("seed = ", "is not valid TOML"),
     ],
 )
 def test_bad_plans_are_one_line_and_exit_2(invoke, tmp_path, text, message):

@@ -12,7 +12,7 @@ from roughline.cli.flags import in_flags
         ("give E_star= or materials=", "give --modulus or --materials"),
         ('such as unit="um"', "such as --unit um"),
         ('such as sizes="1 mm, 0.5 mm"', "such as --size '1 mm, 0.5 mm'"),
-        ("grid_error=True does it", "--grid-error does it"),
+        ("with grid_error=True it is", "with --grid-error it is"),
         ("a unit = um is not an argument", "a unit = um is not an argument"),
         ("my_unit=3", "my_unit=3"),
         ('give it with the material, as "hardness=..."',) * 2,

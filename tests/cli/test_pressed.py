@@ -64,7 +64,7 @@ def test_filling_alone_makes_no_interval(holed, invoke):
     assert code == 0, errors
     assert not INTERVAL.search("\n".join(table_lines(out)))
     assert "grid error not estimated, so values come without intervals" in " ".join(out.split())
-    assert "filled by nearest instead: stiffness moves by" in " ".join(out.split())
+    assert "filled by nearest instead, stiffness changes by" in " ".join(out.split())
     code, out, _ = invoke(*arguments, "--no-grid-error", "--json")
     found = json.loads(out)
     assert found["stiffness_interval"] is None
@@ -120,7 +120,7 @@ def test_the_grids_error_is_estimated_unasked_where_it_is_cheap(
     monkeypatch.setattr(grid, "_CHEAP", 10)
     code, out, _ = invoke("press", rough, *PAIR, *arguments)
     assert "grid error not estimated" in out
-    assert "third longer; --grid-error does it" in " ".join(out.split())
+    assert "third longer; with --grid-error it is estimated" in " ".join(out.split())
     code, out, _ = invoke("press", rough, *PAIR, *arguments, "--grid-error")
     assert "grid error not estimated" not in out
 
@@ -130,7 +130,10 @@ def test_few_points_have_no_interval_unasked(tmp_path, invoke):
     rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "few.nc")
     code, out, _ = invoke("press", tmp_path / "few.nc", *PAIR, "--load", "10 N")
     assert code == 0
-    assert "fewer than 64 points a side; --grid-error does it still" in " ".join(out.split())
+    assert (
+        "fewer than 64 points a side; with --grid-error it is estimated nevertheless"
+        in " ".join(out.split())
+    )
     code, out, errors = invoke(
         "press", tmp_path / "few.nc", *PAIR, "--load", "10 N", "--grid-error"
     )
@@ -187,7 +190,7 @@ def test_a_report_speaks_to_a_client(holed, invoke, tmp_path):
     assert names.count("if nothing yielded") >= 2  # below what yield changes
     items = re.findall("<li>(.*?)</li>", page)
     told = (
-        "A star behind a load: fewer than ten points",
+        "A star after a load: fewer than ten points",
         "The interface stiffness k_i is",
         "carried within",
         "of the contact yields at the largest load: it bears the hardness, 370 MPa",

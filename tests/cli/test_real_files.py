@@ -307,7 +307,7 @@ def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke
     said = " ".join(out.split())
     assert "second body: 169 missing points (4.13%) filled: harmonic" in said
     assert "first body: 169 missing" not in said
-    moved = re.search(r"filled by nearest instead: stiffness moves by up to (\S+)%", said)
+    moved = re.search(r"filled by nearest instead, stiffness changes by up to (\S+)%", said)
     assert moved
     assert float(moved[1]) > 0
     page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
@@ -350,7 +350,7 @@ def test_points_filled_before_are_not_said_to_matter_nothing(topographies, invok
         (("--modulus", "1 GPa", "--crop", "0 um, 1 um"), "crop has 2 lengths; give 4"),
         (("--modulus", "1 GPa", "--low-pass", "5"), "without a unit"),
         (("--modulus", "1 GPa", "--against", "none.nc"), "none.nc does not exist"),
-        (("--modulus", "1 GPa", "--channel", "1"), "has one channel; leave it out"),
+        (("--modulus", "1 GPa", "--channel", "1"), "has one channel only; leave --channel out"),
         (("--modulus", "1 GPa", "--max-missing", "2"), "most_missing is 2"),
     ],
 )

@@ -110,7 +110,7 @@ def test_a_report_of_metals_that_yield(holed, invoke, tmp_path):
         "dashed: on unloading; blue: after a larger load",
         "red: at the hardness",
         "unloaded to 75%",
-        "hardness moves it by",
+        "change by scatter of hardness",
         "the scatter of the hardness",
         "E* (rho1 + rho2) / (2 k_u)",
     ):
@@ -168,7 +168,7 @@ def test_an_unloading_is_answered_at_the_loads_that_were_typed(rough, invoke):
     assert code == 0, errors
     answered, falling = out.index("constriction resistance R"), out.index("unloaded to 75%")
     assert falling < answered
-    assert "answers under the falling loads are for --json and --report" in out
+    assert "answers under the falling loads: use --json and --report" in out
     assert "if nothing yielded: " in out
     assert "(at the largest load)" in out
 
@@ -221,8 +221,8 @@ def test_a_line_scan_has_no_hardness(tmp_path, invoke):
     scan = ("press", tmp_path / "scan.npy", "--unit", "m", "--size", "1 mm", *PAIR)
     code, out, errors = invoke(*scan, "--load", "1 N", "--hardness", "1 GPa")
     assert (code, out) == (2, "")
-    assert "belong to a surface; the reduced model of a line has no yield: it may" in errors
-    assert "serve while mean contact pressures stay below some 0.4 of the hardness" in errors
+    assert "belong to a surface; the reduced model of a line has no yield: it can be" in errors
+    assert "used while mean contact pressures stay below about 0.4 of the hardness" in errors
     assert "leave --hardness out, or press a map\n" in errors
     assert len(errors.splitlines()) == 1
     code, out, errors = invoke(*scan, "--load", "1 N")

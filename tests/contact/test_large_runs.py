@@ -139,10 +139,12 @@ def test_mixed_precision_reaches_what_double_does(rtol):
 
 def test_single_precision_refuses_tolerances_beyond_it():
     with pytest.raises(
-        rl.InputError, match='single precision tells gaps to 3e-06 at best: .*"mixed"'
+        rl.InputError, match='single precision resolves gaps to 3e-06 at best: .*"mixed"'
     ):
         rl.press(FRACTAL, E_star=1.0, forces=[1.0], precision="float32")
-    with pytest.raises(rl.InputError, match="single precision cannot tell gaps to rtol = 0.0001"):
+    with pytest.raises(
+        rl.InputError, match="single precision cannot resolve gaps to rtol = 0.0001"
+    ):
         rl.press(FRACTAL, E_star=1.0, depths=[1e3], precision="float32", rtol=1e-4)
     with pytest.raises(rl.InputError, match="precision is 'half'; allowed are"):
         rl.press(FRACTAL, E_star=1.0, forces=[1.0], precision="half")

@@ -23,6 +23,14 @@ def test_every_public_name_has_a_page():
         assert f"   {name}\n" in page
 
 
+def test_no_two_pages_differ_in_capitals_alone():
+    pages = [
+        made.FILES_OF_NAMES.get(f"roughline.{name}", f"roughline.{name}") for name in rl.__all__
+    ]
+    assert len({page.lower() for page in pages}) == len(pages)
+    assert set(made.FILES_OF_NAMES) == {"roughline.material", "roughline.estimate"}
+
+
 def test_a_name_without_a_section_is_refused(monkeypatch):
     monkeypatch.delitem(made.SECTIONS, "Bodies")
     with pytest.raises(ValueError, match=r"SECTIONS in made.py lacks Line, Preparation, Surface"):

@@ -157,7 +157,7 @@ def test_channels(topographies):
     assert rl.read(file, channel=1).rms_height != rl.read(file).rms_height
     assert rl.read(file, channel="1").settings["channel"] == "Height"
     for channel, message in (
-        ("Height", "has 2 channels 'Height': choose by number, of 0 'Height'"),
+        ("Height", "has 2 channels 'Height': choose one by its number: 0 'Height'"),
         ("Phase", "channel 'Phase' of di-1.di holds no heights"),
         (2, "channel '2' of di-1.di holds no heights"),
         (7, "has no channel '7'; it has 0 'Height', 1"),

@@ -29,7 +29,7 @@ def test_a_surface_is_the_same_in_every_unit(tmp_path, unit, metres):
 def test_a_file_without_unit_is_refused_until_one_is_given(tmp_path):
     path = tmp_path / "body.nc"
     rl.write(SPECTRUM.surface(16, 7), path)
-    with pytest.raises(rl.UnitError, match="body.nc states no unit; say which"):
+    with pytest.raises(rl.UnitError, match="body.nc states no unit; give the unit"):
         rl.read(path)
     found = rl.read(path, unit="mm")
     assert found.sizes == pytest.approx((1e-6, 1e-6))

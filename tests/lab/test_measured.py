@@ -221,7 +221,7 @@ def test_what_a_file_leaves_open_is_asked(measured_page):
     header, _ = measured_page.ask("look", said)
     assert header["asks"]["unit"]
     assert header["obstacles"] == [
-        'xy-1.txt states no unit; say which its lengths have, such as unit "um"'
+        'xy-1.txt states no unit; give the unit of its lengths, such as unit "um"'
     ]
     assert header["body"] is None
     header, _ = measured_page.ask("look", {**said, "unit": "um"})
@@ -416,7 +416,10 @@ def test_a_contact_modulus_alone_gives_a_curve(page):
 
 def test_names_of_arguments_are_those_of_the_controls(page):
     header, _ = page.ask("answer", {"example": "film", **PAIR, "resample": "32"})
-    assert any('grid error "estimate" does it still' in each for each in header["remarks"])
+    assert any(
+        'with grid error "estimate" it is estimated nevertheless' in each
+        for each in header["remarks"]
+    )
 
 
 def test_a_name_may_be_given_to_a_file(rough):

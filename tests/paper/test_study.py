@@ -26,7 +26,7 @@ def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, tmp_path):
     campaign.run(plan, finished)
     assert tree(finished) == before
     other = replace(plan, gallery=replace(plan.gallery, force_bar=0.1))
-    with pytest.raises(rl.StoreError, match="a gallery of other settings"):
+    with pytest.raises(rl.StoreError, match="a gallery with other settings"):
         campaign.run(other, finished)
     # a damaged one is drawn again
     (tmp_path / "hurt").mkdir()

@@ -160,7 +160,9 @@ def test_a_load_that_is_not_there_is_refused(curve, surface):
         rl.plot.pressure(rl.press(surface, E_star=1e11, n_loads=3))
     with pytest.raises(rl.InputError, match="this curve is of a line"):
         rl.plot.contact(rl.press(SPECTRUM.line(256, 1), E_star=1.0, n_loads=3))
-    with pytest.raises(rl.InputError, match="no quantity 'areas' over the loads; there are depth"):
+    with pytest.raises(
+        rl.InputError, match="no quantity 'areas' over the loads; allowed are depth"
+    ):
         rl.plot.curve(curve, y="areas")
 
 

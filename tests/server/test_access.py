@@ -93,11 +93,11 @@ def test_passwords_of_any_letters_are_compared():
         ({"host": ""}, "host is empty"),
         ({"password": "short"}, "fewer than 8"),
         ({"port": 65536}, "port is 65536"),
-        ({"max_upload": 0}, "a limit of 0 is none: give a positive max_upload="),
+        ({"max_upload": 0}, "a limit of 0 is not possible: give a positive max_upload="),
         ({"max_seconds": -1.0}, "positive max_seconds="),
         ({"max_seconds": float("nan")}, "limit of nan"),
         ({"max_seconds": float("inf")}, "limit of inf"),
-        ({"max_memory": 1e6}, "1 MB of memory are too few"),
+        ({"max_memory": 1e6}, "1 MB of memory is too little"),
     ],
 )
 def test_a_lab_that_makes_no_sense_is_refused(options, said):

@@ -95,7 +95,7 @@ def test_a_damaged_store_and_one_of_another_version_are_refused(plan, store, tmp
     shutil.copytree(store, damaged)
     chunk = next(each for each in (damaged / "surfaces" / "stiffness").rglob("c/*/*/*"))
     chunk.write_bytes(chunk.read_bytes()[:-7] + b"nothing")
-    with pytest.raises(rl.StoreError, match="cannot be read .*computes what is damaged anew"):
+    with pytest.raises(rl.StoreError, match="cannot be read .*computes the damaged part again"):
         write_groups(tmp_path / "data.nc", plan, campaign.Store(damaged), KEPT)
     older = tmp_path / "older.zarr"
     shutil.copytree(store, older)
@@ -130,7 +130,7 @@ def test_data_that_are_damaged_or_missing_are_refused(plan, data):
     with pytest.raises(rl.StoreError, match="is damaged"):
         read_groups(data, plan)
     data.unlink()
-    with pytest.raises(rl.StoreError, match="does not exist: reduce the study anew"):
+    with pytest.raises(rl.StoreError, match="does not exist: reduce the study again"):
         read_groups(data, plan)
 
 

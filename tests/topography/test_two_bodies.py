@@ -42,7 +42,7 @@ def test_other_grids_are_laid_on_the_first():
 def test_what_does_not_fit_is_refused():
     with pytest.raises(rl.InputError, match="in m and mm: give both in one unit"):
         rl.facing(rough(1), rough(2, unit="mm"))
-    with pytest.raises(rl.InputError, match="points in common: too few"):
+    with pytest.raises(rl.InputError, match="points in common; at least 2 x 2"):
         rl.facing(rough(1), rl.Surface(np.eye(8), (1e-5, 1e-5), "m"))
 
 

@@ -19,7 +19,7 @@ from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal
 
-_STEEP = 0.5  # rms slope from which on it is warned that half-spaces suppose small ones
+_STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
 
 
 def surface_moments(body: Body) -> Moments | None:
@@ -85,13 +85,13 @@ def _answers(
 
 
 def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
-    """Say where an assumption breaks, and of what the answers are not."""
+    """Say where an assumption breaks, and which surface k_i belongs to."""
     question, body, pair = result.question, result.body, result.question.pair
     broken = []
     if body.rms_slope > _STEEP:
         broken.append(
-            f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces suppose small slopes: "
-            f"what slopes over {_STEEP:g} change is in no interval"
+            f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
+            f"no interval includes the effect of slopes over {_STEEP:g}"
         )
     if pair is not None and result.curve.hardness is None:
         index = None
@@ -101,7 +101,8 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
         broken += elastic_warnings(result.answers, index)
     if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
         broken.append(
-            f"theories assume equal directions; slopes differ, least {alike:.2f} of the largest"
+            "theories assume an isotropic surface, and the rms slope depends on direction: the "
+            f"least is {alike:.2f} of the largest"
         )
     if "interface_stiffness" in result.answers:
         validity = result.answers["interface_stiffness"].validity

@@ -42,10 +42,10 @@ from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
 
 Announce = Callable[[str], None]
-"""Told what a large run will cost, before it starts."""
+"""Called with the cost of a large run in words, before it starts."""
 
-_LARGE = 2**20  # points from which on the cost is told
-_MANY = 1000  # loads from which on the cost is told
+_LARGE = 2**20  # points from which on the cost is announced
+_MANY = 1000  # loads from which on the cost is announced
 
 
 def assess_body(
@@ -64,7 +64,7 @@ def assess_body(
     question : Question
         What is asked.
     announce : callable, optional
-        Told what a large run will cost, before it starts.
+        Called with the cost of a large run in words, before it starts.
     progress : callable, optional
         Called with (loads done, loads in all).
 
@@ -76,7 +76,7 @@ def assess_body(
     Raises
     ------
     InputError
-        If a file cannot be read, or what is asked does not suit what it holds.
+        If a file cannot be read, or the question does not suit what the file holds.
     """
     parts = topographies(question)
     body = pressed_body([each.body for each in parts])
@@ -139,8 +139,8 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
             cost += f", then {interface} for the interface"
         if more := repeats(question, body):
             cost += (
-                f"; where points yield, up to {more:g} times as long once more, for elastic bodies "
-                "and for the scatter of the hardness"
+                f"; where points yield, up to {more:g} times as long in addition, for elastic "
+                "bodies and for the scatter of the hardness"
             )
         announce(f"{body.shape[0]} x {body.shape[1]} points, {case.count} loads: {cost}")
 

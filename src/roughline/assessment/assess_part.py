@@ -59,13 +59,13 @@ def assess(
     Returns
     -------
     Assessment or PartAssessment
-        Of several maps, even if it is a single one in a list, what they say together.
+        A PartAssessment for maps given as a list, even if it holds a single one.
 
     Raises
     ------
     InputError
-        If a file cannot be read, or what is asked does not suit what it holds; of several, if that
-        is so of all.
+        If a file cannot be read, or the question does not suit what it holds; for several maps,
+        only if this is so for all of them.
     """
     if not question.is_of_several:
         return assess_body(question, announce=announce, progress=progress)
@@ -85,8 +85,8 @@ def assess_part(
 ) -> PartAssessment:
     """Answer one question for several maps of a part.
 
-    A map that is refused is named, and the others go on. On Ctrl-C the maps that were done before
-    are kept.
+    A map that cannot be used is listed as refused, and the others are pressed. On Ctrl-C the maps
+    that were done before are kept.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def assess_part(
     map_progress : callable, optional
         Called with (maps done, maps in all).
     answer : callable, optional
-        Answers the question of one map instead of :func:`assess_body`, such as from what is kept.
+        Answers the question of one map instead of :func:`assess_body`, such as from stored results.
 
     Raises
     ------
@@ -160,7 +160,9 @@ def _press(
         return False
     for other, earlier in done.assessments.items():
         if np.array_equal(earlier.body.heights, result.body.heights):
-            done.refused[name] = f"its heights are those of {other}, and one place counts once"
+            done.refused[name] = (
+                f"its heights are those of {other}, and each place counts only once"
+            )
             return True
     done.assessments[name] = result
     return True
@@ -239,7 +241,8 @@ def _refuse_unlike(questions: Sequence[Question]) -> None:
             getattr(each, item.name) != getattr(questions[0], item.name) for each in questions
         ):
             raise InputError(
-                f"the maps of a part are asked the same, and {item.name} differs between them"
+                f"all maps of a part are asked the same question, but {item.name} differs between "
+                "them: give the same for all"
             )
 
 

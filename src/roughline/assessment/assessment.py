@@ -44,10 +44,10 @@ class Assessment:
     asked : ndarray of int
         Which loads of the curve were asked for, in the order in which they were.
     intervals : Intervals or None
-        Of the curve, over its loads: what the grid, filled points and the scatter of the hardness,
-        or a single line scan, leave open. None where the grid's error is not known.
+        Of the curve, over its loads: the uncertainty due to the grid, to filled points and to the
+        scatter of the hardness, or to a single line scan. None where the grid's error is not known.
     interrupted : bool
-        Whether Ctrl-C came before the last load was solved, or its errors estimated.
+        Whether Ctrl-C came before all loads were solved and their errors estimated.
     answers : mapping of str to Answer
         By their keys, such as "contact_stiffness", for the two materials, over the loads that were
         asked for; empty without materials.
@@ -55,7 +55,7 @@ class Assessment:
         The same without yield; empty where nothing yields.
     hardness_scatter : mapping of str to tuple of ndarray
         By the keys of the answers, the least and the largest ratio of each to its value while the
-        hardness is varied; that is in the intervals. Empty where the hardness is taken as exact.
+        hardness is varied; the intervals include it. Empty where the hardness is taken as exact.
     theories : sequence of TheoryCurve
         At the mean pressures of the loads that were solved, rising, each once.
     partial_slip : PartialSlip or None
@@ -90,7 +90,7 @@ class Assessment:
 
     @property
     def scale(self) -> float:
-        """How many times the force and stiffness of the curve the joint has; 1 without a joint."""
+        """Force and stiffness of the joint over those of the curve; 1 without a joint."""
         return self.question.scale(self.area)
 
     @cached_property
@@ -102,7 +102,7 @@ class Assessment:
 
     @property
     def remarks(self) -> list[str]:
-        """Warnings and notes, gravest first."""
+        """Warnings and notes, the most serious first."""
         return [*self.warnings, *self.notes]
 
     @property

@@ -1,4 +1,4 @@
-"""Both models of one roughness, a spectrum or a surface in a file, and what the map says."""
+"""Both models for one roughness, a spectrum or a surface in a file, and the trust map's entry."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class ModelComparison:
     tolerance : float
         Relative difference up to which the two models count as agreeing.
     from_map : list of Difference or None
-        What the map says for each load; None for loads outside it, and for surfaces.
+        Entry of the trust map for each load; None for loads outside it, and for surfaces.
     """
 
     what: str
@@ -77,7 +77,7 @@ def compare_models(
     Raises
     ------
     InputError
-        If the tolerance is none, or the file holds a line.
+        If the tolerance is not between 0 and 1, or the file holds a line.
     """
     if not 0 < tolerance < 1:
         raise InputError(f"tolerance is {tolerance}; a share between 0 and 1 is needed")
@@ -114,8 +114,8 @@ def _what_is_in(name: str, surface: Surface) -> str:
     what = f"{name}, {surface.shape[0]} x {surface.shape[1]} points, and lines of its spectrum"
     if (alike := isotropy(surface)) < ALIKE:
         what += (
-            f"; its slopes differ by direction, least {alike:.2f} of the largest: a spectrum "
-            "averaged over directions stands for no such surface"
+            f"; its rms slope depends on direction, the least is {alike:.2f} of the largest: a "
+            "spectrum averaged over directions does not describe such a surface"
         )
     return what
 

@@ -77,8 +77,10 @@ def refuse_inconsistent_maps(question: Question) -> None:
     if question.against is not None:
         raise InputError(
             "several maps are pressed into a smooth body: the one second topography (against=) "
-            "would be in all of them, and the scatter of its places in none; press each map "
-            "against it alone, or leave against= out"
+            "would be the same for all maps, and its own scatter between places would not show; "
+            "press each map against it alone, or leave against= out"
         )
     if question.reading.name is not None:
-        raise InputError("the name in reading= is that of one file, and there are several")
+        raise InputError(
+            "the name in reading= is that of one file, and there are several maps: leave it out"
+        )

@@ -35,7 +35,7 @@ class Description:
     obstacles : sequence of str
         Why it cannot be pressed as it is; empty if it can.
     body : Surface or Line or None
-        Prepared, in metres; None if there is too little in the file.
+        Prepared, in metres; None if something is still needed (see `obstacles`).
     roughness : Roughness or None
         Its parameters; None without a body, and for a reduced line, which is no topography.
     notes : sequence of str
@@ -57,7 +57,8 @@ def describe(
 ) -> Description:
     """Read a file, prepare what it holds, and describe it.
 
-    A file that lacks a unit, sizes or too many points is described as far as it goes.
+    A file without a unit or sizes, or with too many missing points, is described as far as
+    possible.
 
     Parameters
     ----------
@@ -97,7 +98,7 @@ def describe_measurement(
     reading, preparation
         As for :func:`describe`.
     body_of : callable, optional
-        Gives the body as it is read, before its preparation, where that is kept.
+        Returns the body as it was read, before its preparation, if the caller has kept it.
 
     Raises
     ------

@@ -19,13 +19,16 @@ def grid_error_is_estimated(question: Question, body: Body, case: LoadCase) -> b
 
 
 def why_without_grid_error(question: Question, body: Surface, tried: bool) -> str:
-    """Say that values come without an interval, and why; it was `tried` if Ctrl-C came before."""
+    """Say that values come without an interval, and why; `tried` if Ctrl-C stopped the estimate."""
     if tried:
         why = "interrupted before"
     elif question.grid_error is not None:
-        why = "not wanted"
+        why = "switched off"
     elif min(body.shape) < _COARSENED_FROM:
-        why = f"fewer than {_COARSENED_FROM} points a side; grid_error=True does it still"
+        why = (
+            f"fewer than {_COARSENED_FROM} points a side; with grid_error=True it is estimated "
+            "nevertheless"
+        )
     else:
-        why = "it takes a third longer; grid_error=True does it"
+        why = "that takes a third longer; with grid_error=True it is estimated"
     return f"grid error not estimated, so values come without intervals ({why})"

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from roughline.assessment.question import Question
 
 WITHOUT_YIELD = (
-    f"has no yield: it may serve while mean contact pressures stay below some {ELASTIC_UP_TO:g} of "
-    "the hardness"
+    "has no yield: it can be used while mean contact pressures stay below about "
+    f"{ELASTIC_UP_TO:g} of the hardness"
 )
 """Said of the reduced model."""
 
@@ -54,7 +54,7 @@ def checked_hardness(given: float | str | None, *, elastic: bool) -> float | Non
     hardness = as_si(given, "Pa", "hardness")
     if not hardness > 0:
         raise InputError(
-            f'hardness is "{given}"; a positive pressure is needed, or elastic=True for none'
+            f'hardness is "{given}"; a positive pressure is needed, or elastic=True for no yield'
         )
     if elastic:
         raise InputError("hardness= and elastic=True contradict each other; give one of them")
@@ -92,6 +92,6 @@ def refuse_beyond_hardness(question: Question, area: float) -> None:
             raise InputError(
                 f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and the "
                 f"softer body, of hardness {engineering(hardness.value, 'Pa')}, bears less than "
-                f"{most} on {on} (H A_0): give smaller loads, or its hardness (hardness=) if that "
-                "is larger"
+                f"{most} on {on} (H A_0): give smaller loads, or a larger hardness (hardness=) if "
+                "the body has it"
             )

@@ -8,7 +8,7 @@ from roughline.topography.body import Body, Surface
 
 
 def is_map(body: Body) -> TypeGuard[Surface]:
-    """Whether it is a surface that a larger one goes on around."""
+    """Whether it is a surface that was cut out of a larger one."""
     return isinstance(body, Surface) and body.is_cut_out
 
 

@@ -41,8 +41,8 @@ class LargerSurface:
     stiffness : Answer
         Interface stiffness of as much of it as the piece is large. [N / m]
     area, shared_area : tuple of ndarray, shape (loads,), or None
-        Ends of its corrected area fraction, and of what other pieces would miss of it in the same
-        way; None where the grid's error is not known. [1]
+        Ends of its corrected area fraction, and of that part of the interval which other pieces
+        would miss in the same way; None where the grid's error is not known. [1]
     """
 
     stiffness: Answer
@@ -71,15 +71,15 @@ class LargerSurface:
     def intervals(self, curve: Curve, *, shared: bool = False) -> Intervals:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
 
-        The stiffness on loading keeps its share of that on unloading. Where points yield, what its
-        grid leaves open of it is combined with that, as independent.
+        The stiffness on loading keeps its ratio to that on unloading. Where points yield, the error
+        of its grid is combined with that, as independent.
 
         Parameters
         ----------
         curve : Curve
             Of the piece.
         shared : bool, optional
-            Whether they hold only what other pieces would miss in the same way.
+            Whether they hold only what other pieces would also miss in the same way.
         """
         ends = self.stiffness.shared if shared else self.stiffness.ends
         assert ends is not None
@@ -128,7 +128,8 @@ def roll_offs_along_a_side(surface: Surface) -> float | None:
 def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = None) -> Answer:
     """Interface stiffness of a free body as it is, 1 / k_i = 1 / k - 1 / k_s.
 
-    Nearer to the punch than its grid knows the punch, the upper end of the interval is infinite.
+    Where the stiffness differs from the punch's by less than the grid's error of the punch, the
+    upper end of the interval is infinite.
 
     Parameters
     ----------
@@ -171,8 +172,8 @@ def larger_surface(
 ) -> LargerSurface:
     """Stiffness and area of the part of a large surface that a piece was cut out of.
 
-    Intervals hold those of the large surface under the same mean pressure: they combine those of
-    the curve with what one piece leaves open, as independent.
+    The intervals are those of the large surface under the same mean pressure: they combine the
+    curve's with what one piece does not show of the large surface, as independent.
 
     Parameters
     ----------

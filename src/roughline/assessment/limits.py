@@ -1,4 +1,4 @@
-"""What answers cannot be, whatever is not known: no interval reaches beyond it."""
+"""Physical limits of the answers: no interval reaches beyond them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Limits = tuple[Real | float, Real | float]
 
 
 def limits_of_answers(result: Assessment) -> Mapping[str, Limits]:
-    """Least and largest that answers can be, by their keys; others are only not negative.
+    """Least and largest possible value of answers, by their keys; others are only not negative.
 
     No contact is larger than the whole area. No point bears more than the hardness, so that an
     area is at least the force over it.

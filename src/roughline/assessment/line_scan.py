@@ -33,9 +33,9 @@ class PressedScan:
     curve : Curve
         Medians over the lines; of a square with the scan's length as its side.
     low, high : ndarray, shape (loads,)
-        95 % interval of the stiffness of one such surface: what the scan leaves open of the
-        spectrum, what random phases do, and by how much the full model differs from the reduced
-        one. [force / length]
+        95 % interval of the stiffness of one such surface: it holds the uncertainty of the
+        spectrum, the scatter of random phases, and the difference of the full model from the
+        reduced one. [force / length]
     """
 
     curve: Curve
@@ -48,9 +48,9 @@ def press_scan(
 ) -> PressedScan:
     """Press a line scan with the reduced model.
 
-    Each of 200 lines belongs to a surface that the scan may be cut from: its spectrum follows a
-    self-affine law and deviates from it, as likely as the scan makes both, and its phases are
-    random. The surface is assumed to be alike in all directions.
+    Each of 200 lines belongs to a surface that the scan may be cut from. The spectrum of this
+    surface is a self-affine law with deviations from it; both are drawn with the probability that
+    the scan gives them. Phases are random. The surface is assumed to be isotropic.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def press_scan(
         Rising total forces on a square whose side is the scan's length. [force]
     against : Line, optional
         Scan of the second body, of kind "profile" and from another, independent surface; spectra
-        add. Waves that it does not carry are taken to be none. [length]
+        add. Waves that it does not resolve are taken to have no amplitude. [length]
     rng : int, optional
         Root of all seeds.
 
@@ -112,8 +112,8 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> tuple[Curve, Real
             **as_body(scan.settings),
         },
         warnings=(
-            "a line scan shows one direction: a surface alike in all directions, and as large as "
-            "the square of the scan's length, is assumed",
+            "a line scan shows one direction only: the surface is assumed to be isotropic, and a "
+            "square whose side is the scan's length",
         ),
     )
     return median, low, high

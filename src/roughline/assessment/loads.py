@@ -1,4 +1,4 @@
-"""Loads of a question on a body, and what pressing under them is repeated with."""
+"""Loads of a question on a body, and the settings with which the body is pressed again."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ class LoadCase:
     E_star : float
         Contact modulus. [Pa]
     forces, depths : list of float
-        In the order in which they are applied; one of them, or both, are empty. [N], [m]
+        In the order in which they are applied; at least one of the two lists is empty. [N], [m]
     asked : tuple of int
         Which of them were asked for, in the order asked; empty if none was named.
     n_loads : int or None
-        Number of spaced forces instead.
+        Number of forces spaced from first touch to saturation, instead of given ones.
     periodic, grid_error
         As for :func:`roughline.press`.
     levelled : bool

@@ -27,7 +27,7 @@ def refuse_misfit(question: Question, body: Body) -> None:
     if is_scan and (question.periodic or question.grid_error or question.depths):
         raise InputError(
             "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
-            "loads, through its spectrum"
+            "loads, through its spectrum: leave them out, or press a map"
         )
     given = {
         "hardness=": question.hardness is not None,
@@ -55,6 +55,6 @@ def _refuse_as_piece_of_a_joint(body: Body, joint: float) -> None:
         )
     if body.area > joint * (1 + 1e-9):  # sides are rounded
         raise InputError(
-            f"the joint has {engineering(joint, 'm²')}, less than the map, which has "
+            f"the joint has an area of {engineering(joint, 'm²')}, less than the map, which has "
             f"{engineering(body.area, 'm²')}: crop the map, or leave joint_area= out"
         )

@@ -1,4 +1,4 @@
-"""What is to be said beside the numbers: of the topographies, the loads, and what is not known."""
+"""Notes that go with the numbers: on the topographies, the loads, and what is not known."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from roughline.topography.repetition import border_jump
 from roughline.units import decimal, engineering
 
 _CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
-_MOVED = (  # keys of the answers of which it is told how far the scatter of the hardness moves them
+_MOVED = (  # keys of the answers whose change by the scatter of the hardness is reported
     "contact_stiffness",
     "unloading_stiffness",
     "interface_stiffness",
     "contact_area",
     "constriction_resistance",
 )
-_LEAST = 0.05  # change that is told [%]
-_BORDER_OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope from which on it is warned
+_LEAST = 0.05  # change that is reported [%]
+_BORDER_OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned of
 
 
 def of_each(bodies: Sequence[Body], say: Callable[[Body], list[str]]) -> list[str]:
@@ -50,8 +50,8 @@ def filled_points_and_spikes(body: Body) -> list[str]:
         notes.append(f"{count} missing points ({share:.2%}) filled: {body.settings['filled']}")
     if body.settings.get("outliers_kept"):
         notes.append(
-            f"{body.settings['outliers_kept']} spikes kept; the highest point decides where touch "
-            "is, so see whether they are real, or remove them"
+            f"{body.settings['outliers_kept']} spikes kept; the highest point decides the depth of "
+            "first touch, so check whether they are real, or remove them"
         )
     if body.settings.get("outliers_removed"):
         notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")
@@ -85,8 +85,9 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
             )
     if has_forces(question.loads) and question.joint is None and is_map(body):
         notes.append(
-            "forces act on the map alone, not on the part that it was cut out of; with the area of "
-            "the joint (joint_area=) they act on that, and the answers are the joint's"
+            "forces act on the map alone, not on the part that it was cut out of; if the area of "
+            "the joint is given (joint_area=), they act on the joint, and the answers are those of "
+            "the joint"
         )
     return notes
 
@@ -115,15 +116,15 @@ def meaning_of_joint(question: Question, answers: Mapping[str, Answer]) -> tuple
         resistance = electrical_resistance(disc, question.modulus, resistivities)
         added += f" and {engineering(resistance, 'ohm')}"
     text = (
-        "answers are the joint's, which is taken to be alike everywhere and evenly loaded, and of "
-        "its interface alone: bodies wider than the joint add its own constriction in series, "
-        f"{added} for a disc as large"
+        "answers are those of the joint's interface alone, and the joint is taken to be alike "
+        "everywhere and evenly loaded: bodies wider than the joint add its own constriction in "
+        f"series, {added} for a disc of the same area"
     )
     if share <= _CONSTRICTION_MATTERS:
         return text, False
     return (
         f"{text}; the interface is up to {decimal(share, 2)} times as stiff as that, so such "
-        "bodies decide as well, and load the joint's edge more than its middle"
+        "bodies matter as well, and load the joint's edge more than its middle"
     ), True
 
 
@@ -137,7 +138,8 @@ def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
         return "", False
     found = border_jump(body if question.joint is None else body.detrended())
     text = (
-        f"repeated, the map jumps by {engineering(found.jump, 'm', 3)} (rms) across its borders, "
+        f"repeated periodically, the map jumps by {engineering(found.jump, 'm', 3)} (rms) across "
+        "its borders, "
         f"{decimal(found.jump / found.step, 2) if found.step else 'infinitely many'} times an "
         f"ordinary step between neighbouring points, {engineering(found.step, 'm', 3)}"
     )
@@ -145,7 +147,7 @@ def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
         return text, False
     return (
         f"{text}; {found.share_of_slope:.0%} of its mean-square slope lies there, so contact near "
-        "the borders is that of a cliff which the part does not have: remove what is left of the "
+        "the borders is that of a step which the part does not have: remove what is left of the "
         'form (trend="curvature"), or take a larger map'
     ), True
 
@@ -177,12 +179,12 @@ def how_far_a_line_serves(result: Assessment, *, grave: bool) -> list[str]:
         return []
     most = 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
     said = (
-        f"the reduced model {WITHOUT_YIELD}, which rms slopes over {2 * ELASTIC_UP_TO:g} H / E* = "
-        f"{decimal(most, 2)} exceed"
+        f"the reduced model {WITHOUT_YIELD}; rms slopes over {2 * ELASTIC_UP_TO:g} H / E* = "
+        f"{decimal(most, 2)} exceed that"
     )
     is_scan = body.kind == "profile"
     if is_scan:
-        said += f"; that of the scan is {decimal(body.rms_slope, 2)}"
+        said += f"; the rms slope of the scan is {decimal(body.rms_slope, 2)}"
     is_grave = is_scan and body.rms_slope > most
     if is_grave:
         said += ", so these elastic answers do not hold: press a map, whose model has yield"
@@ -222,21 +224,24 @@ def _scatter_in_words(result: Assessment) -> str:
         if key in result.hardness_scatter
     }
     if not moved:
-        return "interrupted before it was known what that moves, so values come without intervals"
+        return (
+            "interrupted before the effect of that on the answers was known, so values come "
+            "without intervals"
+        )
     if np.isnan([*moved.values()]).any():
         return (
-            "as soft as that, the body does not bear the largest load, so how far the answers move "
-            "is not known there, and they come without intervals"
+            "the softest such body does not bear the largest load, so how far the answers change "
+            "there is not known, and they come without intervals"
         )
     if np.allclose([*moved.values()], 1, rtol=0, atol=_LEAST / 100):
         return (
-            "that moves no answer at the largest load but p_c/H and the estimates that are made "
-            "with the hardness, as nothing yields"
+            "as nothing yields at the largest load, this changes no answer there except p_c/H and "
+            "the estimates that are made with the hardness"
         )
-    told = [f"{name} {change_in_words(low, high)}" for name, (low, high) in moved.items()]
+    changes = [f"{name} {change_in_words(low, high)}" for name, (low, high) in moved.items()]
     return (
-        f"as soft and as hard as that, at the largest load: {', '.join(told)}; that is in the "
-        "intervals"
+        "with the softest and the hardest such body, the answers at the largest load change by: "
+        f"{', '.join(changes)}; the intervals include that"
     )
 
 

@@ -44,7 +44,7 @@ class PartAnswer:
 
     @classmethod
     def of(cls, of_maps: Sequence[Answer], limits: Sequence[Limits] = ()) -> PartAnswer:
-        """Average the answers of one or more maps, within what each of them can be."""
+        """Average the answers of one or more maps, within the limits of each of them."""
         values = np.stack([each.values for each in of_maps])
         unknown = np.full(values.shape[1], np.nan)
         shared = [each.shared or each.ends or (unknown, unknown) for each in of_maps]
@@ -76,13 +76,13 @@ class PartAnswer:
         return low, high
 
     def at_most(self, most: Real) -> PartAnswer:
-        """The same, with no upper end over one."""
+        """The same, with upper ends of the interval not above `most`."""
         high = np.where(np.isnan(self.high), np.nan, np.fmin(self.high, most))
         return replace(self, high=high)
 
     @property
     def key(self) -> str:
-        """By which it is found, such as "contact_stiffness"."""
+        """Name by which it is found, such as "contact_stiffness"."""
         return self.of_maps[0].key
 
     @property
@@ -118,12 +118,12 @@ class PartAssessment:
     left : sequence of str
         Maps that were not pressed, or not to the end, because Ctrl-C came.
     answers : mapping of str to PartAnswer
-        By their keys, over the loads that were asked for. Maps of different size, without a joint,
-        have no common answers that depend on it.
+        By their keys, over the loads that were asked for. Without a joint, maps of different size
+        have no common answers that depend on the size.
     elastic : mapping of str to PartAnswer
         The same without yield; empty where nothing yields in any map.
     warnings, notes : sequence of str
-        What is to be said of all maps, and of single ones, with their names.
+        On all maps, and on single ones, with their names.
     """
 
     question: Question
@@ -150,7 +150,7 @@ class PartAssessment:
 
     @property
     def remarks(self) -> list[str]:
-        """Warnings and notes, gravest first."""
+        """Warnings and notes, the most serious first."""
         return [*self.warnings, *self.notes]
 
     @property

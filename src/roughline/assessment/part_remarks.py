@@ -1,4 +1,4 @@
-"""Whether maps are of one kind, and what is to be said of all of them and of single ones."""
+"""Whether maps are of one kind, and the remarks on all of them and on single ones."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _KINDS: tuple[tuple[str, Callable[[Body], float], float], ...] = (
 
 
 def differ_in_size(results: Sequence[Assessment]) -> bool:
-    """Whether maps are of so different size that what belongs to a whole map cannot be compared."""
+    """Whether maps differ so much in size that quantities of a whole map cannot be compared."""
     areas = [each.area for each in results]
     return max(areas) > _SAME_SIZE * min(areas)
 
@@ -44,13 +44,13 @@ def differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
             ends = [f"{engineering(sizes[name], 'm', 3)} ({name})" for name in (least, largest)]
             found.append(
                 f"not of one kind: {what} go from {ends[0]} to {ends[1]}, more than a factor of "
-                f"{most:g}; see whether these are maps of one part, made alike"
+                f"{most:g}; check whether these are maps of one part, measured in the same way"
             )
     first = next(iter(results.values()))
     if first.question.joint is None and differ_in_size(list(results.values())):
         found.append(
-            "the maps differ in size, so what belongs to a whole map has no common mean; give mean "
-            "pressures as loads for what is per area"
+            "the maps differ in size, so quantities of a whole map have no common mean; give mean "
+            "pressures as loads to compare quantities per area"
             + (", or the area of the joint (joint_area=)" if kinds == {True} else "")
         )
     return found
@@ -68,22 +68,23 @@ def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
         ]
     student = float(stdtrit(count - 1, 0.975))
     notes = [
-        f"mean: geometric, over {count} maps, taken to be of places chosen at random; scatter: the "
-        "factor within which two of three places lie about it",
+        f"mean: geometric, over {count} maps, taken to be of places chosen at random; scatter: "
+        "about two of three places lie within this factor of the mean",
         "interval of the part: 95 % for the mean over all its places, Student's t on logarithms "
-        f"({student:.3g} standard errors for {count} maps), widened by what maps may all miss "
-        "alike, such as the grid's error and waves longer than a map, which does not average out",
+        f"({student:.3g} standard errors for {count} maps), widened by errors that all maps may "
+        "have in common, such as the grid's error and waves longer than a map, which do not "
+        "average out",
     ]
     if count < _FEW:
         more = float(stdtrit(_FEW - 1, 0.975))
         notes[1] += (
-            f"; {_FEW} maps have {more:.3g}, and intervals narrower by a factor of "
+            f"; with {_FEW} maps it is {more:.3g}, and intervals are narrower by a factor of "
             f"{student / more * (_FEW / count) ** 0.5:.2g} for the same scatter"
         )
     if any(each.intervals is None for each in results):
         notes.append(
-            "a map has no interval of its own, so the part's is that of the scatter alone there "
-            "(grid_error=True gives the maps theirs)"
+            "some maps have no interval of their own; where they have none, the part's interval "
+            "is that of the scatter alone (grid_error=True gives the maps intervals)"
         )
     return notes
 

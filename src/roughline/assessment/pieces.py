@@ -1,4 +1,4 @@
-"""What pieces of a large surface tell of it: both ends of how the whole differs from them.
+"""By how much a large surface may differ from pieces of it: both ends of the ratio.
 
 All widths were chosen to hold 95 of 100: of single pieces on those of
 benchmarks/interface_stiffness.py, of many on parts such as benchmarks/part_coverage.py has.
@@ -51,9 +51,9 @@ class Share:
     Attributes
     ----------
     seen : Halves
-        Of a piece that holds one roll-off wavelength; of w along its side, a w-th.
+        Of a piece with one roll-off wavelength along its side; divided by w for w wavelengths.
     unseen : Halves
-        Of a piece that shows no roll-off, and lacks longer waves.
+        Of a piece that shows no roll-off, and so lacks the longer waves.
     bounded : bool
         Whether the quantity is a share of the area, which is known the better the fuller it is.
     """
@@ -68,27 +68,27 @@ STIFFNESS_OF_ONE = Share(
     # without its longer waves a piece is too stiff
     Halves(0.02, (1.8, 0.35), (0.0, 0.5)),
 )
-"""Stiffness per area, beside that of a single piece."""
+"""Stiffness per area, compared with that of a single piece."""
 
 STIFFNESS_OF_MANY = Share(
     Halves(0.05, (0.1, 0.05), (0.0, 0.3)), Halves(0.02, (1.8, 0.1), (0.0, 0.2))
 )
-"""Stiffness per area, beside the mean over many pieces: what more of them do not mend."""
+"""Stiffness per area, compared with the mean over many pieces: more pieces do not improve it."""
 
 AREA_OF_ONE = Share(Halves(0.2, (0.2, 0.6)), Halves(0.06, (0.25, 0.6)), bounded=True)
-"""Contact area fraction, beside that of a single piece."""
+"""Contact area fraction, compared with that of a single piece."""
 
 AREA_OF_MANY = Share(Halves(0.03, (0.1, 0.35)), Halves(0.02, (0.05, 0.2)), bounded=True)
-"""Contact area fraction, beside the mean over many pieces."""
+"""Contact area fraction, compared with the mean over many pieces."""
 
 
 def share_of_the_whole(
     area_fraction: ArrayLike, roll_offs: float | None, of: Share = STIFFNESS_OF_ONE
 ) -> tuple[Real, Real]:
-    """What a large surface has over what a piece of it has, both periodic.
+    """Ratio of a quantity of a large surface to that of a piece of it, both periodic.
 
-    Both ends, between which 95 of 100 lie under the same mean pressure. Nearer to full contact
-    than was measured the upper end of a stiffness is infinite.
+    Returns both ends, between which 95 of 100 ratios lie under the same mean pressure. Nearer to
+    full contact than was measured, the upper end of a stiffness is infinite.
 
     Parameters
     ----------
@@ -97,7 +97,7 @@ def share_of_the_whole(
     roll_offs : float or None
         Along its side, as of :func:`roughline.assessment.larger_surface.roll_offs_along_a_side`.
     of : Share, optional
-        Of which quantity; default: of the stiffness per area, beside a single piece.
+        For which quantity; default: the stiffness per area, compared with a single piece.
     """
     share = np.clip(np.asarray(area_fraction, dtype=np.float64), 0.0, 1.0)
     lightest, fullest = _MEASURED

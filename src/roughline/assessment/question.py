@@ -46,7 +46,7 @@ class Question:
         Of both bodies: materials or their descriptions, ("steel", "copper"), or one text with a
         comma between, "steel,copper".
     E_star : float or str, optional
-        Contact modulus instead of materials; then no answers follow from the curve. [Pa]
+        Contact modulus instead of materials; the result is then the curve without answers. [Pa]
     loads : float or str, or sequence of them, optional
         Total forces [N], or texts: forces, "10 N", or mean pressures over the nominal area,
         "2 MPa". Forces act on the body, or on the joint whose area is given.
@@ -57,16 +57,16 @@ class Question:
         Depths since first touch instead of loads. [m]
     hardness : float or str, optional
         Hardness of the softer body, taken as exact; default: that of the materials, with its
-        scatter, where it is known. What goes beyond it indents the surface for good. [Pa]
+        scatter, where it is known. Points that reach it yield and are indented permanently. [Pa]
     elastic : bool, optional
         Whether both bodies are elastic, whatever their hardness.
     history : bool, optional
         Whether loads or depths are applied in the order given, each to the surface as the last one
-        left it; default: as they rise.
+        left it; default: in rising order.
     unload : bool, optional
         Whether the largest load is taken off again, in steps down to zero.
     n_loads : int, optional
-        Or so many forces from first touch to saturation; 20 if there is neither of the three.
+        Number of forces from first touch to saturation; 20 if no loads and no depths are given.
     against : Surface, Line, str or Path, optional
         Topography of the second body, read and prepared like the first; without it, it is smooth.
     periodic : bool, optional
@@ -78,17 +78,17 @@ class Question:
     theories : str or sequence of str, optional
         As for :func:`roughline.theory`.
     grid_error : bool, optional
-        Whether the grid's error is estimated; default: where that is cheap, and with a whole curve.
-        Without it no interval is given.
+        Whether the grid's error is estimated; default: where that is cheap, and with `whole_curve`,
+        on 64 points a side or more. Without it no interval is given.
     reading : Reading, optional
         How files are read.
     preparation : Preparation, optional
         Of each topography; default: the tilt of measured ones is removed.
     whole_curve : bool, optional
-        Whether loads from a thousandth of the largest one on are solved too, for figures.
+        Whether further loads, from a thousandth of the largest one up, are solved too, for figures.
     fields : bool, optional
-        Whether the fields of one load are kept: of the largest, or, where loads are spaced, of one
-        at three quarters of them.
+        Whether the fields of one load are kept: of the largest, or, with `n_loads`, of the load at
+        three quarters of their number.
 
     Raises
     ------
@@ -134,7 +134,7 @@ class Question:
         if self.reading != Reading() and not any(
             isinstance(each, Path) for each in (*self.bodies, self.against)
         ):
-            raise InputError("reading= says how files are read, and none is given: leave it out")
+            raise InputError("reading= says how files are read, but no file is given: leave it out")
         if self.joint_area is not None:
             object.__setattr__(self, "joint_area", area_of_joint(self.joint_area))
         if self.n_loads is None and not self.loads and not self.depths:

@@ -1,4 +1,4 @@
-"""All that is said beside the numbers of an assessment, gravest first."""
+"""All warnings and notes of an assessment, the most serious first."""
 
 from __future__ import annotations
 

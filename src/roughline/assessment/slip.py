@@ -37,8 +37,8 @@ def slip_at_largest_load(
 ) -> tuple[PartialSlip | None, bool]:
     """Partial slip at the largest load, if it was solved and friction is known.
 
-    Where metals yield, the contact slides as it would unload, which is elastic: the surface that
-    the largest load left is pressed again. The second result says whether Ctrl-C came.
+    Where metals yield, slip follows the unloading curve, which is elastic: the surface that the
+    largest load left is pressed again. The second result says whether Ctrl-C came.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Solving the load case of a question: the body, filled otherwise, and made periodic."""
+"""Solving the load case of a question: the body, with other filling, and made periodic."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from roughline.assessment.uncertainty import Changes, Solution, change
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
 
-_SMALL = 0.001  # changes below this are not told from none [%]
+_SMALL = 0.001  # changes below this are reported as less than this [%]
 
 
 def solved(
@@ -40,13 +40,13 @@ def with_other_filling(
         return replace(solution, note=_why_filling_changes_nothing(topographies))
     again = replace(case, grid_error=False)
     if case.n_loads is not None and curve.converged.all():
-        again = again.under_forces_of(curve)  # not spaced anew
+        again = again.under_forces_of(curve)  # the same forces, not new ones
     moved, interrupted = again.press(other, [], progress)
     stiffness, share = change(curve.stiffness, moved.stiffness)
     unloading, _ = change(curve.unloading_stiffness, moved.unloading_stiffness)
     area, area_share = change(curve.area_fraction_corrected, moved.area_fraction_corrected)
     note = (
-        f"filled by {method} instead: stiffness moves by {_at_most(share)}, "
+        f"with missing points filled by {method} instead, stiffness changes by {_at_most(share)}, "
         f"area by {_at_most(area_share)}"
     )
     return Solution.of(curve, interrupted, Changes(stiffness, unloading, area), note)
@@ -98,8 +98,8 @@ def interface_of_the_larger_surface(
 def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
     """Return a periodic body's solution with the intervals of the larger surface behind it.
 
-    Without the grid's errors there are none: what a piece leaves open is narrower than what is
-    unknown.
+    Without the grid's errors there are no intervals: an interval of the other uncertainties alone
+    would be too narrow.
     """
     if solution.intervals is None:
         return solution
@@ -109,9 +109,9 @@ def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:
     """Say why the other filling gives the same body."""
     if all(each.measurement is not None for each in topographies if each.is_filled):
-        return "no filled point is left in what is pressed"
+        return "no filled point is left in the piece that is pressed"
     before = "before the file was written" if topographies[0].file else "before"
-    return f"the points were filled {before}: what that changes is not known"
+    return f"the points were filled {before}: the effect of their filling is not known"
 
 
 def _at_most(per_cent: float) -> str:

@@ -1,4 +1,4 @@
-"""Topographies of a question: read, prepared, filled otherwise, and laid together."""
+"""Topographies of a question: read, prepared, filled by another method, and added up."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from roughline.topography.two_bodies import facing
 
 @dataclass(frozen=True, eq=False)
 class Topography:
-    """A body as it was read and prepared, with what is needed to fill its missing points anew.
+    """A body as it was read and prepared, with what is needed to fill its missing points again.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Intervals of stiffness and area: what the grid and filled points leave open."""
+"""Intervals of stiffness and area: the uncertainty due to the grid and to filled points."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from roughline.engineering.intervals import Ends, Intervals
 
 @dataclass(frozen=True, eq=False)
 class Changes:
-    """What another choice, such as how points are filled, changes.
+    """Effect of another choice, such as another way to fill missing points.
 
     Attributes
     ----------
     stiffness, unloading, area : ndarray, shape (loads,), or float
-        By how much, of the stiffness on loading and on unloading [N / m] and of the corrected area
+        Change of the stiffness on loading and on unloading [N / m] and of the corrected area
         fraction [1].
     """
 
@@ -54,8 +54,8 @@ class Solution:
     ) -> Solution:
         """A curve with the intervals of its grid's errors and of further changes.
 
-        Without the grid's errors there are no intervals: further changes alone are narrower than
-        what is unknown.
+        Without the grid's errors there are no intervals: those of further changes alone would be
+        too narrow.
         """
         changes = changes or Changes()
         value, error = curve.area_fraction_corrected, curve.area_fraction_error
@@ -89,7 +89,7 @@ def interval(value: Real, error: Real) -> Ends:
 def loading_under_unloading(loading: Ends, unloading: Ends) -> Ends:
     """Ends of the stiffness on loading, which lies between none and that on unloading.
 
-    That is all that is known where a coarser grid has nothing below the hardness.
+    These bounds are all that is known where a coarser grid has no point below the hardness.
     """
     known = np.isfinite(unloading[1])
     low = np.where(np.isnan(loading[0]) & known, 0.0, loading[0])

@@ -1,4 +1,4 @@
-"""What the scatter of the hardness moves, and what the answers would be without yield."""
+"""By how much the scatter of the hardness changes answers, and the answers without yield."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Variation:
     def assessed(self, result: Assessment, hardness: float | None, body: Body) -> Assessment:
         """Answer the same of a body of another hardness, elastic if None; without intervals.
 
-        Loads that it does not bear are not solved.
+        Loads that this body does not bear are not solved.
         """
         question = result.question
         if hardness is not None:
@@ -79,7 +79,7 @@ class Variation:
 
 
 def repeats(question: Question, body: Body) -> float:
-    """How many times as long as the body alone its variants take, at most."""
+    """Time of all variants of a body over that of the body alone, at most."""
     hardness = hardness_of(question)
     if hardness is None or question.materials is None or not isinstance(body, Surface):
         return 0.0
@@ -103,14 +103,14 @@ def with_elastic_answers(result: Assessment, variation: Variation) -> Assessment
 
 
 def with_scatter_of_hardness(result: Assessment, variation: Variation) -> Assessment:
-    """Widen all intervals by what the scatter of the hardness moves.
+    """Widen all intervals by the effect of the scatter of the hardness.
 
-    The body is pressed again as soft and as hard as it may be; a large one on half as many points
-    a side, where only the ratios to the hardness itself are taken. An interval then reaches from
-    its lower end times the least ratio to its upper end times the largest: what the grid leaves
-    open and what the hardness leaves open are added, not taken as independent. Under loads that
-    the softest body does not bear, the ends are not known. On Ctrl-C there are no intervals, as
-    those without the scatter are narrower than what is known.
+    The body is pressed again as soft and as hard as it may be. A large one is pressed on half as
+    many points a side, and only the ratios to the answers for the hardness itself are taken. An
+    interval then reaches from its lower end times the least ratio to its upper end times the
+    largest: the errors of the grid and of the hardness are added, not taken as independent. Under
+    loads that the softest body does not bear, the ends are not known. On Ctrl-C there are no
+    intervals, as those without the scatter would be too narrow.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Campaigns: hundreds of bodies on one machine or many, kept as they are computed.
+"""Campaigns: hundreds of bodies on one machine or many, stored as soon as they are computed.
 
 >>> from roughline import campaign
 >>> plan = campaign.read_plan("plan.toml")

@@ -29,7 +29,7 @@ class Batch:
     ensemble : Ensemble
         The ensemble that they belong to.
     cells : ndarray, shape (n, 2)
-        Where they lie: index of the fractal dimension in the store, and realisation.
+        Place of each case: index of the fractal dimension in the store, and realisation.
     fractal_dimensions : ndarray, shape (n,)
         The fractal dimension of each case.
     """
@@ -49,7 +49,7 @@ class Batch:
 
 @dataclass(frozen=True)
 class BatchResult:
-    """What came of a batch.
+    """Results of a batch.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class BatchResult:
     failures : dict
         Why cases failed, by the index of the case in the batch.
     core_seconds : float
-        Computing time that it took, on all its cores. [s]
+        Computing time of the batch, summed over its cores. [s]
     """
 
     results: Results
@@ -71,13 +71,13 @@ class VersionError(RoughlineError):
 
 
 def check_version(wanted: str) -> None:
-    """Raise if this process has another version of roughline than the one that is wanted."""
+    """Raise if this process does not have the wanted version of roughline."""
     if wanted != __version__:
-        raise VersionError(f"a worker has roughline {__version__}, this is {wanted}")
+        raise VersionError(f"a worker has roughline {__version__}, and the campaign has {wanted}")
 
 
 def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
-    """Generate and press the bodies of a batch one by one; one that fails stops no other.
+    """Generate and press the bodies of a batch one by one; one that fails does not stop the others.
 
     Everything is dimensionless: stiffness over E* L, depth over h.
 

@@ -1,4 +1,4 @@
-"""Workers: a Dask cluster on this machine, or one that is there already."""
+"""Workers: a Dask cluster on this machine, or one that already runs elsewhere."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Cluster:
     dashboard : str
         Address of the page that shows what it does.
     restore : callable
-        Starts new workers in place of those that are gone for good.
+        Starts new workers in place of those that were lost.
     """
 
     client: Any
@@ -66,7 +66,7 @@ class Cluster:
 
 @contextmanager
 def local(workers: int) -> Iterator[Cluster]:
-    """Start workers on this machine, for one case each at a time; they end with the context.
+    """Start workers on this machine, each for one case at a time; they end with the context.
 
     Raises
     ------
@@ -142,7 +142,7 @@ def _check_versions(client: Any) -> None:
 
 @contextmanager
 def interrupts_held_back() -> Iterator[None]:
-    """Hold interrupts back until the end of the context, so that what is within is done whole.
+    """Hold interrupts back until the end of the context, so that its block is completed first.
 
     Threads and processes that are started meanwhile never get an interrupt, so that their parent
     alone handles it. Dask starts all its workers, also later ones, from a thread that it starts
@@ -216,8 +216,8 @@ def refuse_unguarded_script() -> None:
         return  # a module run with -m, a notebook, a prompt
     if not Path(str(main.__file__)).exists():
         raise InputError(
-            "a program from standard input cannot start workers, as they must import it: save it "
-            "in a file"
+            "a program from standard input cannot start workers, because they must import it: save "
+            "it in a file"
         )
     trial = multiprocessing.get_context("spawn").Process(target=_do_nothing)
     with interrupts_held_back():

@@ -37,9 +37,9 @@ class Cost:
     Attributes
     ----------
     cases : int
-        Bodies.
+        Number of bodies.
     core_seconds : float
-        Time on one core of this machine, within a factor of two or three. [s]
+        Time on one core of this machine, to a factor of two or three. [s]
     memory : int
         Largest memory of one worker. [bytes]
     disk : int
@@ -51,11 +51,15 @@ class Cost:
     memory: int
     disk: int
 
-    def described(self, workers: int) -> str:
-        """Return the cost in words, shared among a number of workers."""
+    def described(self, workers: int | None) -> str:
+        """Return the cost in words, shared among a number of workers, or for each if not known."""
+        seconds = _duration(self.core_seconds / (workers or 1))
+        if workers is None:
+            shared = f"{seconds}, shared among the workers of the cluster"
+        else:
+            shared = f"{seconds} with {workers} worker{'s' if workers > 1 else ''}"
         return (
-            f"{self.cases} cases to compute; about {_duration(self.core_seconds / workers)} with "
-            f"{workers} worker{'s' if workers > 1 else ''}, {self.memory / 1e9:.2g} GB of memory "
+            f"{self.cases} cases to compute; about {shared}, {self.memory / 1e9:.2g} GB of memory "
             f"each, up to {self.disk / 1e6:.2g} MB of disk"
         )
 

@@ -21,7 +21,7 @@ from roughline.errors import ClusterError
 _BATCHES_PER_CORE = 4  # that are sent out at a time, so that no core waits for work
 _CHECK_INTERVAL = 5.0  # between two looks at the cluster [s]
 _LONGEST_WITHOUT_WORKERS = 60.0  # [s]
-_GONE = "the Dask scheduler is gone; what is done is kept: start it again, and run the same command"
+_GONE = "the Dask scheduler is gone; what is done is kept: start it again and repeat the command"
 
 
 class Dispatch:
@@ -50,7 +50,7 @@ class Dispatch:
         self.threads, self._missing, self._report = threads, missing, report
         self.summary = Summary()
         self._pending: dict[Any, Batch | None] = {}
-        # cases of batches whose workers died: each is computed alone, which shows the one to blame
+        # cases of batches whose workers died: each is computed alone, to find the one that fails
         self._suspects: list[Batch] = []
         self._alone = False
         self.cores = cluster.cores()
@@ -115,7 +115,7 @@ class Dispatch:
         elif now - self._last_with_workers > _LONGEST_WITHOUT_WORKERS:
             raise ClusterError(
                 f"there has been no worker for {_LONGEST_WITHOUT_WORKERS:g} s; what is done is "
-                "kept: start workers, and run the same command"
+                "kept: start workers and repeat the command"
             )
 
     def _take(self, future: Any) -> None:
@@ -147,7 +147,7 @@ def _failed(batch: Batch, error: BaseException) -> BatchResult:
     """Return the result of a batch of which nothing came back."""
     killed = type(error).__name__ == "KilledWorker"
     why = (
-        "its worker died again and again, perhaps for want of memory"
+        "its worker died repeatedly, perhaps because memory ran out"
         if killed
         else f"{type(error).__name__}: {error}".splitlines()[0]
     )

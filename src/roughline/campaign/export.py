@@ -29,11 +29,11 @@ def export(
     store : Store
         The results; what is not done yet is NaN.
     folder : str or Path
-        Where to; made if it does not exist.
+        Folder for the files; made if it does not exist.
     formats : sequence of {"netcdf", "csv"}, optional
         "netcdf": ``NAME.nc``, everything, with units and settings. "csv": ``NAME.csv``, a row for
         each load of each case, and ``NAME_mean.csv``, a row for each load of each fractal
-        dimension with means, their intervals and how many realisations they are of.
+        dimension with means, their intervals and the number of realisations.
 
     Returns
     -------

@@ -95,7 +95,7 @@ def gallery_is_whole(root: Any, gallery: Gallery, path: Path) -> bool:
     group = root[GALLERY]
     wanted = json.loads(json.dumps(_settings(gallery)))
     if {key: group.attrs.get(key) for key in wanted} != wanted:
-        raise StoreError(f"{path} holds a gallery of other settings; choose another folder")
+        raise StoreError(f"{path} holds a gallery with other settings; choose another folder")
     return all(read_or_none(group[name]) is not None for name in _DIMENSIONS)
 
 

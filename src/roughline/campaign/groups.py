@@ -23,7 +23,7 @@ from roughline.errors import StoreError
 
 
 def refuse_other_settings(root: Any, ensemble: Ensemble, path: Path) -> None:
-    """Refuse a store that holds results of an ensemble's name and of other settings.
+    """Refuse a store that holds results under an ensemble's name but with other settings.
 
     Where nothing was computed under that name yet, its group is removed instead.
 
@@ -46,7 +46,7 @@ def refuse_other_settings(root: Any, ensemble: Ensemble, path: Path) -> None:
     for key, value in wanted.items():
         if stored.get(key) != value:
             raise StoreError(
-                f"{path} holds an ensemble {ensemble.name!r} of other settings: its {key} "
+                f"{path} holds an ensemble {ensemble.name!r} with other settings: its {key} "
                 f"is {_short(stored.get(key))}, the plan's is {_short(value)}; rename the "
                 "ensemble, or choose another folder"
             )

@@ -34,11 +34,11 @@ class Variable:
     dtype : str
         NumPy's name of the type of its values.
     fill : float
-        What it holds where nothing was written; no finished case has this value.
+        Value where nothing was written; no finished case has it.
     meaning : str
-        What it is, for its attributes. Everything in a store is dimensionless.
+        Description for the array's attributes. Everything in a store is dimensionless.
     dims : tuple of str
-        What it extends over.
+        Its dimensions.
     of_lines : bool
         Whether the reduced model gives it.
     of_yielding : bool

@@ -1,4 +1,4 @@
-"""Mending a store that something damaged: what cannot be read is emptied, to be computed again."""
+"""Repairing a damaged store: chunks that cannot be read are emptied, to be computed again."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from roughline.contact.status import Status
 
 
 def mend(arrays: Mapping[str, Any]) -> None:
-    """Empty chunks that cannot be read, and take back the marks of all that is not whole."""
+    """Empty chunks that cannot be read, and mark all cases that are not whole as not done."""
     values = {name: _read_mended(array) for name, array in arrays.items()}
     marks = values[CASE_STATUS.name]
     whole = np.ones(marks.shape, dtype=bool)

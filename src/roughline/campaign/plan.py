@@ -46,10 +46,10 @@ class Ensemble:
     roll_off_ratio : float
         q_roll / q_low: the spectrum is flat below q_roll.
     cutoff_ratio : float or None
-        q_high / q_low; None for the grid's own end.
+        q_high / q_low; None for the largest wavenumber of the grid.
     hardness_bar : float or None
         H / (E* g) with g the rms slope of each body, its own :attr:`~roughline.Surface.rms_slope`
-        on its grid. None for elastic bodies, and what infinity becomes. Full model only.
+        on its grid. None for elastic bodies; infinity becomes None. Full model only.
 
     Raises
     ------
@@ -118,7 +118,7 @@ class Ensemble:
                 after = f" after {before:g}" if before else ""
                 self._refuse(
                     f"force_bars must be positive, finite and rising, and {force:g} came{after}: "
-                    "sort them; a plan has no histories, press a load that falls again with "
+                    "sort them; a plan has no loading histories: for falling loads use "
                     "rl.press(surface, forces=[...])"
                 )
             before = force
@@ -141,7 +141,7 @@ class Ensemble:
             if not self.force_bars[-1] < most:
                 self._refuse(
                     f"force_bar {self.force_bars[-1]:g} at fractal dimension {dimension:g}: bodies "
-                    f"of hardness_bar {hardness_bar:g} bear less than H A_0, which is at most "
+                    f"with hardness_bar {hardness_bar:g} bear less than H A_0, which is at most "
                     f"{most:.3g} here: give smaller force_bars, or a larger hardness_bar"
                 )
 
@@ -211,7 +211,7 @@ class Plan:
     name : str
         Name of the campaign.
     ensembles : tuple of Ensemble
-        What is computed, in this order; no two of one name.
+        What is computed, in this order; their names differ.
     gallery : Gallery or None
         Single bodies to look at.
 
@@ -252,5 +252,5 @@ def decades(low: float, high: float, per_decade: int) -> tuple[float, ...]:
 
 
 def evenly(low: float, high: float, count: int) -> tuple[float, ...]:
-    """Evenly spaced values, rounded to decimals such as a person types."""
+    """Evenly spaced values, rounded to 12 decimals."""
     return tuple(round(float(value), 12) for value in np.linspace(low, high, count))

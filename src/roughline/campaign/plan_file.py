@@ -1,4 +1,4 @@
-"""Plans in TOML: read whole, checked whole, before anything is computed.
+"""Plans in TOML: read and checked as a whole before anything is computed.
 
 A plan has a ``name``, a ``seed`` and tables ``[[ensemble]]``. Lists of points, of roll-off ratios
 or of hardnesses make one ensemble for each combination, named after it.
@@ -17,7 +17,7 @@ from typing import Any
 from roughline.campaign.plan import Ensemble, Plan, decades, evenly
 from roughline.errors import InputError
 
-_MOST_VALUES = 10_000  # of one range; more values are a slip of the pen
+_MOST_VALUES = 10_000  # of one range; more values are a typing error
 
 
 def read_plan(path: str | Path) -> Plan:
@@ -31,8 +31,8 @@ def read_plan(path: str | Path) -> Plan:
     Raises
     ------
     InputError
-        If the file cannot be read, is no TOML, or has a key that is not known; the message names
-        the place and the nearest known key.
+        If the file cannot be read, is not valid TOML, or has an unknown key; the message names the
+        place and the nearest known key.
     """
     path = Path(path)
     try:
@@ -42,7 +42,7 @@ def read_plan(path: str | Path) -> Plan:
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{path} cannot be read ({error}); a plan in TOML is needed") from error
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path} is no TOML: {error}") from error
+        raise InputError(f"{path} is not valid TOML: {error}") from error
     try:
         return plan_from(content, default_name=path.stem)
     except InputError as error:
@@ -129,7 +129,7 @@ class _Table:
             if default is _NEEDED:
                 # a misspelt key is the likelier mistake: it is named first
                 near = difflib.get_close_matches(key, self._left, 1)
-                hint = f"; {near[0]!r} is not known, is it meant?" if near else ""
+                hint = f"; {near[0]!r} is not known: was it meant?" if near else ""
                 raise InputError(f"{self.place} has no {key!r}{hint}")
             return default
         value = self._left.pop(key)
@@ -142,7 +142,7 @@ class _Table:
         """Raise if keys were not taken."""
         for key in self._left:
             near = difflib.get_close_matches(key, self._known, 1)
-            hint = f"is {near[0]!r} meant?" if near else f"known are {', '.join(self._known)}"
+            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(self._known)}"
             raise InputError(f"{self.place}: {key!r} is not known; {hint}")
 
 

@@ -1,4 +1,4 @@
-"""What a run tells of itself, case by case and at its end."""
+"""What a run reports, case by case and at its end."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ EnsembleProgress = Callable[[str, int, int, int], None]
 
 @dataclass
 class Summary:
-    """What a run did.
+    """What one run did.
 
     Attributes
     ----------
@@ -24,9 +24,9 @@ class Summary:
     core_seconds : dict
         Time of the workers by ensemble. [s]
     reasons : Counter
-        Why cases failed, equal reasons together.
+        Number of failed cases by reason.
     unconverged : int
-        Loads, of cases that are done, that were not solved to the tolerance; they are NaN.
+        Number of loads that were not solved to the tolerance, of cases that are done; they are NaN.
     """
 
     done: Counter[str] = field(default_factory=Counter)

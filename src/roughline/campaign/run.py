@@ -30,11 +30,11 @@ def run(
     progress: EnsembleProgress | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Summary:
-    """Compute what a store lacks of a plan.
+    """Compute the cases of a plan that a store does not hold yet.
 
-    An interrupted run keeps every batch that was finished, and a further call goes on from there.
+    An interrupted run keeps every finished batch, and a further call continues from there.
     Results do not depend on the number of workers, on threads, or on the order. A case that fails
-    is recorded with its reason, stops no other case, and is tried again by the next call.
+    is recorded with its reason, does not stop other cases, and is tried again by the next call.
 
     Parameters
     ----------
@@ -64,13 +64,13 @@ def run(
     Raises
     ------
     InputError
-        If workers, threads or memory do not suffice or do not fit together.
+        If workers, threads and memory do not fit together, or do not suffice.
     StoreError
         If the store cannot be used or written.
     ClusterError
         If the cluster cannot be used, or is lost.
     KeyboardInterrupt
-        On Ctrl-C, saying where what is done is kept.
+        On Ctrl-C; its message says where the finished results are.
     """
     report = progress or (lambda name, done, failed, total: None)
     say = announce or (lambda text: None)
@@ -112,7 +112,7 @@ def _computed(
         if scheduler is None:
             workers = workers_that_fit(max(cost.memory, 1), workers)
             threads = _threads_that_fit(workers, threads)
-        say(f"{plan.name}: {cost.described(workers or 1)}")
+        say(f"{plan.name}: {cost.described(workers)}")
         cluster: AbstractContextManager[clusters.Cluster] = (
             clusters.remote(scheduler) if scheduler else clusters.local(workers or 1)
         )
@@ -135,7 +135,7 @@ def _threads_that_fit(workers: int, wanted: int | None) -> int:
     if threads * workers > cores:
         raise InputError(
             f"{workers} workers with {threads} threads each are more than the {cores} "
-            "cores of this machine: take fewer of one"
+            "cores of this machine: take fewer workers or fewer threads"
         )
     return threads
 
@@ -146,8 +146,8 @@ def _check(scheduler: str | None, workers: int | None, threads: int | None) -> N
             raise InputError(f"{name} is {value}; at least 1 is needed")
     if scheduler is not None and workers is not None:
         raise InputError(
-            "workers and a scheduler are given; the workers of a cluster are started there: leave "
-            "one out"
+            "both workers and a scheduler are given; the workers of a cluster are started there: "
+            "leave one of them out"
         )
 
 

@@ -36,7 +36,7 @@ class Store:
     Raises
     ------
     StoreError
-        If it does not exist, is no store of ours, or is damaged.
+        If it does not exist, was not made by roughline, or is damaged.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -49,13 +49,13 @@ class Store:
         return sorted(name for name in self._root.group_keys() if name != GALLERY)
 
     def counts(self, name: str) -> tuple[int, int, int]:
-        """Return the number of cases that are done, have failed, and are there in all."""
+        """Return the numbers of cases that are done, that failed, and of all cases."""
         status = self._group(name)[CASE_STATUS.name][:]
         done, failed = (int(np.count_nonzero(status == value)) for value in (DONE, FAILED))
         return done, failed, status.size
 
     def failures(self, name: str) -> dict[str, str]:
-        """Return the reasons of the cases that failed."""
+        """Return why cases failed, by the names of the cases."""
         return dict(self._group(name).attrs["failures"])
 
     def dataset(self, name: str) -> xarray.Dataset:
@@ -73,7 +73,7 @@ class Store:
 
     @property
     def has_gallery(self) -> bool:
-        """Whether the gallery is on disk, whole."""
+        """Whether the whole gallery is on disk."""
         return bool(self._root.attrs.get(GALLERY_DONE, False))
 
     def gallery(self) -> xarray.Dataset:
@@ -106,7 +106,7 @@ def opened(path: Path, mode: Literal["r", "r+"]) -> Any:
     Raises
     ------
     StoreError
-        If it does not exist, is no store of ours and of this version, or is damaged.
+        If it does not exist, was not made by this version of roughline, or is damaged.
     """
     import zarr  # here because it loads slowly
 
@@ -118,12 +118,14 @@ def opened(path: Path, mode: Literal["r", "r+"]) -> Any:
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise damaged_or_foreign(path) from error
     if "roughline_store" not in marks:
-        raise StoreError(f"{path} is no store of roughline; choose another folder for the campaign")
+        raise StoreError(
+            f"{path} is not a store of roughline; choose another folder for the campaign"
+        )
     version = marks.get("roughline_version")
     if marks["roughline_store"] != FORMAT or version != __version__:
         raise StoreError(
-            f"{path} was made by roughline {version}, this is {__version__}: its results do "
-            "not mix with those of this version; use that version, or another folder"
+            f"{path} was made by roughline {version}, this is {__version__}: results of two "
+            "versions are not mixed; use that version, or another folder"
         )
     return root
 
@@ -133,6 +135,6 @@ def damaged_or_foreign(path: Path) -> StoreError:
     what = (
         "is damaged (its zarr.json cannot be read)"
         if (path / "zarr.json").exists()
-        else "is no store of roughline"
+        else "is not a store of roughline"
     )
     return StoreError(f"{path} {what}; choose another folder for the campaign")

@@ -29,7 +29,7 @@ from roughline.errors import StoreError
 
 
 class Writer:
-    """A store that one campaign holds for writing; made by :func:`writing`."""
+    """A store that one campaign has locked for writing; made by :func:`writing`."""
 
     def __init__(self, path: Path, plan: Plan) -> None:
         self._path = path
@@ -55,7 +55,7 @@ class Writer:
 
     @property
     def has_gallery(self) -> bool:
-        """Whether the gallery is on disk, whole."""
+        """Whether the whole gallery is on disk."""
         return bool(self._root.attrs.get(GALLERY_DONE, False))
 
     def missing(self, ensemble: Ensemble) -> list[Batch]:
@@ -136,7 +136,7 @@ class Writer:
 
 @contextmanager
 def writing(path: str | Path, plan: Plan) -> Iterator[Writer]:
-    """Hold a store for writing; it is made, enlarged or mended as the plan needs.
+    """Lock a store for writing; it is made, enlarged or repaired as the plan needs.
 
     Parameters
     ----------
@@ -148,8 +148,8 @@ def writing(path: str | Path, plan: Plan) -> Iterator[Writer]:
     Raises
     ------
     StoreError
-        If the folder is held by another campaign, belongs to something else, holds other
-        settings or another version, or cannot be written.
+        If the folder is in use by another campaign, is not a store, holds results of other
+        settings or of another version, or cannot be written.
     """
     import filelock
     import zarr

@@ -1,4 +1,4 @@
-"""The command that says what the program runs on, for questions and reports of errors."""
+"""The command that prints versions and hardware, for questions and reports of errors."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from roughline.cli.options import Json, print_json
 
 
 def about(json: Json = False) -> None:
-    """Say which versions, which processor and how many threads this program runs on."""
+    """Print the versions, the processor and the number of threads that this program runs with."""
     facts = _facts()
     if json:
         print_json(facts)
@@ -26,7 +26,7 @@ def about(json: Json = False) -> None:
 
 
 def _facts() -> dict[str, Any]:
-    """What a report of an error needs, by name; the packages are those that roughline asks for."""
+    """What a report of an error needs, by name; the packages are those that roughline requires."""
     import psutil  # here because it loads slowly
 
     from roughline.computing import fft

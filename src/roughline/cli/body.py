@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from roughline.cli.flags import in_flags
-from roughline.cli.options import end_interrupted, interruptible, make_folders, print_json
+from roughline.cli.options import end_interrupted, interruptible, print_json, writable
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
@@ -26,8 +26,8 @@ def press_body(
     from roughline.report.terminal import announce, print_assessment
 
     with interruptible("there is no result"), load_progress() as progress:
-        make_folders(report, out)  # one that cannot be written is told before the work
-        result = assess_body(question, announce=announce, progress=progress)
+        with writable(report, out):  # a folder that cannot be written is refused before the work
+            result = assess_body(question, announce=announce, progress=progress)
         result = replace(
             result,
             warnings=[in_flags(each) for each in result.warnings],

@@ -1,4 +1,4 @@
-"""Commands on ensembles: the paper's study, and campaigns of one's own."""
+"""Commands on ensembles: the paper's study, and the user's own campaigns."""
 
 from __future__ import annotations
 
@@ -25,13 +25,15 @@ class ExportFormat(StrEnum):
 
 
 class ScaleChoice(StrEnum):
-    """How large the paper's study is to be."""
+    """Size of the paper's study."""
 
     quick = "quick"
     full = "full"
 
 
-StoreArgument = Annotated[Path, typer.Argument(help="A store, or the plan beside which it lies.")]
+StoreArgument = Annotated[
+    Path, typer.Argument(help="A store (folder of results), or the plan that lies beside it.")
+]
 
 
 def paper(
@@ -49,7 +51,8 @@ def paper(
 ) -> None:
     """Recompute the paper: both models, its figures, and a report with a verdict on each claim.
 
-    Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
+    Interrupt at any time with Ctrl-C: finished results are kept, and the same command continues
+    from there.
     """
     from roughline.paper.study import recompute
     from roughline.report.progress import campaign_progress
@@ -80,15 +83,17 @@ def run_campaign(
     scheduler: Scheduler = None,
     workers: Workers = None,
     threads: Annotated[
-        int | None, typer.Option(help="Threads for each case [default: cores over workers].")
+        int | None,
+        typer.Option(help="Threads for each case [default: cores divided by workers]."),
     ] = None,
     json: Json = False,
 ) -> None:
     """Compute what a plan asks for, or what is left of it.
 
-    Interrupt at any time with Ctrl-C: what is done is kept, and the same command goes on from it.
-    A plan with more realisations or fractal dimensions adds to the same store. Cases that failed
-    are recorded with their reasons, stop no others, and are tried again by the next run.
+    Interrupt at any time with Ctrl-C: finished results are kept, and the same command continues
+    from there. A plan with more realisations or fractal dimensions adds to the same store. Cases
+    that failed are recorded with their reasons, do not stop the others, and are tried again by the
+    next run.
     """
     from roughline.campaign import read_plan, run
     from roughline.report.campaign_output import of_summary, print_summary
@@ -116,7 +121,7 @@ def run_campaign(
 
 @app.command("status")
 def status_of_campaign(store: StoreArgument, json: Json = False) -> None:
-    """Say what is done of a campaign, and why cases failed."""
+    """Print how many cases of a campaign are done, and why cases failed."""
     from roughline.campaign import Store
     from roughline.report.campaign_output import of_status, print_status
 
@@ -137,7 +142,7 @@ def export_campaign(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Write every ensemble to NetCDF and CSV, with a table of means and their intervals."""
+    """Write every ensemble to NetCDF and CSV, with tables of means and their intervals."""
     from roughline.campaign import Store
     from roughline.campaign.export import export
     from roughline.report.terminal import print_files

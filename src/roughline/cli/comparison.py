@@ -8,20 +8,25 @@ from typing import Annotated
 import typer
 
 from roughline.cli import options
-from roughline.cli.options import interruptible, make_folders, print_json
+from roughline.cli.options import interruptible, print_json, writable
 
 
 def compare_command(
-    file: Annotated[Path | None, typer.Argument(help="A surface, instead of a spectrum.")] = None,
+    file: Annotated[
+        Path | None, typer.Argument(help="File with a surface, instead of a spectrum.")
+    ] = None,
     hurst: options.Hurst = None,
     fractal_dimension: options.FractalDimension = None,
     length: Annotated[
-        str | None, typer.Option(help='Side of the surface, such as "1 mm"; needed with cutoffs.')
+        str | None,
+        typer.Option(
+            help='Side of the surface, such as "1 mm"; needed with --roll-off or --cutoff.'
+        ),
     ] = None,
     roll_off: options.RollOff = None,
     cutoff: options.Cutoff = None,
     n: options.Points = 256,
-    surfaces: Annotated[int, typer.Option(help="Surfaces of the spectrum.")] = 20,
+    surfaces: Annotated[int, typer.Option(help="Number of random surfaces of the spectrum.")] = 20,
     force_bar: Annotated[
         list[float] | None,
         typer.Option(help="A dimensionless force F / (E* h L); may be repeated."),
@@ -38,10 +43,11 @@ def compare_command(
     out: Annotated[Path | None, typer.Option(help="Folder for a table (CSV) and a figure.")] = None,
     json: options.Json = False,
 ) -> None:
-    """Say how far the reduced model is from the full one, for your own roughness.
+    """Compare the stiffness of the reduced model with that of the full one, for your own roughness.
 
-    For a spectrum, random surfaces and random lines are pressed, and the map that comes with the
-    package is read; for a surface in a file, that surface and lines of its spectrum.
+    For a spectrum, random surfaces and random lines are pressed, and the trust map that comes with
+    the package is read as well. For a surface in a file, that surface and random lines of its
+    spectrum are pressed.
     """
     from roughline.assessment.comparison import compare_models
     from roughline.report.json_output import of_comparison
@@ -52,17 +58,17 @@ def compare_command(
         hurst, fractal_dimension, length, "1 m", roll_off, cutoff
     )
     with interruptible("nothing is written"), load_progress() as progress:
-        make_folders(out)
-        result = compare_models(
-            roughness,
-            reading=options.reading_of(unit, channel, size, fill, max_missing),
-            n=n,
-            surfaces=surfaces,
-            force_bars=force_bar,
-            tolerance=tolerance,
-            seed=seed,
-            progress=progress,
-        )
+        with writable(out):
+            result = compare_models(
+                roughness,
+                reading=options.reading_of(unit, channel, size, fill, max_missing),
+                n=n,
+                surfaces=surfaces,
+                force_bars=force_bar,
+                tolerance=tolerance,
+                seed=seed,
+                progress=progress,
+            )
         files: list[Path] = []
         if out is not None:
             from roughline.report.comparison_figures import write_comparison

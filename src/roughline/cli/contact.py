@@ -23,8 +23,8 @@ def press_command(
     file: Annotated[
         list[Path],
         typer.Argument(
-            help="A topography or line scan: an instrument's file, or ours; or several maps of one "
-            "part, from other places each."
+            help="A topography or line scan: an instrument's file, or one that roughline wrote; or "
+            "several maps of one part, each of a different place."
         ),
     ],
     materials: Annotated[
@@ -36,21 +36,24 @@ def press_command(
     ] = None,
     modulus: Annotated[
         str | None,
-        typer.Option(help='Contact modulus E* instead: "110 GPa".', rich_help_panel=BODIES),
+        typer.Option(
+            help='Contact modulus E* instead of the materials, such as "110 GPa".',
+            rich_help_panel=BODIES,
+        ),
     ] = None,
     against: Annotated[
         Path | None,
         typer.Option(
             help="Topography of the second body, read and prepared like the first "
-            "[default: it is smooth].",
+            "[default: a smooth body].",
             rich_help_panel=BODIES,
         ),
     ] = None,
     hardness: Annotated[
         str | None,
         typer.Option(
-            help='Hardness of the softer body, "2 GPa", taken as exact [default: that of the '
-            "materials, with its scatter].",
+            help='Hardness of the softer body, such as "2 GPa", taken as exact [default: that of '
+            "the materials, with its scatter].",
             rich_help_panel=BODIES,
         ),
     ] = None,
@@ -67,7 +70,8 @@ def press_command(
         typer.Option(
             "--load",
             "--force",
-            help='A total force, "10 N", or a mean pressure, "2 MPa"; may be repeated.',
+            help='A total force, such as "10 N", or a mean pressure, such as "2 MPa"; may be '
+            "repeated.",
             rich_help_panel=LOADS,
         ),
     ] = None,
@@ -78,8 +82,8 @@ def press_command(
     joint_area: Annotated[
         str | None,
         typer.Option(
-            help='Area of the joint that the map is a part of, "2 cm^2": forces act on it, and '
-            "answers are the joint's.",
+            help='Area of the joint that the map is a part of, such as "2 cm^2": forces then act '
+            "on the joint, and the answers are those of the joint.",
             rich_help_panel=LOADS,
         ),
     ] = None,
@@ -95,7 +99,7 @@ def press_command(
         typer.Option(
             "--history",
             help="Apply several --load in the order given, rising and falling, each to the surface "
-            "as the last one left it.",
+            "as the load before it left it.",
             rich_help_panel=LOADS,
         ),
     ] = False,
@@ -103,7 +107,7 @@ def press_command(
         bool,
         typer.Option(
             "--unload",
-            help="Take the largest --load off again, in steps down to zero.",
+            help="Remove the largest --load again, in steps down to zero.",
             rich_help_panel=LOADS,
         ),
     ] = False,
@@ -111,7 +115,7 @@ def press_command(
         bool,
         typer.Option(
             "--periodic",
-            help="Repeat the surface: results per nominal area.",
+            help="Repeat the surface periodically: results per nominal area.",
             rich_help_panel=BODIES,
         ),
     ] = False,
@@ -124,12 +128,15 @@ def press_command(
     ] = None,
     frequency: Annotated[
         str | None,
-        typer.Option(help='Of ultrasound, "5 MHz": adds reflection.', rich_help_panel=ANSWERS),
+        typer.Option(
+            help='Frequency of ultrasound, such as "5 MHz": adds its reflection by the interface.',
+            rich_help_panel=ANSWERS,
+        ),
     ] = None,
     theory: Annotated[
         list[str] | None,
         typer.Option(
-            help="{theories}; may be repeated.",
+            help="Theory to compare with: {theories}; may be repeated.",
             rich_help_panel=ANSWERS,
         ),
     ] = None,
@@ -138,7 +145,7 @@ def press_command(
         typer.Option(
             "--grid-error/--no-grid-error",
             help="Estimate discretisation errors from coarser grids [default: where that takes "
-            "some seconds, and for a report].",
+            "only a few seconds, and for a report].",
             show_default=False,
             rich_help_panel=ANSWERS,
         ),
@@ -166,36 +173,39 @@ def press_command(
     resample: options.Resample = None,
     remove_outliers: options.RemoveOutliers = False,
     threads: Annotated[
-        int | None, typer.Option(help="Threads [default: one for each core].")
+        int | None, typer.Option(help="Number of threads [default: one for each core].")
     ] = None,
     json: options.Json = False,
 ) -> None:
-    """Press a topography into an elastic half-space, and say what follows.
+    """Press a topography into an elastic half-space, and print the contact quantities.
 
-    A surface is solved with the full model: every interaction, residuals certified. A line scan
-    goes through its spectrum to the reduced model. A load in newtons is the total force on the
-    nominal area; one in pascals is the mean pressure over it. Depth counts from first touch.
+    A surface is solved with the full model: all elastic interactions, with certified residuals. A
+    line scan is solved with the reduced model, through its spectrum. A load in newtons is the total
+    force on the nominal area; one in pascals is the mean pressure over it. Depth counts from first
+    touch.
 
-    Where the hardness of the materials is known, points of the contact yield at it and are indented
-    for good; elastic values stand beside where that changes them. --elastic leaves it out.
+    Where the hardness of the materials is known, points of the contact that reach it yield and are
+    indented permanently; where yielding changes an answer, its elastic value is given as well.
+    --elastic leaves yielding out.
 
     With two materials it prints contact stiffness, real contact area, contact pressure over
     hardness, electrical and thermal contact conductance and tangential stiffness; with --report it
     writes them with their formulas, the surface, the preparation, the assumptions and this command
-    on one page, as HTML and PDF. A value is followed by ± or by both ends of its interval: what
-    the grid, filled points and the scatter of a hardness, or a single line scan, leave open. A star
-    behind a load marks fewer than ten points in contact, where the grid decides.
+    on one page, as HTML and PDF. A value is followed by ± or by both ends of its interval. The
+    interval holds the uncertainty due to the grid, to filled points and to the scatter of a
+    hardness, or to a single line scan. A star after a load marks fewer than ten points in contact:
+    the grid decides there.
 
-    Of several maps it prints each one's answers, their mean, their scatter between places and an
-    interval for the part. With --joint-area the map stands for a joint that is alike everywhere and
-    evenly loaded.
+    For several maps it prints the answers of each map, their mean, their scatter between places and
+    an interval for the part. With --joint-area the map stands for a joint that has the same
+    roughness everywhere and is evenly loaded.
 
-    Materials by name: {materials}. Others by value, or a name with some values changed: E, nu,
-    hardness, resistivity, conductivity, density.
+    Materials by name: {materials}. Other materials by their values, or by a name with some values
+    changed: E, nu, hardness, resistivity, conductivity, density.
 
-    Exit codes: 0; 1 if a load was not solved to the tolerance, or one of several maps was refused,
-    which is said and shown as missing; 2 for input that cannot be used; 130 after Ctrl-C, with the
-    loads or maps done until then.
+    Exit codes: 0; 1 if a load was not solved to the tolerance, or if one of several maps was
+    refused (it is named, and listed as refused); 2 for input that cannot be used; 130 after Ctrl-C,
+    with the loads or maps solved until then.
 
     Examples
     --------
@@ -222,7 +232,9 @@ def press_command(
     if report is not None and not load:
         raise InputError('a report needs a --load, such as "10 N"')
     if friction is not None and report is None and not json:
-        raise InputError("partial slip is told in a report and in JSON: give --report or --json")
+        raise InputError(
+            "partial slip is written to the report and to JSON only: give --report or --json"
+        )
     question = Question(
         file[0] if len(file) == 1 else file,
         materials=materials,

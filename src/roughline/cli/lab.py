@@ -13,26 +13,32 @@ _MB = 1_000_000
 def lab(
     host: Annotated[
         str,
-        typer.Option(help="Address to listen to; another than this machine's needs a password."),
+        typer.Option(
+            help="Address to listen on; an address that other machines can reach needs a password."
+        ),
     ] = "127.0.0.1",
-    port: Annotated[int, typer.Option(help="Port; 0 takes a free one.")] = 5107,
+    port: Annotated[int, typer.Option(help="Port to listen on; 0 takes a free one.")] = 5107,
     password_file: Annotated[
-        Path | None, typer.Option(help="File whose first line is the password of the page.")
+        Path | None, typer.Option(help="File whose first line is the password for the page.")
     ] = None,
-    max_upload: Annotated[float, typer.Option(help="Largest file that is taken. [MB]")] = 200,
+    max_upload: Annotated[
+        float, typer.Option(help="Largest file that can be uploaded. [MB]")
+    ] = 200,
     max_points: Annotated[
-        int, typer.Option(help="Most points along a side of generated surfaces.")
+        int, typer.Option(help="Largest number of points along a side of generated surfaces.")
     ] = 1024,
     max_seconds: Annotated[float, typer.Option(help="Longest time of one computation. [s]")] = 600,
-    max_memory: Annotated[float, typer.Option(help="Most memory of one computation. [MB]")] = 4000,
+    max_memory: Annotated[
+        float, typer.Option(help="Largest memory of one computation. [MB]")
+    ] = 4000,
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
     ] = True,
 ) -> None:
     """Open the lab: a page in the browser to look at surfaces, press them and read the paper.
 
-    The server runs on this machine until Ctrl-C, needs no network, and is open to this machine
-    alone. With --host others can reach it; then it asks for a password.
+    The server runs on this machine until Ctrl-C, needs no network, and can be reached from this
+    machine only. With --host other machines can reach it; it then asks for a password.
     """
     from roughline.server.interrupts import noted_interrupts
     from roughline.server.process import start_forking

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from roughline.errors import InputError
+from roughline.errors import InputError, RoughlineError
 
 if TYPE_CHECKING:
     from roughline.assessment.reading import Reading
@@ -44,7 +44,8 @@ Unit = Annotated[
     typer.Option(help="Unit of the lengths in a file that states none.", rich_help_panel=FILE),
 ]
 Channel = Annotated[
-    str | None, typer.Option(help="Number, from 0, or name of a channel.", rich_help_panel=FILE)
+    str | None,
+    typer.Option(help="Channel of the file: its name, or its number from 0.", rich_help_panel=FILE),
 ]
 Size = Annotated[
     str | None,
@@ -56,18 +57,24 @@ Fill = Annotated[
     FillingChoice, typer.Option(help="How missing points are filled.", rich_help_panel=FILE)
 ]
 MaxMissing = Annotated[
-    float, typer.Option(help="Share of missing points that is filled.", rich_help_panel=FILE)
+    float,
+    typer.Option(
+        help="Largest share of missing points, 0 to below 1, that is filled; a file with more is "
+        "refused.",
+        rich_help_panel=FILE,
+    ),
 ]
 TrendOption = Annotated[
     TrendChoice | None,
     typer.Option(
-        help="What is removed [default: the tilt of measured ones].", rich_help_panel=PREPARATION
+        help="Trend that is removed from the heights [default: the tilt of measured ones].",
+        rich_help_panel=PREPARATION,
     ),
 ]
 Crop = Annotated[
     str | None,
     typer.Option(
-        help='Piece to keep, from and to along x and y: "0 um, 50 um, 0 um, 40 um".',
+        help='Piece to keep, from and to along x and y, such as "0 um, 50 um, 0 um, 40 um".',
         rich_help_panel=PREPARATION,
     ),
 ]
@@ -86,7 +93,7 @@ RemoveOutliers = Annotated[
     bool,
     typer.Option(
         "--remove-outliers",
-        help="Remove spikes; they are counted always.",
+        help="Remove spikes and fill their points [default: they are only counted].",
         rich_help_panel=PREPARATION,
     ),
 ]
@@ -94,18 +101,23 @@ Hurst = Annotated[
     float | None, typer.Option(help="Hurst exponent, 0 to 1.", rich_help_panel=SPECTRUM)
 ]
 FractalDimension = Annotated[
-    float | None, typer.Option(help="Fractal dimension, 2 to 3, instead.", rich_help_panel=SPECTRUM)
+    float | None,
+    typer.Option(
+        help="Fractal dimension, 2 to 3, instead of the Hurst exponent.", rich_help_panel=SPECTRUM
+    ),
 ]
 RollOff = Annotated[
     str | None,
     typer.Option(
-        help='Wavelength above which the spectrum is flat: "0.2 mm".', rich_help_panel=SPECTRUM
+        help='Wavelength above which the spectrum is flat, such as "0.2 mm".',
+        rich_help_panel=SPECTRUM,
     ),
 ]
 Cutoff = Annotated[
     str | None,
     typer.Option(
-        help='Shortest wavelength, such as "5 um" [default: the grid].', rich_help_panel=SPECTRUM
+        help='Shortest wavelength, such as "5 um" [default: that of the grid].',
+        rich_help_panel=SPECTRUM,
     ),
 ]
 Points = Annotated[int, typer.Option("-n", "--points", help="Points along a side.")]
@@ -164,7 +176,9 @@ def spectrum_of(
     from roughline.units import in_si
 
     if length is None and (roll_off or cutoff):
-        raise InputError("a roll-off or a cutoff is given without the length of the surface")
+        raise InputError(
+            "a roll-off or a cutoff is given without the length of the surface: give --length too"
+        )
     return SelfAffine(
         hurst=hurst,
         fractal_dimension=fractal_dimension,
@@ -209,10 +223,22 @@ def end_interrupted(kept: str) -> NoReturn:
     raise typer.Exit(130) from None
 
 
-def make_folders(*folders: Path | None) -> None:
-    """Make the folders that results will be written to, so that none is refused after the work."""
+@contextmanager
+def writable(*folders: Path | None) -> Iterator[None]:
+    """Make the folders that results will be written to, so that none is refused after the work.
+
+    Where the work is refused, those that were made for it and are empty are removed.
+    """
     from roughline.report.folder import make_folder
 
+    new = [folder for folder in folders if folder is not None and not folder.exists()]
     for folder in folders:
         if folder is not None:
             make_folder(folder)
+    try:
+        yield
+    except RoughlineError:
+        for folder in new:
+            with suppress(OSError):  # it holds something
+                folder.rmdir()
+        raise

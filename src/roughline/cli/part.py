@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from roughline.cli.flags import in_flags
-from roughline.cli.options import end_interrupted, interruptible, make_folders, print_json
+from roughline.cli.options import end_interrupted, interruptible, print_json, writable
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
@@ -28,8 +28,10 @@ def press_part(
     from roughline.report.terminal import announce
 
     with interruptible("no map was done"), part_progress() as (maps, loads):
-        make_folders(report, out)  # one that cannot be written is told before the work
-        part = assess_part(question.of_each(), announce=announce, progress=loads, map_progress=maps)
+        with writable(report, out):  # a folder that cannot be written is refused before the work
+            part = assess_part(
+                question.of_each(), announce=announce, progress=loads, map_progress=maps
+            )
         part = _in_flags(part)
         files = _written(part, report, out, command)
     if json:

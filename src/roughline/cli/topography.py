@@ -10,11 +10,14 @@ import typer
 
 from roughline.cli import options
 from roughline.cli.flags import in_flags
-from roughline.cli.options import make_folders, print_json
+from roughline.cli.options import print_json, writable
 
 
 def info(
-    file: Annotated[Path, typer.Argument(help="A topography: an instrument's file, or ours.")],
+    file: Annotated[
+        Path,
+        typer.Argument(help="A topography: an instrument's file, or one that roughline wrote."),
+    ],
     unit: options.Unit = None,
     channel: options.Channel = None,
     size: options.Size = None,
@@ -30,19 +33,20 @@ def info(
     ] = None,
     json: options.Json = False,
 ) -> None:
-    """Describe a topography: sizes, missing points, roughness, spectrum, and the nearest law.
+    """Describe a topography: sizes, missing points, roughness, and its self-affine spectrum.
 
-    Intervals are of 95 %. The Hurst exponent, the roll-off and the cutoff are those of a plateau
-    and a power law fitted to the spectrum; the last line says whether that describes it.
+    Intervals are 95 % intervals. The Hurst exponent, the roll-off and the cutoff are those of a
+    plateau and a power law fitted to the spectrum; the last line says whether this fit describes
+    the spectrum.
     """
     from roughline.assessment.description import describe
     from roughline.report.json_output import of_description
     from roughline.report.terminal import print_description
 
-    make_folders(out)
     reading = options.reading_of(unit, channel, size, fill, max_missing)
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
-    result = describe(file, reading, steps)
+    with writable(out):
+        result = describe(file, reading, steps)
     result = replace(result, obstacles=[in_flags(str(each)) for each in result.obstacles])
     files: list[Path] = []
     if out is not None:
@@ -64,13 +68,16 @@ def generate(
     n: options.Points = 512,
     seed: options.SeedOption = 0,
     line: Annotated[
-        bool, typer.Option("--line", help="The reduced line instead of the surface.")
+        bool, typer.Option("--line", help="Generate the reduced line instead of the surface.")
     ] = False,
     roll_off: options.RollOff = None,
     cutoff: options.Cutoff = None,
     gaussian: Annotated[
         bool,
-        typer.Option("--gaussian", help="Gaussian amplitudes instead of random phases alone."),
+        typer.Option(
+            "--gaussian",
+            help="Gaussian amplitudes and random phases [default: random phases alone].",
+        ),
     ] = False,
     json: options.Json = False,
 ) -> None:

@@ -55,7 +55,7 @@ class Comparison:
     surfaces, lines : int
         Number of surfaces and lines that were pressed.
     warnings : tuple of str
-        What to know before the numbers are used; empty if there is nothing to say.
+        What a user of the numbers must know; empty if there is nothing to say.
     """
 
     force_bar: Real
@@ -109,7 +109,7 @@ def compare(
 ) -> Comparison:
     """Press both models of the same roughness, with the same waves.
 
-    Of a spectrum, random surfaces and random reduced lines are pressed. Of a surface, the surface
+    For a spectrum, random surfaces and random reduced lines are pressed. For a surface, the surface
     itself is pressed, and random lines with its spectrum averaged over directions, scaled to its
     rms height. The intervals are those of the means over all surfaces and lines of the spectrum.
     For a single surface they are wide, because one surface does not determine such a mean.
@@ -120,7 +120,7 @@ def compare(
         The roughness; only its shape matters, as forces and stiffness are dimensionless.
     n : int, optional
         Points along a side of the surfaces of a spectrum. Waves shorter than two spacings are in
-        neither model; with a cutoff that n resolves eightfold, the grid does not show.
+        neither model; if the shortest wave spans eight spacings, the grid has no visible effect.
     surfaces : int, optional
         Number of surfaces of a spectrum, at least 2; 200 lines are pressed beside them.
     force_bars : array_like, optional
@@ -128,8 +128,8 @@ def compare(
     rng : int, optional
         Root of all seeds.
     progress : callable, optional
-        Called with (surfaces done, surfaces in all); of a single surface with its loads and lines
-        instead.
+        Called with (surfaces done, surfaces in all); for a single surface it counts its loads and
+        the lines instead.
 
     Raises
     ------

@@ -5,7 +5,7 @@ The map comes from ensembles of both models with the same self-affine spectrum, 
 the package; the study in ``studies/paper`` computes it.
 
 The intervals of the map are studentised, as all intervals over realisations are. With 20 surfaces
-and 200 lines at each place they hold the truth in 94 to 96 of 100 cases
+and 200 lines at each place they contain the true value in 94 to 96 of 100 cases
 (``make bootstrap-coverage``).
 """
 
@@ -98,7 +98,7 @@ class TrustMap:
 
     @classmethod
     def from_rows(cls, rows: Real) -> TrustMap:
-        """Make a map of the rows of its file, which are sorted by the axes.
+        """Make a map from the rows of its file, which are sorted by the axes.
 
         Parameters
         ----------

@@ -15,7 +15,7 @@ def available_cores() -> int:
 
 
 def processor_name() -> str:
-    """Return the name of the processor where the system tells it, else of its architecture."""
+    """Return the name of the processor if the system reports it, else of its architecture."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
     except OSError:

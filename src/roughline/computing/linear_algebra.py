@@ -1,4 +1,4 @@
-"""Linear algebra on one thread, as long as anyone at work needs that."""
+"""Linear algebra on one thread, as long as any computation needs that."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ _limits: list[threadpool_limits] = []  # one, as long as anyone is at work
 
 @contextmanager
 def on_one_thread() -> Iterator[None]:
-    """Keep the linear algebra of this process to one thread meanwhile.
+    """Keep the linear algebra of this process to one thread within a ``with`` block.
 
     The number of its threads belongs to the process, and the last bits of results depend on it. So
-    it changes when the first begins, and is what it was when the last of several threads that are
-    at work side by side has ended.
+    it is changed when the first of several threads of this process begins to compute, and restored
+    when the last of them has ended.
     """
     global _at_work
     with _lock:

@@ -1,4 +1,4 @@
-"""How much of the load the border carries of a surface that was cut out of a larger one."""
+"""The share of the load on the border of a surface that was cut out of a larger one."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from roughline.computing.arrays import Real
 from roughline.halfspace.state import Contact
 from roughline.topography.body import Surface
 
-# A surface that was cut out of a larger one ends where the larger goes on. Where the outer frame
-# of this width carries this share of the force, what lies beyond is missed.
+# A surface that was cut out of a larger one ends where the larger one continues. Where the outer
+# frame of this width carries more than this share of the force, the part beyond it is missed.
 BORDER_WIDTH = 0.05
 BORDER_SHARE = 0.05
 
@@ -30,7 +30,7 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
     Parameters
     ----------
     surface : Surface
-        The surface; only one that was cut out of a larger one is warned of.
+        The surface; there are warnings only if it was cut out of a larger one.
     force : ndarray, shape (loads,)
         Total force. [force]
     shares : ndarray, shape (loads,)
@@ -44,8 +44,8 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
     at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
     return (
         f"at {at}{unit}, up to {shares[beyond].max():.0%} of the force is carried within "
-        f"{BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: what "
-        "lies beyond would share the load, so depth, stiffness and area are those of the piece "
-        "alone, a punch with this outline. Take a larger piece, lower loads, or the periodic "
-        "half-space",
+        f"{BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: the "
+        "surface beyond it would carry a part of the load, so depth, stiffness and area are those "
+        "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or the "
+        "periodic half-space",
     )

@@ -35,14 +35,15 @@ class Curve:
     force : ndarray, shape (loads,)
         Total force, compression positive. [force]
     stiffness : ndarray, shape (loads,)
-        Exact k = dF/dd on further loading: points at the hardness bear no more. [force / length]
+        Exact k = dF/dd on further loading: points at the hardness carry no additional load.
+        [force / length]
     area_fraction : ndarray, shape (loads,), or None
         Real over nominal contact area. None for a line: the contact area of the reduced model does
         not predict that of the surface.
     area_fraction_corrected : ndarray, shape (loads,), or None
-        The same without what whole cells overstate along the outline of the contact
-        (Yastrebov, Anciaux and Molinari 2017). Under a summit that is some per cent. On a plateau,
-        where pressure and gap rise at the outline, nothing is taken off.
+        The same, less the area that whole cells add along the outline of the contact
+        (Yastrebov, Anciaux and Molinari 2017). Under a summit this is a few per cent. On a plateau,
+        where pressure and gap rise at the outline, nothing is subtracted.
     status : ndarray of int8, shape (loads,)
         A :class:`Status` for each load; where a load did not converge, the other values are NaN.
     resolved : ndarray of bool, shape (loads,)
@@ -61,10 +62,10 @@ class Curve:
     settings : mapping
         How it was computed: version, tolerance, boundary, and the settings of the body.
     convolutions : ndarray of int, shape (loads,), or None
-        Convolutions that each load took, its stiffness included and first guesses apart; zero
-        where an equal load before it had been solved. None for a line.
+        Convolutions that each load took, including its stiffness but not first guesses; zero
+        where an equal load had been solved before. None for a line.
     area_fraction_most : ndarray, shape (loads,), or None
-        Upper bound of the area fraction on finer grids: `area_fraction_corrected` and the whole
+        Upper bound of the area fraction on finer grids: `area_fraction_corrected` plus the whole
         correction, as it would be if all of the outline lay under summits.
     stiffness_error, unloading_stiffness_error, area_fraction_error : ndarray or None
         Estimated discretisation errors of `stiffness`, `unloading_stiffness` and
@@ -79,17 +80,17 @@ class Curve:
     indentation : ndarray, shape (loads,), or None
         Largest permanent indentation of the surface so far. [length]
     work, dissipated_work : ndarray, shape (loads,), or None
-        What the load has done since first touch, less what unloading gave back; and what of it
-        the indentations took, the hardness times their volume. [energy]
+        Work done by the load since first touch, less the work returned on unloading; and the
+        part of it dissipated by the indentations, the hardness times their volume. [energy]
     warnings : sequence of str
-        What a user of the numbers has to know; empty if there is nothing to say.
+        What a user of the numbers must know; empty if there is nothing to say.
     fields : sequence of Fields
         One for each load if asked for, else empty; None for a load that did not converge.
     surface : Surface or None
         The untouched surface; None for a line.
     dents : sequence of Indentation
-        Of each load, for :meth:`surface_after`; None where the surface is not indented. Empty
-        without a hardness.
+        Permanent indentations after each load, for :meth:`surface_after`; None where the surface
+        is not indented. Empty without a hardness.
     """
 
     depth: Real
@@ -125,7 +126,7 @@ class Curve:
 
     @property
     def hardness(self) -> float | None:
-        """The most that a point of the surface bears; None if it is elastic. [pressure]"""
+        """Largest pressure that a point of the surface bears; None if it is elastic. [pressure]"""
         hardness = self.settings.get("hardness")
         return None if hardness is None else float(hardness)
 
@@ -189,9 +190,9 @@ class Curve:
     def to_dataset(self) -> xarray.Dataset:
         """Return the curve as an xarray Dataset over the loads, units in attrs.
 
-        What was prescribed, force or depth, is the coordinate, so that
-        ``curve.to_dataset().stiffness.plot()`` shows stiffness over it. With fields, these are
-        included over it, "x" and "y".
+        The prescribed quantity, force or depth, is the coordinate, so that
+        ``curve.to_dataset().stiffness.plot()`` shows stiffness over it. Fields, if they were kept,
+        are included over this coordinate, "x" and "y".
         """
         import xarray  # here because it loads slowly
 
@@ -238,13 +239,13 @@ class Curve:
         Parameters
         ----------
         path : str or Path
-            Where to; an existing file is replaced. ".nc": NetCDF, with settings and fields.
-            ".csv": a table with a row for each load and units in its header, and no more.
+            Name of the file; an existing file is replaced. ".nc": NetCDF, with settings and
+            fields. ".csv": only a table, with a row for each load and units in its header.
 
         Raises
         ------
         InputError
-            If the name ends otherwise.
+            If the name ends in neither ".nc" nor ".csv".
         StoreError
             If the file cannot be written.
         """

@@ -13,7 +13,7 @@ from roughline.topography.body import Surface
 
 # Most memory that a path of loads held at any time beside the surface, as measured (see
 # docs/speed.md): on grids without contact; of the contact, for each of its nodes; and of the nodes
-# watched beside it, which are many where both contact and gap are. [bytes per point]
+# watched near it, which are many where there is both contact and gap. [bytes per point]
 _BYTES = {False: (51, 46, 29), True: (34, 34, 23)}  # free, periodic; small, medium, large grids
 _SIDES = 1448, 2896  # points along a side: more are medium, and large
 _BYTES_OF_CONTACT = 131
@@ -40,7 +40,7 @@ class Estimate:
     Attributes
     ----------
     memory : int
-        Largest memory beside the surface and the interpreter. [bytes]
+        Largest memory used, in addition to the surface and the interpreter. [bytes]
     seconds : float
         Time on this machine, known to a factor of two or three. [s]
     """
@@ -121,7 +121,7 @@ def memory_for(
     several: bool = True,
     area_fraction: float | None = None,
 ) -> int:
-    """Return the memory that pressing a surface takes, beside the surface. [bytes]
+    """Return the memory that pressing a surface takes in addition to the surface. [bytes]
 
     Parameters
     ----------
@@ -147,11 +147,11 @@ def memory_for(
 def expected_area_fraction(
     surface: Surface, E_star: float, loads: Loads, hardness: float | None, *, periodic: bool
 ) -> float:
-    """Return about what share of a surface its loads bring into contact at most. [1]
+    """Estimate the largest share of a surface that its loads bring into contact. [1]
 
-    Forces do by Persson's theory, with a factor fitted to surfaces that were pressed; or they are
-    borne by the hardness. Depths do as far as heights reach, which is half as far as they do on a
-    periodic half-space near full contact.
+    For forces, the share follows from Persson's theory, with a factor fitted to computed surfaces,
+    or from the hardness where that gives more. For depths, it is the share of the heights within
+    reach, doubled on a periodic half-space, as is found near full contact.
     """
     largest = float(loads.values.max())
     if loads.control == "depths":

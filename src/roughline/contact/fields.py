@@ -1,4 +1,4 @@
-"""Fields of one load on the grid, and what the load leaves of the surface."""
+"""Fields of one load on the grid, and the indentation that the load leaves."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Fields:
     plastic : ndarray of bool, shape (nx, ny)
         Where the pressure is at the hardness.
     indentation : ndarray, shape (nx, ny)
-        How much lower the surface is for good than it was untouched. [length]
+        Permanent indentation: how much lower the surface is than before any load. [length]
     """
 
     pressure: Real
@@ -42,7 +42,7 @@ class Fields:
 
 @dataclass(frozen=True, eq=False)
 class Indentation:
-    """Where a surface is lower than it was untouched, and by how much.
+    """Where a surface is lower than before any load, and by how much.
 
     Attributes
     ----------

@@ -61,7 +61,7 @@ def press_surface(
     Interrupted
         On Ctrl-C.
     """
-    # elastic bodies forget: their loads are solved as they rise, each once, in whatever order
+    # the order of loads does not matter for elastic bodies: each is solved once, as they rise
     values, places = loads.values, np.arange(loads.values.size)
     if hardness is None:
         values, places = np.unique(loads.values, return_inverse=True)
@@ -159,7 +159,7 @@ def _curve(
 ) -> Curve:
     """Put the results of all loads together, without fields."""
     values = columns(results)
-    # what was prescribed is given back as it came; the residual holds what the pressures miss of it
+    # the prescribed value is returned unchanged; its error is part of the residual
     prescribed = values[loads.control.removesuffix("s")]
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
     shares = np.array([result.border_share for result in results])

@@ -1,4 +1,4 @@
-"""How far a curve may be from that of an ever finer grid, judged from coarser ones."""
+"""How far a curve may differ from its limit on ever finer grids, judged from coarser ones."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
 
 # Factors on the difference between the last two grids, chosen so that the errors cover grids four
-# times finer (benchmarks/grid_error.py). Areas at the scale of the cells differ less than they err.
+# times finer (benchmarks/grid_error.py). For areas at the scale of the cells, the difference of the
+# grids is smaller than the error.
 _SAFETY_STIFFNESS = 2.0
 _SAFETY_OF_YIELD = (
     2.5  # more where all of the contact yields: finer waves go on cutting up its spots
@@ -33,7 +34,7 @@ def with_grid_error(
 ) -> Curve:
     """Add to a curve the discretisation errors estimated from grids of n / 2 and n / 4 points.
 
-    The coarse grids see the means of two by two points, or of equal pieces where a side has an odd
+    The coarse grids hold the means of two by two points, or of equal pieces where a side has an odd
     number of points. Differences between grids are those of logarithms. The error is the larger of
     the last difference and half of the one before, times a safety factor, and times the growth of
     the differences where they grow over all loads: a grid convergence index [1]_ for quantities
@@ -41,14 +42,15 @@ def with_grid_error(
     correction, also on plateaus, where none is made.
 
     Yield adds to this. Safety factors of stiffnesses grow with the share of the contact that
-    yields. Where something yields, the logarithm of a stiffness is at least as uncertain as a part
-    of that of the area, less near the stiffness of the flat punch, where areas hardly matter: waves
-    that only a finer grid has let more of the body yield, and what they change can cancel on the
-    coarser grids. That of the stiffness on loading, which single cells
-    decide, is at least as uncertain as a part of its difference from that on unloading.
+    yields. Where something yields, the error of the logarithm of a stiffness is at least a part of
+    the error of the logarithm of the area; this part is smaller near the stiffness of the flat
+    punch, where the area hardly matters. The reason is that waves which only a finer grid resolves
+    let more of the body yield, and their effects can cancel on the coarser grids. The stiffness on
+    loading depends on single cells: the error of its logarithm is at least a part of its difference
+    from the stiffness on unloading.
 
-    The errors cover grids four times finer of a surface that goes on as rough as it is; they do not
-    foresee noise that begins at the spacing.
+    The errors cover grids four times finer if the roughness continues below the spacing; they do
+    not cover noise that begins at the spacing.
 
     Parameters
     ----------
@@ -104,7 +106,7 @@ def _stiffness_errors(curves: Sequence[Curve], area: Real) -> tuple[Real, Real]:
 
 
 def _open_share(curve: Curve) -> Real | float:
-    """Return what the stiffness on unloading lacks of that of a flat punch of the same area."""
+    """Return how far the stiffness on unloading is below that of a flat punch of the same area."""
     if curve.settings["boundary"] == "periodic":  # a flat one is infinitely stiff
         return 1.0
     punch = EXACT_PUNCH * curve.E_star * curve.length
@@ -149,7 +151,7 @@ def _error(values: Sequence[Real], safety: float | Real) -> Real:
     nothing = np.array([quarter, half, full]) == 0  # bodies apart, or all of the contact yields
     with np.errstate(invalid="ignore", divide="ignore"):  # stiffness is infinite in full contact
         first, second = np.abs(np.log(half / quarter)), np.abs(np.log(full / half))
-        # over all loads, for at a single load the ratio is small or large by chance, and none
+        # over all loads: at a single load the ratio is small or large by chance, and there is none
         # where a grid has nothing
         squares = np.where(nothing.any(axis=0), np.nan, [first**2, second**2])
         growth = np.sqrt(np.nansum(squares[1]) / np.nansum(squares[0]))

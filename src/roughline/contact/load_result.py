@@ -75,11 +75,11 @@ class LoadResult:
         contact : Contact
             The contact under the load, in the units of `scaled`.
         response : Response or None
-            How it answers a change of the load; None if the contact was not certified.
+            Its stiffness and its change with the load; None if the contact was not certified.
         scaled : ScaledSurface
             The untouched surface.
         hardness : float or None
-            The most that a node bears. [pressure]
+            Largest pressure that a node bears. [pressure]
         periodic, with_fields : bool
             Whether the half-space is periodic, and whether the fields are kept.
         """

@@ -82,13 +82,13 @@ def surface_loads(
 ) -> Loads:
     """Return the loads of a surface; spaced ones run from about ten cells to saturation.
 
-    Loads are refused for which a gap cannot be told to `rtol`, in `single` precision or in double,
-    and those that a body of this `hardness` does not bear.
+    Loads are refused if gaps cannot be resolved to `rtol` under them, in `single` precision or in
+    double, or if a body of this `hardness` cannot bear them.
     """
     if single and rtol < _GAP_ROUNDING_SINGLE:
         raise InputError(
-            f"rtol is {rtol:g}; single precision tells gaps to {_GAP_ROUNDING_SINGLE:g} at best: "
-            'give a larger rtol, or precision="mixed"'
+            f"rtol is {rtol:g}; single precision resolves gaps to {_GAP_ROUNDING_SINGLE:g} at "
+            'best: give a larger rtol, or precision="mixed"'
         )
     if given.n_loads is None:
         loads = _checked_loads(given)
@@ -134,7 +134,7 @@ def _checked_loads(given: GivenLoads) -> Loads:
     for wrong, what in (
         (~np.isfinite(values), "not finite"),
         (values < 0, "negative: compression counts positive"),
-        ((values == 0) & before_touch, "zero: it touches nothing"),
+        ((values == 0) & before_touch, "zero, at which nothing touches"),
     ):
         if wrong.any():
             raise InputError(
@@ -146,7 +146,7 @@ def _checked_loads(given: GivenLoads) -> Loads:
 
 def _spaced_loads(given: GivenLoads, lowest: float, highest: float) -> Loads:
     if given.depths is not None or given.forces is not None:
-        raise InputError("n_loads given beside depths or forces; give one of the three")
+        raise InputError("n_loads given together with depths or forces; give one of the three")
     n_loads = given.n_loads
     if not isinstance(n_loads, int | np.integer) or n_loads < 2:
         raise InputError(f"n_loads is {n_loads!r}; a whole number of at least 2 is needed")
@@ -184,9 +184,9 @@ def _refuse_beyond_hardness(surface: Surface, loads: Loads, hardness: float) -> 
 def _refuse_beyond_precision(
     surface: Surface, E_star: float, loads: Loads, rtol: float, single: bool
 ) -> None:
-    """Refuse loads so large or small that gaps cannot be told to the tolerance.
+    """Refuse loads so large or small that gaps cannot be resolved to the tolerance.
 
-    A flat body has no heights with which loads could be compared, but other loads.
+    A flat body has no heights to compare its loads with: they are compared with each other.
     """
     if surface.rms_height == 0:
         unit, name = float(loads.values.max()), "of the largest load"
@@ -200,11 +200,11 @@ def _refuse_beyond_precision(
     if reach[most] * rounding > rtol:
         raise InputError(
             f"{loads.control}[{most}] is {reach[most]:.1g} {name}: so deep, "
-            f"{'single' if single else 'double'} precision cannot tell gaps to rtol = {rtol:g}; "
+            f"{'single' if single else 'double'} precision cannot resolve gaps to rtol = {rtol:g}; "
             f"give at most {rtol / rounding:.0g} {name}, or a larger rtol"
         )
     if reach[least] < _SMALLEST_REACH:
         raise InputError(
-            f"{loads.control}[{least}] is {reach[least]:.1g} {name}, too small to be told from "
-            f"none; give at least {_SMALLEST_REACH:g} {name}"
+            f"{loads.control}[{least}] is {reach[least]:.1g} {name}, too small to "
+            f"differ from zero; give at least {_SMALLEST_REACH:g} {name}"
         )

@@ -1,4 +1,4 @@
-"""The one front door to both models: a body and loads in, a curve out."""
+"""The entry point to both models: it takes a body and loads and returns a curve."""
 
 from __future__ import annotations
 
@@ -50,12 +50,13 @@ def press(
     E_star : float
         Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [pressure]
     hardness : float, optional
-        The most that a point bears, the indentation hardness of the softer body; what goes beyond
-        indents the surface for good. Default, and infinite: both bodies are elastic. [pressure]
+        Largest pressure that a point bears, the indentation hardness of the softer body; where it
+        is reached, the surface is permanently indented. Default, or infinite: both bodies are
+        elastic. [pressure]
     depths, forces : array_like, shape (loads,), optional
         Depths since first touch of the untouched surface [length] or total forces [force]. They may
-        rise and fall: each load finds the surface as the last one left it. Elastic bodies forget,
-        so there the order does not matter. A zero after other loads unloads.
+        rise and fall: each load finds the surface as the last one left it. The order of loads does
+        not matter for elastic bodies. A zero after other loads unloads the bodies fully.
     n_loads : int, optional
         Number of forces, log-spaced from about ten springs or cells in contact to saturation.
     periodic : bool, optional
@@ -67,18 +68,19 @@ def press(
     grid_error : bool, optional
         Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
     rtol : float, optional
-        Bound on every residual of what is returned: gap on contact and overlap off it over the
-        rms height, or over what the load moves where that is less; tension over the mean contact
-        pressure, as a pressure above the hardness is; error of the force over the force.
+        Bound on every residual of the returned solution: the gap within the contact and the
+        overlap outside it, relative to the rms height, or to the displacement by the load where
+        that is less; tension, and pressure above the hardness, relative to the mean contact
+        pressure; the error of the force, relative to the force.
     max_iterations : int, optional
-        Bound on the convolutions that find the contact of one load. A few more certify it, and
-        its stiffness takes some of its own.
+        Largest number of convolutions to find the contact under one load. A few more certify it,
+        and its stiffness takes further ones.
     precision : {"mixed", "float64", "float32"}, optional
         Precision of the convolutions. "mixed" takes its steps in single precision, computes the
         residuals in double, and returns what "float64" returns, to the tolerance. "float32" saves
         memory and refuses tolerances that it cannot reach.
     throw : bool, optional
-        Whether a load that is not solved raises; if not, it is marked in ``status``.
+        Whether a load that is not solved raises an error; if not, it is marked in ``status``.
     progress : callable, optional
         Called with (loads done, loads in all) after each load.
 
@@ -221,8 +223,8 @@ def _check_hardness(hardness: float, body: Body) -> None:
     if isinstance(body, Line) and hardness < np.inf:
         raise InputError(
             "hardness belongs to the full model; the reduced model of a Line has no yield: leave "
-            "it out, and trust the line only while mean contact pressures stay below some 0.4 of "
-            "the hardness (rms slopes below 0.8 H / E*), or press a Surface"
+            "it out, and trust the line only while mean contact pressures stay below about 0.4 "
+            "of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
         )
 
 

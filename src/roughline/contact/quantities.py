@@ -14,7 +14,7 @@ from types import MappingProxyType
 from roughline.contact.quantity import ON_THE_GRID, OVER_LOADS, Quantity
 
 RESOLVED_FROM = 10
-"""Springs or cells in contact from which on a stiffness is physics rather than grid."""
+"""Least number of springs or cells in contact; with fewer, the grid decides the stiffness."""
 
 _of_surfaces = partial(Quantity, of_lines=False)
 _of_yielding = partial(Quantity, of_lines=False, of_yielding=True)
@@ -65,8 +65,8 @@ _DECLARED = (
         "area_fraction_corrected",
         "",
         "1",
-        "`area_fraction` without what whole cells overstate under summits",
-        long_name="the same, corrected for the outline's steps",
+        "`area_fraction` less the area that whole cells add under summits",
+        long_name="real contact area over nominal area, corrected for the outline's steps",
         column=8,
     ),
     _of_surfaces("area_fraction_most", "", "1", "upper bound of the area fraction on finer grids"),
@@ -114,7 +114,7 @@ _DECLARED = (
         "work",
         "W",
         "energy",
-        "what the load has done since first touch, less what unloading gave back",
+        "work done by the load since first touch, less the work returned on unloading",
         long_name="work done by the load",
         column=18,
     ),
@@ -122,7 +122,7 @@ _DECLARED = (
         "dissipated_work",
         "",
         "energy",
-        "what of the work the indentations took",
+        "part of the work that the permanent indentations dissipated",
         long_name="work dissipated by indentation",
         column=19,
     ),
@@ -185,7 +185,7 @@ _DECLARED = (
         "indentation_field",
         "",
         "length",
-        "how much lower the surface is for good than it was untouched",
+        "permanent indentation: how much lower the surface is than before any load",
         column=21,
         of_yielding=True,
         attribute="indentation",
@@ -205,4 +205,4 @@ IN_JSON = tuple(
     for each in _DECLARED
     if each.column is not None and each.dims == OVER_LOADS and each.name != "convolutions"
 )
-"""What JSON gives of a curve, in its order; what a load took in computing is left out."""
+"""The quantities of a curve in JSON output, in order; the cost of computing is left out."""

@@ -26,7 +26,7 @@ class Quantity:
     meaning : str
         What it is, for the glossary.
     long_name : str
-        What it is in a few words, for the attributes of files; empty where they do without.
+        What it is in a few words, for the attributes of files; empty where files have none.
     column : int or None
         Its place among the variables of a file; None for what files do not hold. Tables are read
         by position too, so a new quantity takes the next number.
@@ -74,7 +74,7 @@ class Quantity:
         return None if self.dimension is None else unit_of(self.dimension, length_unit)
 
     def attributes(self, length_unit: str | None) -> dict[str, str]:
-        """Return what files say of it: ``units`` and ``long_name``, as far as it has them."""
+        """Return its attributes in files: ``units`` and ``long_name``, as far as it has them."""
         unit = self.unit_in(length_unit)
         attributes = {} if unit is None else {"units": unit}
         return attributes | ({"long_name": self.long_name} if self.long_name else {})
@@ -88,8 +88,8 @@ def unit_of(dimension: str, length_unit: str | None) -> str:
     dimension : str
         "1", "length", "force", "pressure", "energy" or a quotient of two of them.
     length_unit : str or None
-        Unit of lengths; "m" gives SI units, None the dimension itself. Of any other unit, forces
-        are not known.
+        Unit of lengths; "m" gives SI units, None the dimension itself. With any other unit,
+        only lengths have a unit.
 
     Raises
     ------

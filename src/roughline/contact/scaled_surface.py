@@ -15,7 +15,7 @@ from roughline.topography.body import Surface
 class ScaledSurface:
     """A surface in units in which E* is 1, a cell has unit area and the roughness unit rms.
 
-    The problem is solved in these, so that no scale is too small or too large for it.
+    The problem is solved in these units, so that no scale is too small or too large for it.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class ScaledSurface:
     def of(cls, surface: Surface, E_star: float, loads: Loads) -> ScaledSurface:
         """Choose the units."""
         height = surface.rms_height
-        if height == 0:  # a flat punch: its depth, or about so, is the only height there is
+        if height == 0:  # a flat punch has no heights: its depth, at least roughly, gives the unit
             height = float(loads.values.max())
             if loads.control == "forces":
                 height /= E_star * surface.length

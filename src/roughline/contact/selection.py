@@ -1,4 +1,4 @@
-"""A curve at some of its loads, or over more loads than were solved."""
+"""A curve restricted to some of its loads, or extended to loads that were not solved."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def at_loads(curve: Curve, loads: Indices) -> Curve:
 
 
 def among_loads(curve: Curve, solved: Mask) -> Curve:
-    """Return a curve over more loads, of which these were solved: NaN at the others.
+    """Extend a curve to all loads, of which only these were solved: NaN at the others.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def among_loads(curve: Curve, solved: Mask) -> Curve:
 
 
 def among(values: Real, solved: Mask) -> Real:
-    """Return values over more loads, of which these were solved: NaN at the others."""
+    """Extend values to all loads, of which only these were solved: NaN at the others."""
     spread = np.full(solved.size, np.nan)
     spread[solved] = values
     return spread

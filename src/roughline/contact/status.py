@@ -21,12 +21,12 @@ class Status(enum.IntEnum):
         """What it means, for messages."""
         return {
             Status.CONVERGED: "converged: all residuals are within the tolerance",
-            Status.STALLED: "stalled: the residuals stopped falling above the tolerance",
+            Status.STALLED: "stalled: the residuals stopped falling while above the tolerance",
             Status.MAX_ITERATIONS: "max_iterations reached above the tolerance",
             Status.NO_TANGENT: "the stiffness equations did not converge",
             Status.INTERRUPTED: "not solved: interrupted before",
-            Status.UNKNOWN_SURFACE: "not solved: what a larger load before them left of the "
-            "surface is not known",
+            Status.UNKNOWN_SURFACE: "not solved: the surface as a larger load before "
+            "them left it is not known",
         }[self]
 
 

@@ -19,24 +19,25 @@ class Answer:
     Attributes
     ----------
     key : str
-        By which it is found, such as "contact_stiffness".
+        Name by which it is found, such as "contact_stiffness".
     name, symbol, unit : str
         What it is called in tables and formulas; the unit is SI.
     values : ndarray, shape (loads,)
         NaN where a load was not solved. [unit]
     low, high : ndarray, shape (loads,), or None
-        Ends of the interval that is known; what else is uncertain is not in it. [unit]
+        Ends of the interval; None where it is not known. Uncertainties that are not known are not
+        in it. [unit]
     shared : tuple of ndarray, shape (loads,), or None
-        Ends of that part of it which other maps of the same surface would miss in the same way;
-        None where that is all of it. [unit]
+        Ends of that part of the interval which other maps of the same surface would miss in the
+        same way; None where that is the whole interval. [unit]
     formula : str
-        How it follows.
+        How it follows from the curve.
     validity : str
-        Where it holds.
+        Where the formula holds.
     source : str
-        Where it is from.
+        Publication of the formula.
     growth : float
-        With what power of the nominal area it grows at the same mean pressure.
+        Power of the nominal area with which it grows at the same mean pressure.
     """
 
     key: str
@@ -71,16 +72,16 @@ class Answer:
 
 
 def answer(key: str, rows: Real, **differing: str) -> Answer:
-    """Make an answer of those that are declared.
+    """Make an answer from its declaration and its values.
 
     Parameters
     ----------
     key : str
-        Of the declaration.
+        Key of the declaration.
     rows : ndarray, shape (loads,), (1, loads) or (3, loads)
         Values, or values and both ends of their interval in either order. [unit]
     **differing : str
-        What is said otherwise than in the declaration: name, formula or validity.
+        Texts that differ from the declaration: name, formula or validity.
     """
     values, *ends = np.atleast_2d(rows)
     low, high = (np.minimum(*ends), np.maximum(*ends)) if ends else (None, None)

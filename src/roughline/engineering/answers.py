@@ -34,9 +34,9 @@ def answers(
     frequency: float | None = None,
     intervals: Intervals | None = None,
 ) -> list[Answer]:
-    """Work out what follows from a curve.
+    """Work out the engineering answers of a curve.
 
-    An interval is carried on by evaluating each formula at its two ends.
+    The interval of an answer follows from its formula, evaluated at both ends of the curve's.
 
     Parameters
     ----------
@@ -47,10 +47,11 @@ def answers(
     pair : MaterialPair
         The materials.
     interface_stiffness : Answer, optional
-        Of the interface alone, with its own interval, for a free surface or one that was cut out of
-        a larger one; without it, as for a surface that is periodic, it is the contact stiffness.
+        Stiffness of the interface alone, with its own interval, for a free surface or one that was
+        cut out of a larger one. Without it, as for a periodic surface, the contact stiffness is
+        taken.
     amplitudes : tuple of float, optional
-        Rms height and rms slope of the sum of both surfaces, for the estimates of the literature.
+        Rms height and rms slope of the sum of both surfaces, for estimates from the literature.
         [m], [1]
     frequency : float, optional
         Of an ultrasonic wave. [Hz]

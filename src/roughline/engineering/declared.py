@@ -1,4 +1,4 @@
-"""The answers that there are: how each is called, its unit, formula, validity and source."""
+"""All answers that can be given: name, unit, formula, validity and source of each."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ class Declaration:
     name, symbol, unit : str
         What it is called in tables and formulas; the unit is SI.
     formula : str
-        How it follows.
+        How it follows from the curve.
     validity : str
-        Where it holds.
+        Where the formula holds.
     source : str
-        Where it is from.
+        Publication of the formula.
     growth : float
-        With what power of the nominal area it grows where every place carries the same mean
-        pressure; 0 for what does not.
+        Power of the nominal area with which it grows where every place carries the same mean
+        pressure; 0 for what does not grow.
     """
 
     name: str
@@ -53,7 +53,8 @@ DECLARED = {
         "k_u",
         "N/m",
         "dF/dd at frozen contact on unloading, exact",
-        "all of the contact springs back; what vibration, ultrasound and currents meet",
+        "all of the contact springs back; this stiffness governs vibration, ultrasound and "
+        "currents",
         "Almqvist et al. 2007",
         growth=1,
     ),
@@ -69,7 +70,7 @@ DECLARED = {
         "A",
         "m²",
         "cells in contact, corrected for the outline's steps",
-        "falls with every finer wave; the grid's shortest is the last here",
+        "falls with every finer wave; the shortest wave of the grid is the finest here",
         "Yastrebov, Anciaux and Molinari 2017",
         growth=1,
     ),
@@ -79,7 +80,7 @@ DECLARED = {
         "p_c",
         "Pa",
         "F / A",
-        "no body bears more than its hardness",
+        "at most the hardness of the softer body",
     ),
     "plastic_fraction": Declaration(
         "yielded share of the contact",
@@ -93,8 +94,8 @@ DECLARED = {
         "largest permanent indentation",
         "w",
         "m",
-        "overlap at the hardness, which lowers the surface for good",
-        "at one point; the grid's finest summits decide it",
+        "overlap at points at the hardness, which lowers the surface permanently",
+        "at one point; the finest summits on the grid decide it",
         "Almqvist et al. 2007",
     ),
     "contact_pressure_over_hardness": Declaration(
@@ -109,8 +110,8 @@ DECLARED = {
         "R",
         "ohm",
         "E* (rho1 + rho2) / (2 k_u)",
-        "clean metal; films add to it. Current spreads from the spots as displacement does when "
-        "all spring back, whatever made them: k_u",
+        "clean metal; films add to it. k_u, as current spreads from the contact spots like the "
+        "displacement on unloading, however the spots were formed",
         "Barber 2003",
         growth=-1,
     ),
@@ -127,8 +128,8 @@ DECLARED = {
         "R_Holm",
         "ohm",
         "(rho1 + rho2) / (4 a), pi a² = F / H",
-        "for comparison: all of the load on one plastic spot; spots apart resist less, and "
-        "elastic ones, which are smaller, more",
+        "for comparison: all of the load on one plastic spot; separate spots have less resistance, "
+        "and elastic spots, which are smaller, have more",
         "Holm 1967",
         growth=-0.5,
     ),
@@ -137,7 +138,7 @@ DECLARED = {
         "G",
         "W/K",
         "kappa_s k_u / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
-        "solid spots alone, in vacuum; k_u, as heat spreads from the spots whatever made them",
+        "solid spots alone, in vacuum; k_u, as heat spreads from spots however they were formed",
         "Barber 2003",
         growth=1,
     ),
@@ -146,7 +147,7 @@ DECLARED = {
         "h_c",
         "W/(m² K)",
         "kappa_s k_i / (E* A_0)",
-        "the same without the bodies' constriction to A_0, as k_i is",
+        "as G, but without the bodies' constriction to A_0, like k_i",
         "Barber 2003",
     ),
     "mikic_conductance": Declaration(
@@ -170,8 +171,8 @@ DECLARED = {
         "k_t",
         "N/m",
         "k_u G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
-        "before any slip; normal and tangential problems uncoupled; k_u, as a small shear makes "
-        "nothing yield",
+        "before any slip; normal and tangential problems uncoupled; k_u, as a small shear causes "
+        "no yield",
         "Popov 2017, ch. 8",
         growth=1,
     ),
@@ -180,8 +181,8 @@ DECLARED = {
         "|R|",
         "1",
         "|z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|, K = k_i / A_0",
-        "longitudinal plane waves much longer than the distances of contact spots; their "
-        "amplitude is small, so all of the contact springs back: k_u",
+        "longitudinal plane waves much longer than the distances between contact spots; k_u, as "
+        "their amplitude is small, so that all of the contact springs back",
         "Tattersall 1973",
     ),
 }

@@ -40,7 +40,7 @@ def interface_stiffness(stiffness: ArrayLike, saturated: float) -> Real:
     Returns
     -------
     ndarray
-        Infinite in full contact, which is as stiff as the punch to one part in a million.
+        Infinite in full contact, where k is k_s to one part in a million. [force / length]
     """
     k = np.asarray(stiffness, dtype=np.float64)
     left = saturated - k
@@ -54,8 +54,8 @@ def electrical_resistance(
 ) -> Value:
     """Constriction resistance by Barber's identity, 1 / R = 2 k / (E* (rho1 + rho2)).
 
-    Exact for clean metallic contact, whatever the shape: current and stress spread by the same
-    potential. Films and the mean free path of electrons add to it.
+    Exact for clean metallic contact of any shape: current and stress follow from the same
+    potential. Films and the mean free path of electrons add to the resistance.
 
     Parameters
     ----------
@@ -221,7 +221,7 @@ def plasticity_index(E_star: float, hardness: float, summits: tuple[float, float
 def partial_slip(
     depth: Real, force: Real, E_star: float, G_star: float, friction: float
 ) -> tuple[Real, Real]:
-    """Tangential force over tangential displacement under constant normal load, until it slides.
+    """Tangential force over tangential displacement at constant normal load, up to full sliding.
 
     Q = mu (F(d) - F(d_c)), u_x = mu E* / G* (d - d_c) for a stick area as large as the contact at
     d_c, whatever its shape (Ciavarella 1998, Jäger 1998). The last load is the normal load.
@@ -263,7 +263,7 @@ def partial_slip(
 def reflection(
     stiffness_per_area: ArrayLike, frequency: float, impedances: tuple[float, float]
 ) -> Real:
-    """Modulus of the reflection of a longitudinal plane wave that meets the interface squarely.
+    """Modulus of the reflection coefficient of a longitudinal plane wave at normal incidence.
 
     ``|R| = |z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|``, for waves much longer than
     the distances between contact spots; w = 2 pi frequency.
@@ -271,7 +271,7 @@ def reflection(
     Parameters
     ----------
     stiffness_per_area : float or ndarray
-        Of the interface alone, K; where it is zero, all is reflected. [N / m³]
+        Of the interface alone, K; where it is zero, the whole wave is reflected. [N / m³]
     frequency : float
         [Hz]
     impedances : tuple of float

@@ -1,4 +1,4 @@
-"""Intervals of a curve: what is left open of its two stiffnesses and of its contact area."""
+"""Intervals of a curve: the uncertainty of its two stiffnesses and of its contact area."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Ends = tuple[Real, Real]
 
 @dataclass(frozen=True, eq=False)
 class Intervals:
-    """Both ends of what is known of a curve, over its loads.
+    """Both ends of the intervals of a curve, over its loads.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""From a map to the joint that it shows a part of: alike everywhere, and evenly loaded."""
+"""From a map to the joint of which it shows a part: alike everywhere, and evenly loaded."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _BY_STIFFNESS = (
 def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]:
     """Return the answers of a joint, from those of a map of it under the same mean pressure.
 
-    What is per area, or a share, stays as it is; forces, areas and conductances grow with the
-    nominal area, and resistances fall with it. The stiffness is that of the interface on unloading,
-    and, of metals that yield, on further loading beside it: the bodies' constriction to the outline
-    of the map, which is in a free map's contact stiffness, is in no joint.
+    Quantities per area, and shares, stay as they are; forces, areas and conductances grow with the
+    nominal area, and resistances fall with it. The stiffness is that of the interface on unloading;
+    for metals that yield, that on further loading is given as well. The contact stiffness of a free
+    map includes the bodies' constriction to the outline of the map, which a joint does not have.
 
     Parameters
     ----------
@@ -50,14 +50,16 @@ def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]
 def constriction_of_disc(joint: float, E_star: float) -> float:
     """Stiffness of a flat round punch as large as a joint, 2 E* a with pi a² its area. [N / m]
 
-    Bodies that are wide beside the joint are as compliant as that, without any roughness.
+    Bodies that are much wider than the joint have this stiffness even without any roughness.
     """
     return 2 * E_star * math.sqrt(joint / math.pi)
 
 
 def _per_area(interface: Answer, joint: float) -> Answer:
     """Stiffness of the interface over the area of the joint."""
-    made = answer("stiffness_per_area", interface.rows / joint, formula="k_i / A_joint")
+    made = answer(
+        "stiffness_per_area", interface.rows / joint, symbol="k_i/A", formula="k_i / A_joint"
+    )
     return replace(made, shared=_times(interface.shared, 1 / joint))
 
 
@@ -82,7 +84,7 @@ def _grown(each: Answer, ratio: float) -> Answer:
         differing["validity"] = "; ".join(["of the interface alone", each.validity])
     elif each.key == "depth":
         differing["validity"] = (
-            "of the map, from the touch of its highest point; the joint has higher ones"
+            "of the map, from the touch of its highest point; the joint has higher points"
         )
     low, high = _times(each.ends, factor) or (None, None)
     shared = _times(each.shared, factor)

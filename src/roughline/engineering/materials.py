@@ -21,7 +21,7 @@ _UNITS = {
     "density": "kg/m**3",
 }
 TABLE_FACTOR = 1.5
-"""By how much hardnesses of the table are uncertain: published ones scatter by a factor of two."""
+"""Uncertainty of hardnesses of the table, a factor; published ones scatter by two in all."""
 
 _SETTING = re.compile(r"(\w+)\s*=\s*([^=;]+?)\s*(?=;|\s\w+\s*=|$)")
 
@@ -49,9 +49,9 @@ class Material:
     source : str, optional
         Where the values come from.
     hardness_factor : float, optional
-        By how much the hardness is uncertain: it lies between H over this factor and H times it.
-        That of the table scatters, as hardness does with treatment, work and depth; a given one is
-        taken as exact. [1]
+        Factor by which the hardness H is uncertain: it lies between H / factor and H * factor.
+        Hardnesses of the table are uncertain, as hardness varies with heat treatment, cold work
+        and depth; a given one is taken as exact. [1]
 
     Raises
     ------
@@ -93,7 +93,7 @@ class Material:
 
     @property
     def carries_sound(self) -> bool:
-        """Whether longitudinal waves have a finite speed; in rigid or incompressible bodies not."""
+        """Whether longitudinal waves have a finite speed: not in rigid or incompressible bodies."""
         return not math.isinf(self.E) and self.nu != 0.5
 
     @property
@@ -142,7 +142,7 @@ def material(description: str) -> Material:
         return Material("given", **given)  # type: ignore[arg-type]
     if name not in known:
         near = difflib.get_close_matches(name, known, 1)
-        hint = f'; did you mean "{near[0]}"?' if near else ""
+        hint = f'; did you mean "{near[0]}"?' if near else "."
         raise InputError(
             f'no material is called "{name}"{hint} Known are {", ".join(known)}; others are given '
             'as "E=70 GPa nu=0.33"'
@@ -158,7 +158,9 @@ def _settings(text: str, description: str) -> dict[str, float]:
     given: dict[str, float] = {}
     rest = _SETTING.sub("", text).replace(";", "").strip()
     if rest:
-        raise InputError(f'"{rest}" in the material "{description}" is no "name=value"')
+        raise InputError(
+            f'"{rest}" in the material "{description}" is not of the form "name=value"'
+        )
     for name, value in _SETTING.findall(text):
         if name in given:
             raise InputError(f'the material "{description}" gives {name} twice')

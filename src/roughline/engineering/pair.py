@@ -44,7 +44,7 @@ class MaterialPair:
 
     @property
     def hardness_factor(self) -> float:
-        """By how much that hardness is uncertain. [1]"""
+        """Factor by which that hardness is uncertain. [1]"""
         return 1.0 if self._softer is None else self._softer.hardness_factor
 
     @property
@@ -57,7 +57,7 @@ class MaterialPair:
     def with_hardness(self, hardness: float) -> MaterialPair:
         """Return the pair with another hardness of the softer body, known exactly. [Pa]
 
-        Which of the two that is need not be known; a rigid one is not.
+        It need not be known which of the two is softer; a rigid body never is.
         """
 
         def given(each: Material) -> Material:
@@ -69,7 +69,7 @@ class MaterialPair:
         return MaterialPair(given(self.first), given(self.second))
 
     def lacking(self, quantity: str) -> list[str]:
-        """Name the bodies whose property is not known; a rigid one needs no hardness."""
+        """Name the bodies for which a property is not known; a rigid one needs no hardness."""
         return [
             f"the {which} body ({each.name})"
             for which, each in (("first", self.first), ("second", self.second))
@@ -78,7 +78,7 @@ class MaterialPair:
         ]
 
     def both(self, quantity: str) -> tuple[float, float] | None:
-        """Return a property of both, None unless both are known."""
+        """Return a property of both bodies; None unless it is known for both."""
         first, second = getattr(self.first, quantity), getattr(self.second, quantity)
         return None if first is None or second is None else (first, second)
 

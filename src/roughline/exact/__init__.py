@@ -1,1 +1,1 @@
-"""Exact solutions, the judges of both models; nothing of ours is imported here."""
+"""Exact solutions, to test both models; nothing else of roughline is imported here."""

@@ -1,6 +1,6 @@
 """Bodies that bear a hardness H at most: first yield of a ball, and the flat disc that yields.
 
-The model is 0 <= p <= H: the half-space is elastic, and where the pressure is H it gives way.
+The model is 0 <= p <= H: the half-space is elastic, and where the pressure is H it yields.
 
 References
 ----------
@@ -53,9 +53,9 @@ class YieldingDisc:
     """Rigid disc of radius a on a half-space that bears H at most.
 
     The elastic pressure is infinite at the rim, so a ring c < r < a bears H from first touch on;
-    inside, the half-space keeps in touch and the pressure rises to H at r = c. The disc's line on
-    springs [2]_ carries E* d for x < c and, from the pressure of the ring, 2 H sqrt(a² - x²)
-    beyond. That the pressure is finite at c makes both equal there.
+    inside, the half-space stays in contact and the pressure rises to H at r = c. In the reduction
+    method [2]_, the line of the disc carries E* d per length for x < c and, from the pressure of
+    the ring, 2 H sqrt(a² - x²) beyond. Both are equal at c, as the pressure is finite there.
 
     Attributes
     ----------
@@ -90,13 +90,13 @@ class YieldingDisc:
         return 2 * self.hardness * (a**2 * np.arccos(c / a) + c * np.sqrt(a**2 - c**2))
 
     def stiffness(self, elastic_radius: ArrayLike) -> Real:
-        """Stiffness k = dF/dd = 2 E* c: the ring carries no more. [force / length]"""
+        """Stiffness k = dF/dd = 2 E* c: the ring carries no additional load. [force / length]"""
         positive(elastic_radius=elastic_radius)
         return 2 * self.E_star * np.asarray(elastic_radius)
 
     @property
     def unloading_stiffness(self) -> float:
-        """Stiffness 2 E* a on the first of the way back: all of the disc springs. [force/length]"""
+        """Stiffness 2 E* a at first unloading: all of the disc springs back. [force / length]"""
         return 2 * self.E_star * self.radius
 
     def work(self, elastic_radius: ArrayLike) -> Real:

@@ -1,1 +1,1 @@
-"""Topographies in files: instruments, our own NetCDF, archives."""
+"""Topographies in files: of instruments, in roughline's own NetCDF, in archives."""

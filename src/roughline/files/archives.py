@@ -37,5 +37,5 @@ def refuse_bombs(path: Path, name: str) -> None:
     if unpacked > max(_LARGE, _RATIO * packed):
         raise InputError(
             f"{name} has {packed / 1e6:.3g} MB and would unpack to {unpacked / 1e6:.4g} MB, "
-            "which no measurement does: export it again"
+            "far too large for a measurement: export it again"
         )

@@ -92,7 +92,7 @@ def _channel_of(reader: Any, wanted: int | str | None, file: str) -> Any:
             raise InputError(f"{file} has no channel {text!r}; it has {listed}")
         if len(named) > 1:
             raise InputError(
-                f"{file} has {len(named)} channels {text!r}: choose by number, of {listed}"
+                f"{file} has {len(named)} channels {text!r}: choose one by its number: {listed}"
             )
         chosen = named[0]
     if not _holds_heights(chosen):

@@ -1,4 +1,4 @@
-"""Heights as a file has them, before anything is done to them."""
+"""Heights as a file holds them, before any processing."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from roughline.topography.trend import Trend, remove_trend
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """Heights as a file has them, and what it states of them.
+    """Heights as a file holds them, and what the file states about them.
 
     Attributes
     ----------
@@ -39,7 +39,7 @@ class Measurement:
     channels : tuple of str
         All channels of the file, with their numbers.
     positions : ndarray, shape (n,), or None
-        Positions of the points of a line that is not even. [unit of the file]
+        Positions of the points of a line whose spacing is not even. [unit of the file]
     settings : mapping
         Where the heights come from.
     is_cut_out, removed_trend
@@ -77,7 +77,7 @@ class Measurement:
         Raises
         ------
         InputError
-            If the caller states what the file states too, or a unit that is none of length.
+            If the caller gives what the file states too, or a unit that is not one of length.
         """
         return self._obstacles(self._scale(unit, sizes), missing)
 
@@ -92,7 +92,8 @@ class Measurement:
     ) -> Body:
         """Return the body, in metres.
 
-        The measurement stays as it is, so that it gives the body with another filling too.
+        The measurement is not changed, so that another body with another filling can follow from
+        it; `in_place` gives that up.
 
         Parameters
         ----------
@@ -111,7 +112,7 @@ class Measurement:
         Raises
         ------
         InputError
-            If something is needed, or stated twice.
+            If something is missing, or given although the file states it.
         """
         scale = self._scale(unit, sizes)
         for obstacle in self._obstacles(scale, missing):

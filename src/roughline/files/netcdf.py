@@ -25,7 +25,7 @@ def write(body: Body, path: str | Path) -> None:
     body : Surface or Line
         The body.
     path : str or Path
-        Where to, ending in ".nc"; an existing file is replaced.
+        Name of the file, ending in ".nc"; an existing file is replaced.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
     Raises
     ------
     InputError
-        If memory cannot hold it.
+        If memory cannot hold its heights.
     """
     import h5netcdf  # here because it loads slowly; xarray loads even more slowly
 

@@ -1,4 +1,4 @@
-"""Files to bodies in metres: instruments' files, arrays and our own."""
+"""Files to bodies in metres: instruments' files, arrays, and files that roughline wrote."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ def read(
 ) -> Body:
     """Read a surface or a line from a file, in metres.
 
-    Our own NetCDF files and the formats of SurfaceTopography are understood, plain arrays (NPY,
-    text) included. A measured line scan is returned as a Line of kind "profile"; one with uneven
-    spacing is interpolated linearly to as many even points. Points that the instrument could not
-    measure are filled, and the tilt of its stage is removed; the settings of the result record
-    both. Our own files are kept as they were written.
+    It reads NetCDF files that roughline wrote and the formats of SurfaceTopography, plain arrays
+    (NPY, text) included. A measured line scan is returned as a Line of kind "profile"; one with
+    uneven spacing is interpolated linearly to as many evenly spaced points. Points that the
+    instrument could not measure are filled, and the tilt of its stage is removed; the settings of
+    the result record both. Heights in files that roughline wrote are not changed.
 
     Parameters
     ----------
@@ -67,9 +67,9 @@ def read(
     Raises
     ------
     UnitError
-        If the file states no unit and `unit` is not given, or both are.
+        If the file states no unit and `unit` is not given, or if both give one.
     InputError
-        If the file does not exist, has no format known, is damaged or lacks points or sizes.
+        If the file does not exist, has an unknown format, is damaged, or lacks points or sizes.
     """
     filling = Missing(missing, most_missing)
     refuse_unknown_trend(trend)
@@ -79,7 +79,7 @@ def read(
 def measurement(
     path: str | Path, channel: int | str | None = None, name: str | None = None
 ) -> Measurement:
-    """Read the heights of a file, whether or not they suffice for a body.
+    """Read the heights of a file, even if a unit, sizes or points are missing for a body.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def measurement(
     Raises
     ------
     InputError
-        If the file does not exist, has no format known, is damaged, or has no such channel.
+        If the file does not exist, has an unknown format, is damaged, or has no such channel.
     """
     path = Path(path)
     if not path.is_file():
@@ -107,7 +107,7 @@ def measurement(
         refuse_bombs(path, name)
         return read_instrument(path, channel, name)
     if channel is not None:
-        raise InputError(f"{name} has one channel; leave it out")
+        raise InputError(f"{name} has one channel only; leave channel= out")
     return measured
 
 
@@ -133,7 +133,7 @@ def _read_array(path: Path, name: str) -> Measurement:
 
 
 def suspicions(body: Body) -> list[str]:
-    """List what suggests a wrong unit or a wrong file about the scales of a measured body.
+    """List properties of a measured body that suggest a wrong unit or a wrong file.
 
     Parameters
     ----------
@@ -151,8 +151,8 @@ def suspicions(body: Body) -> list[str]:
         doubts.append("all heights are equal: this is a flat punch, or an empty channel")
     if slope > 1:
         doubts.append(
-            f"the rms slope is {slope:.3g}; theories and instruments end before 1: check the unit, "
-            "and outliers"
+            f"the rms slope is {slope:.3g}; theories and instruments do not reach slopes of 1: "
+            "check the unit, and outliers"
         )
     if isinstance(body, Surface):
         dx, dy = body.spacing

@@ -1,4 +1,4 @@
-"""Lengths of a file in metres: by the unit and the sides that it states, or that are given."""
+"""Lengths of a file in metres, from the unit and the sizes that it states, or that are given."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ class Scale:
     given_sizes: Sizes | None
 
     def obstacles(self) -> list[InputError]:
-        """List what is stated by nobody: the unit, the sizes.
+        """List what neither the file nor the caller states: the unit, the sizes.
 
         Raises
         ------
         UnitError
-            If the unit is stated and given, or is none of length.
+            If both the file and the caller state the unit, or if it is not a unit of length.
         InputError
-            If the sizes are stated and given.
+            If both the file and the caller state the sizes.
         """
         obstacles: list[InputError] = []
         if self.stated_unit or self.given_unit:
@@ -58,7 +58,7 @@ class Scale:
         else:
             obstacles.append(self._unit_needed())
         if self.stated_sizes is not None and self.given_sizes is not None:
-            raise InputError(f"{self.file} states its sizes; leave them out")
+            raise InputError(f"{self.file} states its sizes; leave sizes= out")
         if self.stated_sizes is None and self.given_sizes is None:
             obstacles.append(self._sizes_needed())
         return obstacles
@@ -91,8 +91,8 @@ class Scale:
         UnitError
             If a text is no length with a unit.
         InputError
-            If nobody states them, or if those given are not as many positive lengths as there are
-            axes.
+            If neither the file nor the caller states them, or if those given are not one positive
+            length for each axis.
         """
         if self.stated_sizes is not None:
             return tuple(self.metres * float(size) for size in self.stated_sizes)
@@ -124,7 +124,7 @@ class Scale:
 
     def _unit_needed(self) -> UnitError:
         return UnitError(
-            f'{self.file} states no unit; say which its lengths have, such as unit="um"'
+            f'{self.file} states no unit; give the unit of its lengths, such as unit="um"'
         )
 
     def _sizes_needed(self) -> InputError:

@@ -2,18 +2,18 @@
 
 Each round has four steps.
 
-1. The gap that the trial pressures leave is computed wherever the problem is looked at, on the
-   whole grid or near the contact, and with it the residuals.
-2. The search ends where the residuals are within the tolerance, or where they fall no more.
+1. The gap under the trial pressures is computed, on the whole grid or near the contact only, and
+   with it the residuals.
+2. The search ends if the residuals are within the tolerance, or no longer fall.
 3. Conjugate gradients lead the pressures towards those that close the gap on the trial nodes,
-   until what is wrong with the set of nodes outweighs what is wrong with the pressures [3]_.
+   until the error of the set of nodes outweighs the error of the pressures [3]_.
 4. Nodes that pull are dropped and nodes that overlap are added, all chosen from the same
    pressures [1]_. Where the bodies yield, nodes above the hardness are set to it, and nodes at it
    that come apart are elastic again.
 
-Polonsky and Keer's method [2]_ corrects the set after every step of conjugate gradients; here as
-many steps are done as pay. The residuals of what is returned are recomputed from it, in double
-precision unless single precision is asked for throughout.
+Polonsky and Keer's method [2]_ corrects the set after every step of conjugate gradients; here it
+is corrected only after as many steps as are worth their cost. The residuals of what is returned are
+recomputed from it, in double precision unless single precision is asked for throughout.
 
 References
 ----------

@@ -1,4 +1,4 @@
-"""A first guess of the contact: solved roughly on ever finer grids, each led by the coarser."""
+"""A first guess of the contact: solved roughly on ever finer grids, each from the coarser one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The far part of an operator, on a coarse grid to which cubic B-splines lead and back.
+"""The far part of an operator on a coarse grid; cubic B-splines transfer values to and fro.
 
 References
 ----------
@@ -22,7 +22,7 @@ from roughline.halfspace.operator import GridNodes, Operator
 from roughline.halfspace.padded_grid import PaddedGrid
 from roughline.halfspace.small_grid import SmallGrid
 
-_SPREAD_AT_A_TIME = 2**14  # nodes, whose work takes a thread longer than to begin with it
+_SPREAD_AT_A_TIME = 2**14  # nodes; for fewer, starting a thread costs more than it saves
 _SMALL = 2**18  # modes, up to which one thread transforms whole rows sooner than two share them
 _BEYOND = 3  # coarse nodes that splines reach beyond the grid
 

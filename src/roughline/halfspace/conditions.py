@@ -1,4 +1,4 @@
-"""The contact conditions: what pressures and gaps obey, and where they violate it."""
+"""The contact conditions that pressures and gaps obey, and their violations."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
 """The contact under one load, by the correction of a defect.
 
-A search near the contact, with an operator that is restricted to it, errs by what this operator
-errs. So the exact operator tells the gap of what was found, everywhere, and the search goes on from
-there: the restricted operator is asked only for what further changes of the pressures displace.
-Each turn leaves some 1/500 of the error. The residuals that count are those of the exact
-operator. Where turns do not help, the search goes on with the exact operator alone.
+A search near the contact with an operator that is restricted to it has the error of this operator.
+The exact operator therefore computes the gap of the result everywhere, and the search continues
+from there: the restricted operator gives only the displacement by further changes of the pressures.
+Each turn leaves about 1/500 of the error. The residuals that count are those of the exact
+operator. Where turns do not help, the search continues with the exact operator alone.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ class HalfSpace:
     E_star : float
         Contact modulus E*. [pressure]
     periodic : bool
-        Whether pressures repeat themselves beyond the grid. If not, the surface is free there.
+        Whether pressures repeat periodically beyond the grid. If not, the surface is free there.
 
     Raises
     ------

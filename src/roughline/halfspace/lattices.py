@@ -1,4 +1,4 @@
-"""Equations for pressures that are even over blocks of nodes, on ever coarser lattices."""
+"""Equations for pressures that are uniform over blocks of nodes, on ever coarser lattices."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from roughline.halfspace.cholesky import Cholesky
 from roughline.halfspace.lattice_loops import GROUP
 
 _COARSEST = 32  # blocks along a side of the lattice whose equations are solved directly
-_INVERSES_AT_A_TIME = 2**7  # groups, whose work takes a thread longer than to begin with it
+_INVERSES_AT_A_TIME = 2**7  # groups; for fewer, starting a thread does not pay
 _SOLUTIONS_AT_A_TIME = 2**10  # groups, likewise
 
 

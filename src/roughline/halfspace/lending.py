@@ -1,4 +1,4 @@
-"""Operators and their approximate inverses, kept from one press for the next on the same grid."""
+"""Operators and their approximate inverses, kept for the next pressing on the same grid."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A contact problem looked at near the contact only, with an approximate operator."""
+"""A contact problem restricted to the nodes near the contact, with an approximate operator."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the solver asks of an elastic body on a grid: the displacement under given pressures."""
+"""What the solver needs of an elastic body on a grid: the displacement under given pressures."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""A path of loads: each contact starts from one before, led by its tangent.
+"""A path of loads: each contact starts from an earlier one, extrapolated along its tangent.
 
-Loads may rise and fall. Under less than the largest load so far the bodies are elastic: all nodes
-spring back, and on the way up again the contact retraces what it was. So a load beyond the largest
-goes on from the contact under that, as if there had been no unloading.
+Loads may rise and fall. Below the largest load so far the bodies are elastic: all nodes spring
+back, and on reloading the contact passes through the same states again. A load beyond the largest
+one therefore starts from the contact under that, as if there had been no unloading.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 _STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
-_NODES_AT_A_TIME = 2**15  # whose work takes a thread longer than to begin with it
+_NODES_AT_A_TIME = 2**15  # for fewer, starting a thread costs more than it saves
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Conjugate gradients on a trial contact set, until the set itself is what is wrong."""
+"""Conjugate gradients on a trial contact set, until the error of the set itself dominates."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
-"""An approximate operator that costs what the contact costs, and not what the grid costs.
+"""An approximate operator whose cost grows with the contact, and not with the grid.
 
 The kernel is split into a smooth far part and a near part, K = far + near, as in Ewald's method.
 The far part is convolved on a coarse grid [1]_, and the near part is summed over the nodes
 themselves [2]_. In Fourier space, far is K times erfc(q w / 2), where w is the width of the
-smoothing: near then falls like erfc(r / w) / r, and is cut at a few coarse cells. Products err by a
-thousandth or so. What they miss is left to the correction of the defect, by the exact convolution.
+smoothing: near then falls like erfc(r / w) / r, and is cut at a few coarse cells. Products have
+an error of about a thousandth. The correction of the defect by the exact convolution removes it.
 
 References
 ----------
@@ -36,7 +36,7 @@ _REACH = int(_RADIUS * _SIDES[-1])  # of the near part, at most
 _SHARES = 0.6, 0.35, 0.025  # of the grid, up to which the coarse cells of each size serve best
 _FEWEST_POINTS = 64  # along the shorter side of the grid
 _ROUNDING = 8  # to which the lengths of runs, and rows of the near part, are rounded up
-_SUMS_AT_A_TIME = 2**21  # near sums, which take a thread longer than to begin with them
+_SUMS_AT_A_TIME = 2**21  # near sums; for fewer, starting a thread does not pay
 
 NEAR = _REACH + 1, _REACH + 1
 """Distances in cells, counted from zero, at which the kernel is needed."""

@@ -1,4 +1,4 @@
-"""What is prescribed, and what a contact under one load is."""
+"""The prescribed load, and the state of the contact under it."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ class StoppingRule:
         certified = worst <= self._method.rtol
         if certified and np.spacing(abs(trial.approach)) > self._method.rtol * trial.length_scale:
             return Outcome.STALLED  # rounding hides such gaps
-        # the stiffness hangs on single nodes: go on for those that overlap more than others err
+        # the stiffness depends on single nodes: go on while one overlaps more than those in contact
         if certified and (trial.residuals.penetration == 0 or exchange.to_tolerance):
             return Outcome.CONVERGED
         if not np.isfinite(worst):

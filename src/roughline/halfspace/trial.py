@@ -1,4 +1,4 @@
-"""A trial contact set with its pressures: the gap that they leave, and how wrong they are."""
+"""A trial contact set with its pressures: the gap that they leave, and their errors."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The lab: a local page to look, touch and ask, over the same functions as the command line."""
+"""The lab: a local page that offers the functions of the command line, with sliders and figures."""

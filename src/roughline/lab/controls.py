@@ -17,7 +17,7 @@ _OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of
 
 
 class ControlError(rl.InputError):
-    """What a control of the page is set to cannot be used.
+    """The value that a control of the page is set to cannot be used.
 
     Attributes
     ----------

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 STIFFNESS_TOLERANCE = 0.10
 """How near stiffnesses must come, as a share."""
 EXACT = "exact"
-"""Stands for the interval of a number that no sample decides."""
+"""Stands for the interval of a number that does not come from a sample."""
 
 Cases = Sequence[tuple[float, IntervalEstimate]]
 """A number with its interval for each fractal dimension."""
@@ -83,7 +83,7 @@ def claim_about_every_dimension(
 
 
 def around(value: float, tolerance: float) -> Range:
-    """Return the range of numbers that are as near to a value as the tolerance says."""
+    """Return the range of numbers within a tolerance of a value."""
     return value - tolerance, value + tolerance
 
 

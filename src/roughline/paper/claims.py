@@ -60,12 +60,13 @@ def claims_section(claims: list[Claim]) -> Section:
         tables=[Table(header, rows, verdict=4)],
         note=(
             "Confirmed: the whole 95 % interval lies within the tolerance of the claim. Refuted: "
-            "the whole interval lies outside. Undecided: it lies across, and this sample cannot "
-            f"tell. The tolerance of an exponent is {EXPONENT_TOLERANCE:g}, that of a stiffness "
+            "the whole interval lies outside. Undecided: it lies partly within, and this sample "
+            "does not decide. "
+            f"The tolerance of an exponent is {EXPONENT_TOLERANCE:g}, that of a stiffness "
             f"or a height {STIFFNESS_TOLERANCE:.0%}; a claim about every D_f is refuted by one. "
-            "The intervals are studentised, from resampled realisations; they do not hold what "
-            "another window or another average would give, which is "
-            "why both stand beside them. The paper does not state its windows. Not judged: "
-            "definitions, what it reports of others' work, and what its Fig. 1 is meant to show."
+            "The intervals are studentised, from resampled realisations; they do not include the "
+            "effect of another window or another average, so both are stated with them. "
+            "The paper does not state its windows. Not judged: definitions, what the paper "
+            "reports of others' work, and what its Fig. 1 is meant to show."
         ),
     )

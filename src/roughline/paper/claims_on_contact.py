@@ -44,8 +44,8 @@ def stiffness_agrees(results: PaperResults) -> Claim:
     return claim_about_every_dimension(
         "Excellent agreement of the stiffness of the two models (abstract, §6)",
         found=f"k / (E* L), 3D over 1D with the same waves: {numbers_by_dimension(ratios, '.2f')}",
-        basis=f"{basis_in(WINDOW_AGREEMENT, results.full)}, {bodies_of(results.matched)}; every "
-        "load alike",
+        basis=f"{basis_in(WINDOW_AGREEMENT, results.full)}, {bodies_of(results.matched)}; all "
+        "loads weighted equally",
         cases=ratios,
         allowed=_SAME_SIZE,
         form=".2f",
@@ -62,8 +62,8 @@ def area_is_linear(results: PaperResults) -> Claim:
         "The real contact area is linear in the force, A = κ F / (E* ∇h) (eq. 4)",
         found=f"A ~ F^{numbers_by_dimension(exponents)}, corrected for the outline (in cells: "
         f"{numbers(exponents_in_cells)}); κ = {numbers(kappas, '.2f')} (in cells: "
-        f"{numbers(kappas_in_cells, '.2f')}, which is the grid's)",
-        basis=f"{basis_in(WINDOW_AREA, results.full, 'A')}; every load alike",
+        f"{numbers(kappas_in_cells, '.2f')}, which depends on the grid)",
+        basis=f"{basis_in(WINDOW_AREA, results.full, 'A')}; all loads weighted equally",
         cases=exponents,
         allowed=_LINEAR,
     )
@@ -143,8 +143,8 @@ def saturates_early(results: PaperResults) -> Claim:
             for d in other.fractal_dimension.values
         ]
         found += (
-            f"; on {other.attrs['n']}² {numbers_by_dimension(there, '.1%')}: except at D_f = 2 a "
-            "number of the grid, less the finer it is"
+            f"; on {other.attrs['n']}² {numbers_by_dimension(there, '.1%')}: except at D_f = 2 it "
+            "depends on the grid, and is less the finer the grid is"
         )
         every += [area for _, area in there]
     judged = joint_verdict(verdict(area.low, area.high, 0, _SMALL_AREA) for area in every)

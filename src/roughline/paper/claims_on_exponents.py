@@ -55,9 +55,9 @@ def constant_exponent(results: PaperResults, model: ModelLabel, said: str) -> Cl
     carriers = "springs" if model == "1D" else "cells"
     return claim_about_every_dimension(
         f"{model}: a power law {said}",
-        found="α in the lowest decade (of less than two decades: in their lower half) less α in "
-        f"the highest: {numbers_by_dimension(drifts, '+.3f')}",
-        basis=f"F̄ = {lowest:.2g} (where ten {carriers} touch in all) to {MEDIUM_FORCE:g}; "
+        found="α in the lowest decade less α in the highest (in the two halves of a range below "
+        f"two decades): {numbers_by_dimension(drifts, '+.3f')}",
+        basis=f"F̄ = {lowest:.2g} (ten {carriers} touch in every body) to {MEDIUM_FORCE:g}; "
         f"mean k at fixed F̄; {bodies_of(_data(results, model))}",
         cases=drifts,
         allowed=_NO_CHANGE,

@@ -79,12 +79,12 @@ def _exponents_section(results: PaperResults) -> Section:
         [
             f"k̄ = ζ F̄^α with raw k̄ = k / (E* L); windows F̄ = {WINDOW_REDUCED[0]:g} to "
             f"{WINDOW_REDUCED[1]:g} (1D) and {WINDOW_FULL[0]:g} to {WINDOW_FULL[1]:g} (3D). "
-            "Every load of a window counts alike: exponents and prefactors are least squares "
-            "of logarithms, ratios and κ geometric means over the loads.",
+            "All loads of a window are weighted equally: exponents and prefactors are least "
+            "squares of logarithms, ratios and κ are geometric means over the loads.",
             f"κ = A E* ∇h / F of eq. 4 from F̄ = {WINDOW_AREA[0]:.3g} to {WINDOW_AREA[1]:.3g}, "
             "with the slope of the grid and two areas: counted in cells, and corrected for "
             "the steps of its outline. In cells κ rises with D_f as the outline gets longer, "
-            "which is the grid's doing. κ is no constant: it falls with the load, so that "
+            "which is an effect of the grid. κ is not constant: it falls with the load, so that "
             "its value depends on how loads are weighted (the last column).",
             _completeness(results),
         ],
@@ -135,8 +135,9 @@ def _other_grid_sections(results: PaperResults) -> list[Section]:
         Section(
             "The same surfaces on two grids",
             [
-                "Same phases, and on the finer grid more detail. Ratios of means with 95 % "
-                "intervals, from resampled pairs; α of the mean in the window of the full model."
+                "The phases are the same, and the finer grid has more detail. Ratios of means with "
+                "95 % intervals, from resampled pairs; α of the mean in the window of the full "
+                "model."
             ],
             tables=[two_grids_table(results.full, results.other_grid)],
         )
@@ -164,7 +165,7 @@ def _methods_section(results: PaperResults) -> Section:
 
 
 def _hours(results: PaperResults) -> list[str]:
-    """Say what the whole took, if it is told."""
+    """Say how long the whole study took, if that is known."""
     computing = results.computing
     if computing is None:
         return []

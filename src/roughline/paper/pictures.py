@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 _OPEN_MARKS = (
     " Bands are the standard error of the mean; dashed or open where, in at least one realisation, "
-    "fewer than ten springs or cells are in contact, so that the grid shows. The shaded range is "
-    "the window of the fit."
+    "fewer than ten springs or cells are in contact, so that the grid decides. The shaded range "
+    "is the window of the fit."
 )
 _CAPTIONS = {
     "figure_1": (
@@ -51,9 +51,9 @@ _CAPTIONS = {
     "area_law": (
         "Area law",
         "Left: real contact area over force, corrected for the steps of its outline, dashed where "
-        "fewer than ten cells touch. Right: κ of eq. 4, every load of the shaded window alike, "
-        "with 95 % intervals, of the corrected area and of the cells in contact. The slope is "
-        "that of the grid (forward differences).",
+        "fewer than ten cells touch. Right: κ of eq. 4 with 95 % intervals, of the corrected "
+        "area and of the cells in contact; all loads of the shaded window are weighted equally. "
+        "The slope is that of the grid (forward differences).",
     ),
     "models_compared": (
         "Both models",

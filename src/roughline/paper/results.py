@@ -77,7 +77,7 @@ class PaperResults:
     other_grid : Dataset or None
         The surfaces of `full` on another grid, with the waves that it carries.
     computing : Computing or None
-        What the study took; None where it is not told.
+        What the study took; None if it is not known.
     """
 
     name: str
@@ -166,7 +166,7 @@ def published_results() -> PaperResults:
 
 @cache
 def published_dataset(name: str) -> xarray.Dataset:
-    """Return one part of that study alone, which is sooner read than all; it is read once.
+    """Return one part of that study alone, which is faster than reading all; it is read once.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ def published_dataset(name: str) -> xarray.Dataset:
 
 
 def published_folder() -> Path:
-    """Where the files of the study are that comes with the package."""
+    """Folder with the files of the study that comes with the package."""
     return Path(str(files("roughline.paper").joinpath("data")))
 
 

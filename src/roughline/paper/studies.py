@@ -1,4 +1,4 @@
-"""What the studies beside the paper's found, in short: a figure and verdicts each, for the lab."""
+"""Results of the studies other than the paper's, in short: a figure and verdicts, for the lab."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ class StudySummary:
 
 @cache
 def study_summaries() -> list[StudySummary]:
-    """Return what the studies found that come with the package, by their names."""
+    """Return the results of the studies that come with the package, by their names."""
     folder = summaries_folder()
     return [_read(path) for path in sorted(folder.glob("*.json"))]
 
@@ -106,7 +106,7 @@ def write_summary(summary: StudySummary) -> None:
 
 
 def summaries_folder() -> Path:
-    """Where they lie, a file each."""
+    """Folder of these results, a file for each study."""
     return Path(str(files("roughline.paper").joinpath("data", "studies")))
 
 

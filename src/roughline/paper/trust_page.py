@@ -38,11 +38,11 @@ def trust_page(trust: TrustMap, fine: TrustMap, folder: str) -> str:
     ]
     lead = (
         "The reduced model gives a stiffness in milliseconds, without interactions between "
-        "contacts. How far off is it? With roughness that goes on to the size of the body "
-        "(q_roll = q_0) it is close over much of the map; the more of the long waves are missing, "
-        "the worse it gets, as the law it obeys is an effect of the finite size (Pastewka et al., "
-        "Phys. Rev. E 87, 062809, 2013). Area, gap and pressure it does not predict at all, and "
-        "roughline does not offer them from it."
+        "contacts. How far off is it? With roughness that reaches up to the size of the body "
+        "(q_roll = q_0) it is close over much of the map. The more of the long waves are missing, "
+        "the larger its error, as its law is an effect of the finite size (Pastewka et al., "
+        "Phys. Rev. E 87, 062809, 2013). It does not predict area, gap and pressure at all, and "
+        "roughline does not derive them from it."
     )
     return render_markdown("Where may the reduced model be trusted?", lead, sections, folder)
 
@@ -67,8 +67,8 @@ def _numbers_section() -> Section:
         "In numbers",
         [
             "Differences of the means with 95 % intervals; a star where the grid decides.",
-            "The intervals are studentised; those of 20 surfaces and 200 lines hold the truth in "
-            "94 to 96 of 100 ensembles ([how that was found](how-to/intervals.md)).",
+            "The intervals are studentised; those of 20 surfaces and 200 lines contain the true "
+            "value in 94 to 96 of 100 ensembles ([how that was found](how-to/intervals.md)).",
         ],
     )
 
@@ -111,13 +111,13 @@ def _use_section(trust: TrustMap) -> Section:
         [
             "`rl.trust_map().at(fractal_dimension=2.3, force_bar=0.05, roll_off_ratio=2)` "
             "gives the difference of the means, its interval, and the scatter of single "
-            "surfaces: one of your own differs from the mean by so much. Its "
+            "surfaces, by which one of your own may differ from the mean. Its "
             '`verdict(tolerance)` is "confirmed" where the whole interval lies within the '
-            'tolerance, "refuted" where it lies outside, and "undecided" else. At 10 % and '
+            'tolerance, "refuted" where it lies outside, and "undecided" otherwise. At 10 % and '
             f"where the grid resolves it, {_counts_of_verdicts(trust)}. `roughline compare` "
             "presses both models of your own spectrum or surface.",
-            "The map ends at its borders: it says nothing of other boundaries, of bodies that "
-            "are not square, or of heights that are not Gaussian.",
+            "The map holds within its borders only: it says nothing about other boundaries, bodies "
+            "that are not square, or heights that are not Gaussian.",
         ],
     )
 

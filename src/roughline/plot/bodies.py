@@ -30,7 +30,7 @@ def topography(body: Body, axes: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        What was drawn on.
+        The axes that were drawn on.
     """
     with drawing_on(axes) as drawn:
         draw_heights(drawn, body, body.unit)
@@ -58,7 +58,7 @@ def draw_map(
     label: str,
     cmap: str = "cividis",
 ) -> None:
-    """Draw values on the grid of a surface, from above, with a bar of their colours."""
+    """Draw values on the grid of a surface, from above, with a colour bar."""
     borders = extent(surface, unit)
     shown = axes.imshow(thinned(values).T, origin="lower", extent=borders, cmap=cmap)
     assert axes.figure is not None

@@ -37,10 +37,10 @@ def curve(curve: Curve, x: str = "force", y: str = "stiffness", axes: Axes | Non
     Returns
     -------
     Axes
-        What was drawn on, with logarithmic scales. Depths are drawn on linear ones where loads
-        fall, which shows both ways. Marks are open where fewer than ten springs or cells touch, so
-        that the grid decides, and blue after a larger load. Loads that were not solved are counted
-        in the picture.
+        The axes that were drawn on, with logarithmic scales. With falling loads, depths are drawn
+        on linear scales, which show loading and unloading. Marks are open where fewer than ten
+        springs or cells touch, so that the grid decides, and blue after a larger load. The number
+        of loads that were not solved is written in the picture.
 
     Raises
     ------
@@ -72,8 +72,8 @@ def area(curve: Curve, axes: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        What was drawn on; marks as in :func:`curve`. The band ends at the area of the cells that
-        touch: what the correction took off.
+        The axes that were drawn on; marks as in :func:`curve`. The band reaches from the corrected
+        area up to the area of the cells that touch.
 
     Raises
     ------
@@ -152,11 +152,13 @@ def _values(curve: Curve, name: str) -> Real:
     known = [each for each, quantity in QUANTITIES.items() if quantity.dims == OVER_LOADS]
     if name not in known:
         raise InputError(
-            f"there is no quantity {name!r} over the loads; there are {', '.join(known)}"
+            f"there is no quantity {name!r} over the loads; allowed are {', '.join(known)}"
         )
     values: Real | None = getattr(curve, name)
     if values is None:
-        raise InputError(f"this curve has no {name}: see what each model gives in the glossary")
+        raise InputError(
+            f"this curve has no {name}: the glossary says which model gives which quantity"
+        )
     return values.astype(np.float64)
 
 

@@ -36,7 +36,7 @@ def comparison(compared: Comparison, axes: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        What was drawn on; bands are 95 % intervals.
+        The axes that were drawn on; bands are 95 % intervals.
     """
     count, (dark, light) = compared.surfaces, colours(2)
     surfaces = f"mean of {count} surfaces" if count > 1 else "one surface"
@@ -54,7 +54,7 @@ def comparison(compared: Comparison, axes: Axes | None = None) -> Axes:
 
 
 def difference(compared: Comparison, tolerance: float = 0.1, axes: Axes | None = None) -> Axes:
-    """Draw the stiffness of the full model over that of the reduced one, less 1.
+    """Draw the relative difference of the stiffness of the full model from the reduced one's.
 
     Parameters
     ----------
@@ -68,8 +68,8 @@ def difference(compared: Comparison, tolerance: float = 0.1, axes: Axes | None =
     Returns
     -------
     Axes
-        What was drawn on; the band is the 95 % interval, and marks are open where fewer than ten
-        cells touch.
+        The axes that were drawn on; the band is the 95 % interval, and marks are open where fewer
+        than ten cells touch.
     """
     force, (colour, _) = compared.force_bar, colours(2)
     with drawing_on(axes) as drawn:
@@ -95,7 +95,7 @@ def trust_map(
     Parameters
     ----------
     roll_off_ratio : float, optional
-        q_roll / q_low, one of those of the map; 1 without a roll-off.
+        q_roll / q_low, one of the values that the map has; 1 without a roll-off.
     trust : TrustMap, optional
         Default: the map that comes with the package.
     axes : Axes, optional
@@ -104,7 +104,7 @@ def trust_map(
     Returns
     -------
     Axes
-        What was drawn on; hatched where in some surface fewer than ten cells touch.
+        The axes that were drawn on; hatched where fewer than ten cells touch in some surface.
 
     Raises
     ------
@@ -124,7 +124,7 @@ def trust_map(
 
 
 def draw_trust(axes: Axes, trust: TrustMap, roll_off: int) -> Any:
-    """Draw the map at its roll-off of this number; return what a bar of colours belongs to."""
+    """Draw the map at the roll-off with this index; return the image for the colour bar."""
     levels = np.array(TRUST_LEVELS)
     scale = ListedColormap(trust_colours())
     norm = BoundaryNorm(levels, levels.size + 1, extend="both")

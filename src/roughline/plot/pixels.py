@@ -1,4 +1,4 @@
-"""Maps on as many points as a picture can show."""
+"""Maps thinned to the number of points that a picture can show."""
 
 from __future__ import annotations
 

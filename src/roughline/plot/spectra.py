@@ -32,8 +32,8 @@ def spectrum(described: Body | Roughness, axes: Axes | None = None) -> Axes:
     Returns
     -------
     Axes
-        What was drawn on: C_2d of a surface, C_profile of a line. The title tells the Hurst
-        exponent with its interval.
+        The axes that were drawn on: C_2d of a surface, C_profile of a line. The title gives the
+        Hurst exponent with its interval.
 
     Raises
     ------
@@ -57,8 +57,8 @@ def power_law(
     force_bar : array_like, shape (loads,)
         Dimensionless forces.
     stiffness_bar : array_like, shape (loads,) or (realisations, loads)
-        Dimensionless stiffness at these forces; of several realisations each is drawn, and their
-        mean, as the law has it.
+        Dimensionless stiffness at these forces. Of several realisations each is drawn, and their
+        mean: arithmetic or geometric, as for the law.
     law : PowerLaw
         What :func:`roughline.fit_power_law` returned.
     axes : Axes, optional
@@ -67,7 +67,7 @@ def power_law(
     Returns
     -------
     Axes
-        What was drawn on; the window of the fit is shaded.
+        The axes that were drawn on; the window of the fit is shaded.
     """
     force = np.asarray(force_bar, dtype=np.float64)
     stiffness = np.atleast_2d(np.asarray(stiffness_bar, dtype=np.float64))

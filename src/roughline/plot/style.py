@@ -1,4 +1,4 @@
-"""One look for all figures: journal sizes, colours and marks that survive grey print."""
+"""One style for all figures: journal sizes, colours and marks that are legible in grey print."""
 
 from __future__ import annotations
 

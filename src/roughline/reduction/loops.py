@@ -1,4 +1,4 @@
-"""Compiled loops over springs; they know arrays only."""
+"""Compiled loops over springs; they take arrays only."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Arguments of the library in messages, called as the caller's own controls are."""
+"""Arguments of the library in messages, under the names of the caller's own controls."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ _ARGUMENT = re.compile(r'(?<!")\b(\w+)=(?:True|"([^"]*)")?')
 def with_arguments_called(
     message: str, names: Mapping[str, str], quoted: Callable[[str], str]
 ) -> str:
-    """Return a message with other names in the places of arguments, which have an equals sign.
+    """Return a message with arguments (recognised by an equals sign) replaced by other names.
 
     Parameters
     ----------
     message : str
-        Such as "allow more (most_missing=)". What follows a quotation mark, such as
-        "hardness=...", is no argument but text to be typed, and stays.
+        Such as "allow more (most_missing=)". A name directly after a quotation mark, such as
+        "hardness=...", is text to be typed, not an argument, and is kept.
     names : mapping of str to str
-        What arguments are called; others are left as they are.
+        New names of arguments; those not in it are left as they are.
     quoted : callable
-        How a text that is given to an argument is written.
+        Returns the text given to an argument as it is to be written.
     """
 
     def called(argument: re.Match[str]) -> str:

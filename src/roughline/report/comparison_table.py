@@ -33,7 +33,7 @@ def comparison_table(compared: ModelComparison) -> tuple[list[str], list[list[st
 
 
 def verdict_in_words(compared: ModelComparison) -> str:
-    """Say in a few sentences where the reduced model may be trusted, and of what this is true."""
+    """Say in a few sentences where the reduced model may be trusted, and for which surfaces."""
     result, share = compared.comparison, f"{compared.tolerance:.0%}"
     window = result.trusted(compared.tolerance)
     verdicts = compared.verdicts
@@ -50,8 +50,8 @@ def verdict_in_words(compared: ModelComparison) -> str:
     )
     if result.surfaces == 1:
         return (
-            f"{text}. This is about the models for surfaces of this spectrum, of which this is "
-            f"one: single surfaces scatter by {result.scatter.max():.0%} or less, and the interval "
-            "includes it"
+            f"{text}. This verdict is for all surfaces with this spectrum, of which this is one: "
+            f"single surfaces scatter by {result.scatter.max():.0%} or less, and the interval "
+            "includes that scatter"
         )
-    return f"{text}; more surfaces decide more" if undecided else text
+    return f"{text}; more surfaces would decide more of them" if undecided else text

@@ -71,7 +71,7 @@ def curve_figure(assessment: Assessment) -> Figure:
 
 
 def contact_figure(surface: Surface, assessment: Assessment) -> Figure:
-    """Topography, and the real contact area at the last load whose fields are there."""
+    """Topography, and the real contact area at the last load with stored fields."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
     draw_heights(left, surface, "m")
@@ -90,7 +90,7 @@ def roughness_figure(body: Body, parameters: Roughness) -> Figure:
 
 
 def draw_force(axes: Axes, assessment: Assessment) -> None:
-    """Force over depth; where loads fall, on linear scales, which show both ways and the dent."""
+    """Force over depth; with falling loads on linear scales, which show loading and unloading."""
     curve, falls = assessment.curve, has_falling_loads(assessment)
     x_label, depth = in_unit("depth since touch $d$", curve.depth, "m")
     y_label, force = _force_axis(assessment)
@@ -102,7 +102,7 @@ def draw_force(axes: Axes, assessment: Assessment) -> None:
 
 
 def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
-    """Stiffness over force with its interval, and theories beside it; of the joint, if given."""
+    """Stiffness over force with its interval, and theories; for the joint, if one is given."""
     curve, area = assessment.curve, assessment.area
     x_label, force = _force_axis(assessment)
     symbol = "k_i" if assessment.question.joint and curve.hardness is None else "k"
@@ -131,7 +131,7 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
 
 
 def draw_area(axes: Axes, assessment: Assessment) -> None:
-    """Contact area over force with its interval, and theories beside it."""
+    """Contact area over force with its interval, and theories."""
     curve, area = assessment.curve, assessment.area
     assert curve.area_fraction_corrected is not None
     label, force = _force_axis(assessment)
@@ -175,7 +175,7 @@ def draw_filled(axes: Axes, assessment: Assessment) -> None:
 
 
 def draw_last_contact(axes: Axes, surface: Surface, assessment: Assessment) -> None:
-    """Real contact area at the last load whose fields are there; red where it yields."""
+    """Real contact area at the last load with stored fields; red where it yields."""
     curve = assessment.curve
     for i in range(len(curve.fields) - 1, -1, -1):
         fields = curve.fields[i]

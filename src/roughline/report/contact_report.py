@@ -1,4 +1,4 @@
-"""The report that a client receives: one page, as HTML and PDF, from an assessment."""
+"""The report for a client: one page, as HTML and PDF, from an assessment."""
 
 from __future__ import annotations
 
@@ -42,26 +42,26 @@ if TYPE_CHECKING:
 _ABREAST = 4  # loads that fit beside each other on a page
 
 ASSUMPTIONS = (
-    "Half-spaces that are linear elastic up to the hardness of the softer body and perfectly "
-    "plastic there, if that is known; small slopes, no friction in the normal problem, no "
+    "Both bodies are half-spaces, linear elastic up to the hardness of the softer body, if that is "
+    "known, and perfectly plastic there; small slopes, no friction in the normal problem, no "
     "adhesion, static loads.",
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less.",
-    "Intervals, where given, are those of the grid, of filled points and of the scatter of the "
-    "hardness, or of what a line scan leaves open; those of k_i, h_c and |R| of a map hold the "
-    "surface behind it as well. The scatter of other material data, and for all other answers that "
-    "of other places on the part, comes on top.",
+    "Intervals, where given, hold the uncertainty due to the grid, to filled points and to the "
+    "scatter of the hardness, or to a line scan; those of k_i, h_c and |R| of a map hold what one "
+    "map does not show of the larger surface as well. They do not hold the scatter of other "
+    "material data, nor, for all other answers, the scatter between places on the part.",
 )
 ASSUMPTIONS_OF_JOINT = (
     *ASSUMPTIONS[:2],
-    "The joint is alike everywhere, and evenly loaded: each place carries the mean pressure and is "
-    "rough as the map is. The map is pressed at that pressure in a periodic half-space, and what "
-    "is per area is multiplied by the joint's area. Answers are those of the interface; waviness "
-    "longer than the map, bending, and the constriction of the bodies to the joint's outline are "
-    "left out.",
-    "Intervals, where given, are those of the grid, of filled points, of the scatter of the "
-    "hardness and of what one map leaves open of the surface around it. The scatter of other "
-    "material data, and that of places which are not alike, comes on top.",
+    "The joint is alike everywhere, and evenly loaded: each place carries the mean pressure and "
+    "has the roughness of the map. The map is pressed at that pressure in a periodic half-space, "
+    "and quantities per area are multiplied by the joint's area. Answers are those of the "
+    "interface; waviness longer than the map, bending, and the constriction of the bodies to the "
+    "joint's outline are left out.",
+    "Intervals, where given, hold the uncertainty due to the grid, to filled points, to the "
+    "scatter of the hardness, and to what one map does not show of the surface around it. They do "
+    "not hold the scatter of other material data, nor that of places which are not alike.",
 )
 
 
@@ -139,7 +139,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
     assert pair is not None
     settings = "; ".join(f"{key} = {_shown(value)}" for key, value in assessment.settings.items())
     table_of = partial(answer_table, assessment, with_elastic=True)
-    legend = [f"A star behind a load: {UNRESOLVED}."] if star_is_shown(assessment) else []
+    legend = [f"A star after a load: {UNRESOLVED}."] if star_is_shown(assessment) else []
     return [
         Section(
             "Answers",
@@ -155,17 +155,17 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
             [_surface(assessment)],
             pictures=[Picture(overview, "Overview", _caption(assessment))],
         ),
-        Section("Where the answers are from", tables=[Table(*formula_table(assessment))]),
+        Section("Formulas and sources", tables=[Table(*formula_table(assessment))]),
         Section(
             "Assumptions",
             assumptions_of(assessment),
         ),
-        Section("To do it again", [how_to_repeat, settings]),
+        Section("How to repeat it", [how_to_repeat, settings]),
     ]
 
 
 def assumptions_of(assessment: Assessment) -> list[str]:
-    """What the answers rest on."""
+    """Assumptions of the answers."""
     of_theories = [f"{theory.name}: {theory.validity}." for theory in assessment.theories]
     joint = assessment.question.joint is not None
     return [*(ASSUMPTIONS_OF_JOINT if joint else ASSUMPTIONS), *of_theories]

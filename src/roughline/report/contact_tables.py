@@ -35,17 +35,17 @@ _OF_JOINT = ("specific_contact_resistance",)
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
 IF_ELASTIC = "if nothing yielded"
-"""Begins what elastic bodies would give."""
+"""Heads the answers that elastic bodies would give."""
 
 UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
-"""What the star behind a load means."""
+"""Meaning of the star after a load."""
 
 
 def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of a curve in SI units; a star marks loads that the grid decides.
 
-    Force and stiffness are the joint's, where its area is given. Where metals yield, the stiffness
-    on unloading stands in the place of the raw area.
+    Force and stiffness are the joint's, where its area is given. With a hardness, the stiffness on
+    unloading takes the place of the raw area.
     """
     curve, scale, known = assessment.curve_as_asked, assessment.scale, assessment.intervals_as_asked
     loading: Ends | None = None
@@ -110,7 +110,7 @@ def answer_table(
 def elastic_in_words(assessment: Assessment) -> str:
     """Say what the leading answers would be of elastic bodies, at the largest load.
 
-    Nothing is said of those that yield does not change by more than their interval.
+    Answers that yield does not change by more than their interval are left out.
     """
     i = assessment.largest
     shown = []
@@ -135,17 +135,17 @@ def differs(other: float, value: float, ends: tuple[float, float] | None) -> boo
 
 
 def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of how the answers follow, where they hold and where from.
+    """Return header and rows of the answers' formulas, where they hold and their sources.
 
-    Where the hardness scatters, a column says how far that moves each at the largest load.
+    Where the hardness scatters, a column says how far that changes each at the largest load.
     """
-    header, i = ["", "formula", "holds", "source"], assessment.largest
+    header, i = ["", "formula", "validity", "source"], assessment.largest
     rows = [
         [f"{each.name} {each.symbol}", each.formula, each.validity, each.source]
         for each in assessment.answers.values()
     ]
     if assessment.hardness_scatter:
-        header.append("hardness moves it by")
+        header.append("change by scatter of hardness")
         for row, ratios in zip(rows, assessment.hardness_scatter.values(), strict=True):
             low, high = (float(end[i]) for end in ratios)
             row.append("not known" if np.isnan(low) else change_in_words(low, high))

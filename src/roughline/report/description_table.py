@@ -105,7 +105,7 @@ def _rows_of_roughness(parameters: Roughness, letter: str) -> list[tuple[str, st
     ]
     if parameters.isotropy is not None:
         rows.append(
-            ("slope, least over most", f"{_number(parameters.isotropy)} over all directions")
+            ("slope, least over largest", f"{_number(parameters.isotropy)} over all directions")
         )
     if fit is not None:
         low, high = fit.rms_interval

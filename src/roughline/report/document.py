@@ -14,12 +14,12 @@ from roughline.report.pdf import write_pdf
 def write_document(
     folder: Path, title: str, lead: str, sections: Sequence[Section], *, one_sheet: bool = True
 ) -> list[Path]:
-    """Write ``report.html`` and ``report.pdf``, which say when and with what they were made.
+    """Write ``report.html`` and ``report.pdf``, with the date and version that made them.
 
     Parameters
     ----------
     folder : Path
-        It is there already.
+        An existing folder.
     title, lead, sections
         As for :func:`roughline.report.page.render`.
     one_sheet : bool, optional

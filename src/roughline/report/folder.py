@@ -14,7 +14,7 @@ def make_folder(out: Path) -> None:
     Raises
     ------
     StoreError
-        If not.
+        If the folder cannot be made, or no file can be written to it.
     """
     try:
         out.mkdir(parents=True, exist_ok=True)

@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 
 
 def to_json(content: Mapping[str, Any]) -> str:
-    """Write plain content; NaN and infinities, which JSON has not, become null."""
+    """Write plain content; NaN and infinities, which JSON does not have, become null."""
     return json.dumps(plain({"roughline_version": __version__, **content}), indent=1)
 
 
 def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What pressing gave, in SI units, over the loads that were asked for, in their order.
 
-    Answers stand by their symbols; the key of each is that of :attr:`Assessment.answers`.
+    Answers are listed by their symbols; the key of each is that of :attr:`Assessment.answers`.
     """
     intervals = assessment.intervals_as_asked
     question, curve, slip = assessment.question, assessment.curve_as_asked, assessment.partial_slip

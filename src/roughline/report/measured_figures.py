@@ -1,4 +1,4 @@
-"""The figure of a file: heights as it has them, and where points are missing."""
+"""The figure of a file: heights as the file holds them, and where points are missing."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and what stands below it, in this order; `notes` are a list."""
+    """A heading and the content below it, in this order; `notes` are shown as a list."""
 
     heading: str
     paragraphs: Sequence[str] = ()
@@ -51,7 +51,7 @@ class Section:
 
 
 def render(title: str, lead: str, sections: Sequence[Section], made: str = "") -> str:
-    """Return the page as HTML; `made` says when and with what."""
+    """Return the page as HTML; `made` says when and with which version it was made."""
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["verdict_class"] = _verdict_class
     environment.filters["value_and_interval"] = value_and_interval

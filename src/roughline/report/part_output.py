@@ -35,7 +35,7 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
     files : iterable of Path
         What was written.
     many_answers_by : str
-        How the caller gives what is too much for a screen.
+        Options of the caller that give the answers that are too many for a screen.
     """
     console = Console()
     print_table(console, *maps_table(part))
@@ -51,7 +51,7 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
     if star_is_shown_of(part):
         console.print(f"* {UNRESOLVED}", highlight=False)
     if len(part.headings) > _MOST_LOADS:
-        console.print(f"answers at more than {_MOST_LOADS} loads are for {many_answers_by}")
+        console.print(f"answers at more than {_MOST_LOADS} loads: use {many_answers_by}")
     for remark in part.remarks:
         console.print(f"note: {remark}", highlight=False, soft_wrap=not console.is_terminal)
     print_files(files)
@@ -60,7 +60,7 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
 def of_part(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What several maps gave, in SI units, over the loads that were asked for.
 
-    Answers stand by their symbols; each map has all that a single one has.
+    Answers are listed by their symbols; each map has the same content as a single one.
     """
     return {
         "loads": part.headings,

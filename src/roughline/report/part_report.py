@@ -1,4 +1,4 @@
-"""The report on a part of which several maps were pressed, as HTML and PDF."""
+"""The report on several maps of one part, as HTML and PDF."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
 
 ASSUMPTION_OF_PART = (
-    "Intervals of the part hold the scatter between its places as well. They suppose that the "
-    "places were chosen at random, and that what scatters does so by factors."
+    "Intervals of the part hold the scatter between its places as well. They assume that the "
+    "places were chosen at random, and that quantities scatter by factors."
 )
 _LOADS_ABREAST = 2  # each has two columns
 _MAPS_ABREAST = 4
@@ -97,7 +97,7 @@ def _figures(part: PartAssessment, folder: Path) -> list[Path]:
 
 
 def _count(part: PartAssessment) -> str:
-    """How many maps the page is of, and how many are missing."""
+    """Number of maps on the page, and of all maps if some are missing."""
     count = len(part.names)
     text = f"{count} maps" if count > 1 else "a single map"
     missing = len(part.refused) + len(part.left)
@@ -145,7 +145,7 @@ def _sections(
         for load in loads
         for i in maps[::_MAPS_ABREAST]
     ]
-    formulas = formula_table(replace(first, hardness_scatter={}))  # which moves each map otherwise
+    formulas = formula_table(replace(first, hardness_scatter={}))  # it differs between maps
     return [
         Section(
             "The part",
@@ -158,20 +158,20 @@ def _sections(
             tables=[_with_numbers(*maps_table(part)), _with_numbers(*leading_table(part))],
             pictures=[
                 Picture(answers, "Answers", _caption_of_answers(part)),
-                Picture(heights, "Heights", "Of each map about its mean, in the same colours."),
+                Picture(heights, "Heights", "Each map about its mean, in the same colours."),
             ],
         ),
         Section(
             "Each map",
             [
-                "Values and intervals of each map alone, whose own report lies in a folder beside "
+                "Values and intervals of each map alone; its own report lies in a folder beside "
                 "this page."
             ],
             tables=[_with_numbers(*each) for each in of_maps],
         ),
-        Section("Where the answers are from", tables=[Table(*formulas)]),
+        Section("Formulas and sources", tables=[Table(*formulas)]),
         Section("Assumptions", [*assumptions_of(first), ASSUMPTION_OF_PART]),
-        Section("To do it again", [how_to_repeat]),
+        Section("How to repeat it", [how_to_repeat]),
     ]
 
 
@@ -181,5 +181,5 @@ def _with_numbers(header: list[str], rows: list[list[str]]) -> Table:
 
 
 def _caption_of_answers(part: PartAssessment) -> str:
-    text = f"At {part.headings[part.largest]}, of each map with its own interval"
-    return f"{text}; red: mean, and its interval over the places of the part."
+    text = f"Answers at {part.headings[part.largest]} of each map, with its own interval"
+    return f"{text}; red: their mean, and its interval over the places of the part."

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from roughline.assessment.part import PartAnswer, PartAssessment
 
 NO_MEAN = "-"
-"""Stands where maps have no common value."""
+"""Written where maps have no common value."""
 
 _SAME = 1e-6  # scatter below which a quantity was given, and did not come out
 
@@ -59,7 +59,7 @@ def part_table(
 def elastic_of_part_in_words(part: PartAssessment) -> str:
     """Say what the leading means would be of elastic bodies, at the largest load.
 
-    Nothing is said of those that yield does not change by more than their interval.
+    Answers that yield does not change by more than their interval are left out.
     """
     i = part.largest
     shown = []
@@ -75,7 +75,7 @@ def each_map_table(
 ) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of all answers of some of the maps, at one load.
 
-    A star behind a map marks that the grid decides on it.
+    A star after a map's name marks that the grid decides on its values.
     """
     stars = [starred(each)[load].removeprefix(part.headings[load]) for each in part.assessments]
     header = [part.headings[load], *(f"{part.names[i]}{stars[i]}" for i in maps)]

@@ -32,7 +32,7 @@ def write_pdf(
     *,
     one_sheet: bool = True,
 ) -> None:
-    """Write a page as PDF on A4: on one sheet, made smaller while that can be read, or on several.
+    """Write a page as PDF on A4: on one sheet, made smaller as long as it is legible, or on more.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ def write_pdf(
     title, lead, sections, made
         As for :func:`roughline.report.page.render`.
     one_sheet : bool, optional
-        Whether all of it stands on one sheet if it can be read there.
+        Whether the page is made to fit one sheet, if it is then still legible.
 
     Raises
     ------

@@ -56,19 +56,19 @@ def part_progress() -> Iterator[tuple[Callable[[int, int], None], Callable[[int,
     Nothing is drawn before a map is pressed, so that a refusal of all stays one line.
     """
     with _bars() as show:
-        told = (0, 1)
+        last = (0, 1)
         is_pressing = False
 
         def maps(done: int, total: int) -> None:
-            nonlocal told
-            told = done, total
+            nonlocal last
+            last = done, total
             if is_pressing:
                 show("maps", done, total, key="maps")
 
         def loads(done: int, total: int) -> None:
             nonlocal is_pressing
             is_pressing = True
-            maps(*told)
+            maps(*last)
             show("loads of this map", done, total, key="loads")
 
         yield maps, loads
@@ -80,7 +80,7 @@ class _Show(Protocol):
 
 @contextmanager
 def _bars() -> Iterator[_Show]:
-    """Bars by name, on standard error; nothing is drawn before the first is told of."""
+    """Bars by name, on standard error; nothing is drawn before the first call."""
     progress = Progress(
         TextColumn("{task.description:<22}"),
         BarColumn(),

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from roughline.topography.body import Surface
 
 _LIGHT = (315.0, 45.0)  # direction and height of the light [degree]
-_RELIEF = 0.35  # rms slope that a surface is lit with, so that smooth ones show as well
+_RELIEF = 0.35  # rms slope to which a surface is scaled for the light, so that smooth ones show
 
 
 def shaded(surface: Surface) -> NDArray[np.uint32]:

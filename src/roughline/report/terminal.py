@@ -1,4 +1,4 @@
-"""What the terminal shows of one body: its curve or answers, its description, the comparison."""
+"""Output on the terminal for one body: its curve or answers, its description, the comparison."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from roughline.assessment.description import Description
     from roughline.theories.theory_curve import TheoryCurve
 
-_MOST_SHOWN = 200  # loads that anybody reads as a table
+_MOST_SHOWN = 200  # loads that are printed as a table
 _MOST_ANSWERED = 3  # loads whose answers fit on a screen
 _SHORTEST_NAME = 20  # columns that the name of an answer needs at least
 
@@ -53,7 +53,7 @@ def print_assessment(
     files : iterable of Path
         What was written.
     long_curves_by, many_answers_by : str
-        How the caller gives what is too long for a screen.
+        Options of the caller that give the curve, or the answers, that are too long for a screen.
     """
     console = Console()
     console.print(_described(assessment.body), highlight=False, soft_wrap=True)
@@ -79,7 +79,7 @@ def print_assessment(
         console.print(f"* {UNRESOLVED}", highlight=False)
     if pair is not None and answered < count:
         which = "under the falling loads" if answered else f"at more than {_MOST_ANSWERED} loads"
-        console.print(f"answers {which} are for {many_answers_by}")
+        console.print(f"answers {which}: use {many_answers_by}")
     for failure in _failures(assessment) if not many else ():
         console.print(failure, highlight=False)
     for theory in assessment.theories:
@@ -101,18 +101,18 @@ def _in_one_line(assessment: Assessment, long_curves_by: str) -> str:
         text += " from {}: depth {}, stiffness {}".format(*ends)
     for status, count in Counter(curve.status[~solved].tolist()).items():
         text += f"; {count} not solved ({Status(status).reason})"
-    return f"{text}; each of them: {long_curves_by}"
+    return f"{text}; for each load use {long_curves_by}"
 
 
 def _failures(assessment: Assessment) -> list[str]:
     """Say which loads were not solved, and why."""
     curve = assessment.curve
     asked = dict(zip(assessment.asked.tolist(), assessment.headings, strict=True))
-    told = (
+    failures = (
         f"load {asked.get(int(i), 'of the curve')}: {Status(curve.status[i]).reason}"
         for i in np.flatnonzero(~curve.converged)
     )
-    return list(dict.fromkeys(told))  # loads of the curve alone share a line
+    return list(dict.fromkeys(failures))  # loads of the curve alone share a line
 
 
 def _theory_line(theory: TheoryCurve, assessment: Assessment) -> str:

@@ -32,7 +32,7 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
 
 
 def scale_of(value: float, unit: str) -> tuple[float, str]:
-    """What a value is multiplied with, and what then stands behind it."""
+    """Factor of a value, and the unit or sign that is then written after it."""
     if unit == "1":
         return 1.0, ""
     if unit == "%":
@@ -42,5 +42,5 @@ def scale_of(value: float, unit: str) -> tuple[float, str]:
 
 
 def value_and_interval(cell: str) -> list[str]:
-    """Where a number may be broken in two lines: before its interval."""
+    """Split a cell into the value and, if it has one, its interval: a line may break between."""
     return _INTERVAL.split(cell, maxsplit=1)

@@ -23,7 +23,7 @@ CONTENT_POLICY = "; ".join(
         "frame-ancestors 'none'",
     )
 )
-"""Nothing is loaded but from this server, and no text is run as a program."""
+"""Everything is loaded from this server only, and no text of a page is run as a program."""
 
 HEADERS = {
     "Content-Security-Policy": CONTENT_POLICY,
@@ -35,13 +35,13 @@ HEADERS = {
 }
 
 RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox"
-"""Documents that tasks have written run nothing, and load nothing."""
+"""Documents that tasks have written run no program, and load nothing."""
 
 _OWN_NAMES = ("localhost", "127.0.0.1", "::1")
 
 
 def host_is_ours(host: str, settings: ServerSettings) -> bool:
-    """Whether a request names this server; a name that others point here is refused.
+    """Whether a request names this server; other names that lead here are refused.
 
     Any port will do, since a tunnel may lead here from another one. Where other machines are let
     in, by names that are not known here, the password protects.
@@ -53,13 +53,13 @@ def host_is_ours(host: str, settings: ServerSettings) -> bool:
 
 
 def origin_is_ours(origin: str | None, host: str) -> bool:
-    """Whether a request comes from a page of this server; no origin, and "null", are not ours."""
+    """Whether a request comes from a page of this server; not if its origin is none or "null"."""
     named = _split(origin or "")
     return named.scheme in ("http", "https") and named.netloc.lower() == host.lower() != ""
 
 
 def _split(address: str) -> SplitResult:
-    """The parts of an address; none of what is no address."""
+    """The parts of an address; empty for text that is not an address."""
     try:
         parts = urlsplit(address)
         parts.hostname, parts.port  # noqa: B018 - they are checked when they are read
@@ -69,7 +69,7 @@ def _split(address: str) -> SplitResult:
 
 
 def passwords_match(given: str, wanted: str) -> bool:
-    """Compare two passwords in a time that tells nothing of them."""
+    """Compare two passwords in a time that does not depend on them."""
     return hmac.compare_digest(given.encode(), wanted.encode())
 
 
@@ -80,9 +80,9 @@ class Allowance:
     Parameters
     ----------
     rate : float
-        Of filling up. [1 / s]
+        How fast it fills up. [1 / s]
     most : float
-        When it is full.
+        The supply when it is full.
     """
 
     rate: float
@@ -132,7 +132,7 @@ class Visitors:
 
 
 def neighbourhood(address: str) -> str:
-    """Return an address, or of one of version 6 the network that one customer commonly has."""
+    """Return an IPv4 address, or the network of an IPv6 address that one customer commonly has."""
     try:
         number = ip_address(address.partition("%")[0])
     except ValueError:  # such as a socket file

@@ -1,4 +1,4 @@
-"""The requests of a page apart from its websocket: itself, its parts, its files and downloads."""
+"""The requests of a page other than its websocket: the page, its parts, uploads and downloads."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml",
 
 
 class Guarded(RequestHandler):
-    """A request that is answered only to who may ask."""
+    """A request that is answered only to pages that may ask."""
 
     open_to_all = False
 
@@ -52,14 +52,14 @@ class Guarded(RequestHandler):
         self.set_header("Server", "roughline")
 
     def prepare(self) -> None:
-        """Refuse names that are not ours, pages of other servers, and who has no password."""
+        """Refuse names that are not ours, pages of other servers, and who has not logged in."""
         settings = self.server.settings
         if not host_is_ours(self.request.host, settings):
             raise HTTPError(403, reason="This is not a name of this server")
         origin = self.request.headers.get("Origin")
         reads = self.request.method in ("GET", "HEAD")
         if (origin is not None or not reads) and not origin_is_ours(origin, self.request.host):
-            raise HTTPError(403, reason="Pages of other servers may not ask")
+            raise HTTPError(403, reason="Requests from pages of other servers are refused")
         if not self.open_to_all and settings.password is not None and not self._is_logged_in():
             if self.request.path == "/":
                 self.redirect("/login")
@@ -85,10 +85,10 @@ class Guarded(RequestHandler):
 
 
 class Nothing(Guarded):
-    """What there is not."""
+    """An address at which there is nothing."""
 
     def prepare(self) -> None:
-        """Say so, to who may ask."""
+        """Say so to pages that may ask."""
         super().prepare()
         if not self._finished:
             raise HTTPError(404, reason="There is nothing at this address")
@@ -109,7 +109,7 @@ class Login(Guarded):
     open_to_all = True
 
     def set_default_headers(self) -> None:
-        """Let the form say from where it comes, which "no-referrer" hides."""
+        """Let the form state its origin, which "no-referrer" hides."""
         super().set_default_headers()
         self.set_header("Referrer-Policy", "same-origin")
         self.set_header("Cache-Control", "no-store")
@@ -150,7 +150,7 @@ class Parts(Guarded, StaticFileHandler):
     open_to_all = True
 
     def parse_url_path(self, url_path: str) -> str:
-        """Refuse what the system would not take for a name."""
+        """Refuse a path that the system does not accept as a name."""
         if "\0" in url_path:
             raise HTTPError(404, reason="There is nothing at this address")
         return super().parse_url_path(url_path)
@@ -193,7 +193,7 @@ class Uploads(Guarded):
             raise HTTPError(429, reason="Too many files at once: wait a moment")
         length = self.request.headers.get("Content-Length", "")
         if not (length.isascii() and length.isdigit()):
-            raise HTTPError(411, reason="The size of the file must be told first")
+            raise HTTPError(411, reason="The size of the file must be stated first")
         if int(length) > most:
             raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
         name = self.get_query_argument("name", "file")
@@ -217,7 +217,7 @@ class Uploads(Guarded):
     def post(self) -> None:
         """Tell the page what its file is called here."""
         if self._session is None or self._upload is None or self._file is None:
-            raise HTTPError(410, reason="The page of this file is closed, or brought too many")
+            raise HTTPError(410, reason="The page of this file is closed, or sent too many files")
         try:
             self._file.close()
         except OSError:
@@ -253,7 +253,7 @@ class Results(Guarded):
         folder = (self.session_of(token).folder / "results").resolve()
         path = (folder / name).resolve()
         if path.parent != folder or not path.is_file():
-            raise HTTPError(404, reason="There is no such file any more: make it again")
+            raise HTTPError(404, reason="This file no longer exists: make it again")
         kind = mimetypes.guess_type(path.name)[0] or "application/octet-stream"
         self.set_header("Content-Type", kind)
         self.set_header("Content-Length", str(path.stat().st_size))
@@ -271,7 +271,7 @@ class Results(Guarded):
 
 
 def bokeh_folder() -> Path:
-    """Where those of Bokeh are, in its own package."""
+    """Folder of the scripts and styles of Bokeh, in its own package."""
     from importlib.util import find_spec
 
     found = find_spec("bokeh")  # without loading it, which takes long

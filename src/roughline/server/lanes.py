@@ -1,4 +1,4 @@
-"""Lanes of processes: who is served next, what replaces what, and what is stopped."""
+"""Lanes of processes: which request is next, which replaces another, and which is stopped."""
 
 from __future__ import annotations
 
@@ -39,16 +39,16 @@ class _Job:
 class Lane:
     """Some processes and the requests that wait for them: first come, first served.
 
-    What makes an answer finer that is there already goes last, and an address, and among its pages
-    a page, that has fewer tasks running goes first.
+    Requests that refine an answer that a page already has go last. Addresses with fewer running
+    tasks go first, and among the pages of an address those with fewer running tasks.
 
     Parameters
     ----------
     limits : Limits
         Of the lane, and of one task.
     lasting : bool
-        Whether a process ends what it does, wanted or not. If not, it is stopped when its request
-        is withdrawn or replaced.
+        Whether a process finishes its task even if it is no longer wanted. If not, the process is
+        stopped when its request is withdrawn or replaced.
     """
 
     def __init__(self, limits: Limits, *, lasting: bool) -> None:
@@ -63,11 +63,11 @@ class Lane:
         self._closed = False
 
     def submit(self, request: Request) -> None:
-        """Take a request; one that waits for the same part of the same page gives it its place."""
+        """Take a request; it replaces one that waits for the same part of the same page."""
         asked = sum(key[0] == request.session for key in self._waiting)
         if request.key not in self._waiting and asked >= _MOST_PARTS:
             return request.answer(
-                Outcome(error="too many questions of this page wait: let some end, then ask again")
+                Outcome(error="too many requests of this page wait: let some end, then ask again")
             )
         older = self._waiting.get(request.key, request)
         self._waiting[request.key] = replace(request, since=older.since)
@@ -78,7 +78,7 @@ class Lane:
     def withdraw(self, session: str, slot: str | None = None) -> list[Process]:
         """Forget what a page has asked for, or one part of it; returns processes that are stopped.
 
-        A lasting process finishes its short task, and is not listened to.
+        A lasting process finishes its short task, and its answer is ignored.
         """
 
         def is_meant(key: tuple[str, str]) -> bool:
@@ -100,7 +100,7 @@ class Lane:
         await self._begin(self._fill())
 
     def renew(self) -> None:
-        """Give back the memory of processes that have done something and wait for more."""
+        """Give back the memory of processes that have done a task and wait for the next one."""
         used = [process for process in self._idle if process.tasks]
         self._idle = [process for process in self._idle if not process.tasks]
         for process in used:
@@ -123,7 +123,7 @@ class Lane:
         self._threads.shutdown(wait=False)
 
     def _begin(self, work: Coroutine[Any, Any, None]) -> asyncio.Task[None]:
-        """Begin what has to end before the lane is closed."""
+        """Begin work that has to end before the lane is closed."""
         task = asyncio.create_task(work)
         self._work.add(task)
         task.add_done_callback(self._work.discard)
@@ -194,7 +194,7 @@ class Lane:
         await self._fill()
 
     async def _outcome(self, job: _Job, crowded: bool) -> Outcome:
-        """Have a request done by a process, or by another if that was gone already."""
+        """Have a request done by a process, or by another one if the first had already ended."""
         outcome = NOT_BEGUN
         for _ in range(_MOST_TRIES):
             process = job.process = self._spare() or await self._new_process()

@@ -27,7 +27,7 @@ def folder_of_files() -> Iterator[Path]:
 
 
 def remove_leftovers() -> None:
-    """Delete the folders of servers that are no more; what others own is left alone."""
+    """Delete the folders of servers that no longer run; folders of other users are left alone."""
     import psutil  # here because it is wanted once
 
     for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):

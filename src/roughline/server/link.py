@@ -28,7 +28,7 @@ class Link(Guarded, WebSocketHandler):
     session: Session | None = None
 
     def prepare(self) -> None:
-        """Refuse who does not say from where it comes: every browser does."""
+        """Refuse requests without an origin: every browser states it."""
         super().prepare()
         if self.request.headers.get("Origin") is None:
             raise HTTPError(403, reason="Only pages of this server may ask")
@@ -44,7 +44,7 @@ class Link(Guarded, WebSocketHandler):
         self._held: dict[str, dict[str, Any]] = {}
         self._sending: set[asyncio.Task[None]] = set()
         if not self.server.has_place(self.address):
-            self.close(1013, "as many pages are open as may be: close one, or come back later")
+            self.close(1013, "no more pages may be open at once: close one, or come back later")
             return
         self.session = self.server.open_session(self.address, self._send, self._send_answer)
         self._send({"session": self.session.token, "version": __version__})
@@ -61,14 +61,14 @@ class Link(Guarded, WebSocketHandler):
             else:
                 self.close(1008, "this page asked too much: reload it")
         elif not isinstance(slot, str) or not 0 < len(slot) <= _SLOT_LENGTH:
-            self._refuse(number, "this message is none of the lab's: reload the page")
+            self._refuse(number, "this message is not one of the lab: reload the page")
         elif said.get("stop") is True:
             self._held.pop(slot, None)
             self.session.withdraw(slot)
         elif not isinstance(task, str) or task not in self.server.site.tasks:
             self._refuse(number, "the lab has no such task: reload the page")
         elif not isinstance(said.get("arguments"), dict) or not _is_plain(said["arguments"]):
-            self._refuse(number, "what is set here is too long, or in no form the lab knows")
+            self._refuse(number, "what is set here is too long, or not in a form the lab knows")
         else:
             self._ask(slot, said)
 
@@ -88,7 +88,7 @@ class Link(Guarded, WebSocketHandler):
         elif slot in self._held or len(self._held) < _MOST_HELD:
             self._held[slot] = said
         else:
-            self._refuse(number, "too many questions of this page wait: let some end first")
+            self._refuse(number, "too many requests of this page wait: let some end first")
 
     def _refuse(self, number: int, why: str) -> None:
         self._send({"id": number, "error": why, "at": ""})

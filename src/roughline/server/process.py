@@ -1,4 +1,4 @@
-"""One process that computes, seen from the server: it is asked, tells its progress, answers.
+"""A process that computes, seen from the server: it gets a task, reports progress, and answers.
 
 Processes are forked from one that has loaded and compiled everything, where the system can fork.
 """
@@ -26,7 +26,7 @@ _LOW, LOWEST = 3, 15
 """Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
 
 LOST = Outcome(
-    error="the process that computed this ended unexpectedly, perhaps for want of memory: ask "
+    error="the process that computed this ended unexpectedly, perhaps for lack of memory: ask "
     "again, or take fewer points"
 )
 """The outcome of a task whose process was lost."""
@@ -41,7 +41,7 @@ class Process:
     Parameters
     ----------
     memory : float
-        What it may take beside the program itself. [bytes]
+        What it may take in addition to the program itself. [bytes]
     gives_way : bool
         Whether processes that do not give way come first when both want a core.
 
@@ -134,7 +134,7 @@ def start_forking(warm: str) -> None:
 
 @contextmanager
 def without_interrupts() -> Iterator[None]:
-    """Have processes started that Ctrl-C does not reach: it is the server's."""
+    """Start processes that Ctrl-C does not reach, as it is meant for the server."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
@@ -164,7 +164,7 @@ def _serve(connection: Connection, memory: float, warm: str | None) -> None:
 
 
 def _end_with_server() -> None:
-    """End this process, even in a task, when the server is gone or wants it no more."""
+    """End this process, even during a task, when the server is gone or no longer needs it."""
     server = multiprocessing.parent_process()
     if server is not None:
         wait([server.sentinel])

@@ -1,4 +1,4 @@
-"""What pages ask of a lane of processes, and what it may take."""
+"""The requests of pages to a lane of processes, and their limits."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ class Request:
     Attributes
     ----------
     address, session, slot : str
-        From where, who asks, and for which part of the page: a newer request for it takes the place
-        of an older one.
+        Where the page is, which page asks, and for which of its parts: a newer request for the same
+        part replaces an older one.
     place : Place
         Where the task is.
     arguments : mapping
-        Of the task; with "refines" it makes an answer finer that is there, and lets others pass.
+        Of the task; with "refines" it refines an existing answer, and lets other requests pass.
     answer : callable
         Told the outcome, unless the request was replaced or withdrawn.
     progress : callable

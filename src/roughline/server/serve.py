@@ -218,7 +218,7 @@ def _listening(settings: ServerSettings) -> list[socket.socket]:
         sockets = bind_sockets(settings.port, settings.host)
     except socket.gaierror as error:
         raise InputError(
-            f'host="{settings.host}" is no address of this machine: give one, or 127.0.0.1 for '
+            f'host="{settings.host}" is not an address of this machine: give one, or 127.0.0.1 for '
             "this machine alone"
         ) from error
     except (OSError, UnicodeError) as error:

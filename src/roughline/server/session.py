@@ -1,4 +1,4 @@
-"""One open page: what it has asked for, its files, and how they end with it."""
+"""One open page: its requests and its files, which end with it."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ class Upload:
     path : Path
         Where it lies, under a random name.
     name : str
-        What its owner calls it.
+        Name that its owner gave it.
     size : int
-        As it was told before it came. [bytes]
+        Size, as the page stated it in advance. [bytes]
     """
 
     path: Path
@@ -56,7 +56,7 @@ class Session:
     address : str
         Where the page is.
     token : str
-        Known to the page alone; who has it may speak for the page.
+        Known to the page alone; a request with it counts as a request of the page.
     root : Path
         Folder of all sessions; this one's lies in it from the first file on.
     site : Site

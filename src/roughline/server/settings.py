@@ -66,11 +66,11 @@ class ServerSettings:
         for name in ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions"):
             if not 0 < getattr(self, name) < math.inf:
                 raise InputError(
-                    f"a limit of {getattr(self, name)} is none: give a positive {name}="
+                    f"a limit of {getattr(self, name)} is not possible: give a positive {name}="
                 )
         if self.max_memory < _LEAST_MEMORY:
             raise InputError(
-                f"{self.max_memory / 1e6:g} MB of memory are too few: give a max_memory= of at "
+                f"{self.max_memory / 1e6:g} MB of memory is too little: give a max_memory= of at "
                 f"least {_LEAST_MEMORY / 1e6:g} MB"
             )
 

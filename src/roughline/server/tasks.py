@@ -1,4 +1,4 @@
-"""Tasks: where they are, and how their ends are told."""
+"""Tasks: where they are defined, and how their outcomes are reported."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class Place:
     module, function : str
         The module by its whole name, and the function in it.
     is_quick : bool
-        Whether it takes so little that it waits for nothing but other quick ones. The others have a
-        process each, with limits of time and memory, and are stopped when they are no more wanted.
+        Whether it is so short that it waits only for other quick tasks. Other tasks have a process
+        each, with limits of time and memory, and are stopped when they are no longer wanted.
     reads_files : bool
-        Whether it reads what a page has brought. Its process does nothing else before it ends.
+        Whether it reads a file that a page has sent. Its process does nothing else and then ends.
     """
 
     module: str
@@ -75,12 +75,12 @@ def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -
         traceback.print_exc(file=sys.stderr)
         return Outcome(
             error="the computation failed for a reason that the lab does not know; the terminal "
-            "that it was started from shows more. Change something and ask again"
+            "in which the lab was started shows more. Change a setting and ask again"
         )
 
 
 def without_paths(text: str, arguments: Mapping[str, Any]) -> str:
-    """Put the names that a user knows in the place of the lab's own names of files."""
+    """Replace the lab's own names of files by the names that the user knows."""
     for path, name in arguments["session"]["names"].items():
         text = text.replace(path, name).replace(ntpath.basename(path), name)
     return text

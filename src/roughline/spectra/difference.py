@@ -1,4 +1,4 @@
-"""How far the integrals over a spectrum are from the sums that its bodies have."""
+"""How far integrals over a spectrum differ from the sums over the waves of its bodies."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _CLOSE = 0.05  # relative difference up to which they count as equal
 def sum_over_integral(band: Band, order: int, body: BodyName) -> float:
     """Moment over the whole lattice of wavevectors, over the integral.
 
-    The sum is taken over the longest waves; among shorter ones it is the integral.
+    The sum is taken over the longest waves; over shorter ones it equals the integral.
 
     Raises
     ------
@@ -34,7 +34,7 @@ def sum_over_integral(band: Band, order: int, body: BodyName) -> float:
 
 
 def are_close(factor: float) -> bool:
-    """Whether a quantity of the continuum, so many times that of the bodies, is within 5 %."""
+    """Whether a quantity of the continuum, over that of the bodies, is within 5 % of 1."""
     return abs(factor - 1) <= _CLOSE
 
 
@@ -46,9 +46,9 @@ def warn_of_difference(name: str, factor: float, body: BodyName) -> None:
     Parameters
     ----------
     name : str
-        Of the quantity, as an attribute of the spectrum.
+        Name of the quantity, as an attribute of the spectrum.
     factor : float
-        The continuum's over that of the bodies. [1]
+        The quantity of the continuum over that of the bodies. [1]
     body : {"surface", "line"}
         Which bodies.
     """
@@ -57,7 +57,7 @@ def warn_of_difference(name: str, factor: float, body: BodyName) -> None:
     which = 'n, "line"' if body == "line" else "n"
     warnings.warn(
         f"{name} is that of the continuum, {factor:.2f} times that of the {body}s which "
-        f"this spectrum generates: their few long waves are no integral. Take "
+        f"this spectrum generates, as a sum over few long waves is not the integral. Take "
         f"lattice({which}).{name} for a body of n points, or continuum.{name} for the "
         "integral",
         ContinuumWarning,

@@ -28,8 +28,8 @@ _MOST_SCATTER = 0.15  # rms of log10 of the spectrum about the law
 class SelfAffineFit:
     """A plateau, then a power law, up to where it ends.
 
-    Intervals are of 95 %, and allow for deviations of 10 % from the law, in each tenth of a decade,
-    that no sample explains.
+    Intervals are at 95 %. Besides chance, they allow for deviations of 10 % from the law in each
+    tenth of a decade.
 
     Attributes
     ----------
@@ -49,17 +49,17 @@ class SelfAffineFit:
     C_0 : float
         Value on the plateau, and at q_roll. [length⁴]
     rms_height : float
-        Of the surface's waves up to the length of the piece. It follows from that of the piece by
-        the law: the part that the removed mean plane took is added, and the part that longer waves
-        added is taken away. [length]
+        Rms height of the surface's waves up to the length of the piece. It follows from that of the
+        piece by the law: the part that was removed with the mean plane is added, and the part that
+        longer waves contribute is subtracted. [length]
     rms_interval : tuple of float
         Its interval; it is wide where long waves are few. [length]
     scatter : float
         Rms of log10 of the spectrum about the law, beyond what chance explains. [1]
     q_low : float
-        Longest wave of the surface. [1 / length]
+        Wavenumber of the longest wave of the surface. [1 / length]
     q_last : float
-        Shortest. [1 / length]
+        Wavenumber of its shortest wave. [1 / length]
     """
 
     hurst: float
@@ -102,7 +102,7 @@ class SelfAffineFit:
             If the exponent is outside 0 to 1.
         """
         if not 0 <= self.hurst <= 1:
-            raise InputError(f"H is {self.hurst:.2f}; a self-affine surface has 0 to 1")
+            raise InputError(f"H is {self.hurst:.2f}; a self-affine surface has H from 0 to 1")
         return SelfAffine(
             hurst=self.hurst,
             length=2 * math.pi / self.q_low,

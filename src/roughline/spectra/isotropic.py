@@ -27,7 +27,7 @@ class IsotropicSpectrum:
         Wavenumbers m 2 pi / L, m = 1, 2, ..., up to the coarser grid spacing's Nyquist.
         [1 / length]
     C_2d : ndarray
-        Mean over the modes of the ring around each. [length⁴]
+        Mean over the modes of the ring around each wavenumber. [length⁴]
     length : float
         L, square root of the nominal area. [length]
     rms_height : float
@@ -35,7 +35,7 @@ class IsotropicSpectrum:
     modes : ndarray
         Number of modes in each mean; 0 where it is interpolated between its neighbours. [1]
     windowed : bool
-        Whether a Hann window was laid over the heights.
+        Whether a Hann window was applied to the heights.
     aspect : float
         Lx / Ly. [1]
     """
@@ -97,7 +97,7 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     """Estimate the spectrum of a surface, averaged over all directions.
 
     Opposite sides of a surface that is cut out of a larger one do not meet, so its mean plane is
-    removed and a Hann window is laid over it. Other surfaces are periodic and taken as they are.
+    removed and a Hann window is applied. Other surfaces are periodic and taken as they are.
 
     Parameters
     ----------

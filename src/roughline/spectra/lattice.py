@@ -107,14 +107,14 @@ class ContinuumSpectrum(ScaledSpectrum):
 
 @dataclass(frozen=True)
 class LatticeSpectrum(ScaledSpectrum):
-    """The spectrum of a periodic body of n points: what its heights have, to rounding.
+    """The spectrum of a periodic body of n points: that of its heights, to rounding.
 
     Attributes
     ----------
     n : int
         Points along a side. Waves with |q| < pi n / length are carried.
     body : {"surface", "line"}
-        Over the lattice of wavevectors in the plane, or along the reduced line.
+        Whether sums are over the lattice of wavevectors in the plane, or along the reduced line.
     """
 
     n: int
@@ -123,7 +123,7 @@ class LatticeSpectrum(ScaledSpectrum):
     @classmethod
     def of(cls, band: Band, C_0: float, n: int, body: BodyName) -> LatticeSpectrum:
         """Cut a band at what the grid carries."""
-        # strictly below the grid's shortest wave, whose phase n points do not know
+        # strictly below the grid's shortest wave, whose phase n points do not determine
         most = band.q_low * n / 2 * (1 - 1e-9)
         q_high = min(band.q_high, most)
         return cls(replace(band, q_roll=min(band.q_roll, q_high), q_high=q_high), C_0, n, body)

@@ -1,7 +1,7 @@
 """How a window and the removal of the mean plane smear the spectrum of a piece of a surface.
 
 A piece of a larger surface holds no whole waves. After its plane is removed and a Hann window is
-laid over it, each wave of the surface appears in several modes of the piece. Wavenumbers are in
+applied, each wave of the surface appears in several modes of the piece. Wavenumbers are in
 units of the piece's q_low = 2 pi / L here, in which its modes are 1 apart.
 """
 

@@ -1,4 +1,4 @@
-"""Compiled loops over the modes of random heights; they know arrays only."""
+"""Compiled loops over the modes of random heights; they take arrays only."""
 
 from __future__ import annotations
 

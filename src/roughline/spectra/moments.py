@@ -59,7 +59,7 @@ def bands(roughness: SurfaceOrSpectrum) -> Bands:
     if isinstance(roughness, LatticeSpectrum):
         if roughness.body == "line":
             raise InputError(
-                'this is the lattice of a line; theories are of surfaces: lattice(n, "surface")'
+                'this is the lattice of a line; theories hold for surfaces: lattice(n, "surface")'
             )
         return _gathered(roughness.waves())
     if isinstance(roughness, IsotropicSpectrum):

@@ -31,19 +31,20 @@ class ProfileSpectrum:
     Attributes
     ----------
     q : ndarray
-        Halves of q_low = 2 pi / length for the longest waves, then geometric middles of bins that
-        widen with q. [1 / length]
+        Multiples of q_low / 2, with q_low = 2 pi / length, for the longest waves; then geometric
+        middles of bins that widen with q. [1 / length]
     C_profile : ndarray
         Square of the cosine series' coefficient, then means over the waves of the bins. [length³]
     modes : ndarray
         1 for a coefficient, twice the number of waves for a bin, as a wave has two phases; times
         the number of cuts. [1]
     edges : ndarray
-        Ends of the ranges that they stand for, one more than these. [1 / length]
+        Ends of the ranges of wavenumbers that these values stand for; one more than `q`.
+        [1 / length]
     length : float
-        Of a cut. [length]
+        Length of a cut. [length]
     rms_height : float
-        Of the cuts. [length]
+        Rms height of the cuts. [length]
     """
 
     q: Real
@@ -121,7 +122,7 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
     """Estimate the spectrum of straight cuts.
 
     The tilt is removed. A cut has few long waves. They are taken from a cosine series, which needs
-    no window and so uses the whole cut; for the others a Hann window is laid over it.
+    no window and so uses the whole cut; for the others a Hann window is applied to it.
 
     Parameters
     ----------
@@ -131,7 +132,7 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
     Raises
     ------
     InputError
-        If a line is no profile, is flat, or has fewer than 64 points, or if they differ in size.
+        If a line is not a profile, is flat, or has fewer than 64 points, or if they differ in size.
     """
     cuts = [lines] if isinstance(lines, Line) else list(lines)
     first = cuts[0]

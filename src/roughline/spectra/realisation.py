@@ -74,7 +74,7 @@ def realisation(
     Raises
     ------
     InputError
-        If there are too few or too many points, or the amplitudes or the seed are none.
+        If there are too few or too many points, or the amplitudes or the seed are not valid.
     """
     refuse_points(n, body)
     if body == "surface":

@@ -37,9 +37,9 @@ class Roughness:
     isotropy : float or None
         Smallest over largest rms slope of all directions; None for a line. [1]
     spectrum : IsotropicSpectrum, ProfileSpectrum or None
-        Averaged over directions; None if it has none.
+        Spectrum, averaged over directions; None if there is none.
     fit : SelfAffineFit or None
-        The self-affine law nearest to it; None if it has none.
+        The self-affine law that fits best; None if there is no fit.
     remarks : list of str
         Why there is no spectrum or no fit, or why it is not to be trusted.
     """
@@ -99,7 +99,7 @@ def roughness(body: Body) -> Roughness:
     """
     if isinstance(body, Line) and body.kind == "reduced":
         raise InputError(
-            "this is a reduced line, made for springs and no topography; describe its surface"
+            "this is a reduced line, made for springs, and not a topography: describe its surface"
         )
     skewness, kurtosis = _shape(body.heights)
     summits = _summits(body.heights)
@@ -114,7 +114,7 @@ def roughness(body: Body) -> Roughness:
     if ratio is not None and ratio < ALIKE:
         remarks.append(
             f"slopes differ by direction, smallest over largest {ratio:.2f}: a spectrum averaged "
-            "over directions, and a line scan, stand for no such surface"
+            "over directions, and a line scan, do not describe such a surface"
         )
     return Roughness(
         rms_height=body.rms_height,

@@ -32,14 +32,14 @@ from roughline.topography.settings import Settings
 
 @dataclass(frozen=True, init=False)
 class SelfAffine:
-    """Isotropic self-affine spectrum, the paper's eq. 3, with optional roll-off and cutoff.
+    """Isotropic self-affine spectrum with optional roll-off and cutoff (the paper's eq. 3).
 
     ``C_2d(q) = C_0`` from ``q_low = 2 pi / length`` to ``q_roll`` (default: ``q_low``, no
     plateau), then ``C_0 (q / q_roll)**(-2 (H + 1))`` up to ``q_high``, and zero outside.
 
     What is given fixes how surfaces and lines are scaled: with ``rms_height`` each of them is
     scaled to that rms (the paper's choice); with ``C_0`` both are generated from the same
-    spectrum, and their rms heights differ by what the lattice of wavevectors makes of it.
+    spectrum, and their rms heights differ, as their lattices of wavevectors do.
 
     ``continuum`` and ``lattice(n, body)`` are the two spectra that this can mean: integrals, or the
     sums that a body of n points has. Without a roll-off, or with one below about 3 ``q_low``, they

@@ -1,9 +1,9 @@
 """Studentised intervals from resampling the realisations of an ensemble.
 
-Every resample has its own standard error. The interval comes from how many of these errors the
-resamples lie away from the ensemble. Percentiles of the resamples would be too narrow: an interval
-that holds 95 % of the resamples holds the truth in 87 to 92 of 100 ensembles of 10 or 20
-realisations.
+Every resample has its own standard error. The interval follows from the distances of the resamples
+from the ensemble, in units of these errors. Percentiles of the resamples would be too narrow: an
+interval that contains 95 % of the resamples contains the true value in 87 to 92 of 100 ensembles of
+10 or 20 realisations.
 
 References
 ----------
@@ -106,10 +106,10 @@ class Resampled:
     def interval(self, confidence: float = 0.95) -> Real:
         """Return the lower and upper ends of the interval, shape (2, ...).
 
-        Student's t supposes a normal distribution. The resamples show how skew the distribution
-        is, but those of few realisations show too little of it. On each side the end that lies
-        farther from the value is taken. For fewer than six realisations Student's t alone is
-        taken.
+        Student's t assumes a normal distribution. The resamples show how skew the distribution
+        is, but resamples of few realisations show too little of the skewness. On each side, the
+        farther of the two ends is taken. For fewer than six realisations Student's t alone is
+        used.
         """
         from scipy.special import stdtrit  # here because it loads slowly
 

@@ -42,10 +42,11 @@ def average_of_places(
 ) -> PlaceAverage:
     """Average a positive quantity over a few places, chosen at random, of many.
 
-    Such quantities scatter by factors, so logarithms are averaged, and what holds of a resistance
-    holds of its conductance. The half width of the interval combines two parts as independent:
-    Student's t times the standard error of the logarithms; and, at either end, the median distance
-    of the values' own ends, which may be a bias that all places share and does not average out.
+    Such quantities scatter by factors, so logarithms are averaged. A resistance and its conductance
+    therefore give the same result. The half width of the interval combines two parts as if they
+    were independent: Student's t times the standard error of the logarithms; and, at either end,
+    the median distance of the values' own ends, which may be a bias that all places share and does
+    not average out.
 
     Parameters
     ----------
@@ -84,7 +85,7 @@ def average_of_places(
 
 
 def _median_distance(distances: Real, known: Mask) -> Real:
-    """Median over the places that have a value; one without ends has no distance."""
+    """Median over the places that have a value; a place without ends counts as distance zero."""
     distances = np.where(np.isnan(distances), 0.0, distances)
     none = ~known.any(axis=0)
     return np.nanmedian(np.where(known | none, distances, np.nan), axis=0)

@@ -1,4 +1,4 @@
-"""Force and stiffness of an ensemble where the rigid plane is, instead of at fixed force."""
+"""Force and stiffness of an ensemble at fixed places of the rigid plane, not at fixed force."""
 
 from __future__ import annotations
 

@@ -33,5 +33,6 @@ def bush_gibson_thomas(roughness: SurfaceOrSpectrum, E_star: float, pressure: Re
         KAPPA * pressure / (E_star * slope),
         None,
         None,
-        "the limit of light loads, summits apart; area high beyond about 1e-4",
+        "the limit of light loads, summits that do not interact; area too large beyond a "
+        "fraction of about 1e-4",
     )

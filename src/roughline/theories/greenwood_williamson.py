@@ -53,7 +53,7 @@ def greenwood_williamson(
         math.pi * density * radius * deviation * _moment_above(1.0, separation),
         2 * scale * math.sqrt(deviation) * _moment_above(0.5, separation),
         of_surface.summit_mean + deviation * separation,
-        "light loads; spheres of one radius that do not feel each other; poor for wide spectra, "
+        "light loads; spheres of one radius that do not interact; poor for wide spectra, "
         f"here Nayak's parameter is {of_surface.nayak:.3g}",
     )
 

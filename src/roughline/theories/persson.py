@@ -58,8 +58,8 @@ def persson(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> Theo
         special.erf(pressure / (E_star * ends[-1])),
         stiffness,
         gap,
-        "all loads, Gaussian random surfaces; area 20-30 % low at light loads; stiffness, in the "
-        "mean over surfaces, within 20 % from 4 to 60 % contact if the roll-off is at 2 q_0 or "
+        "all loads, Gaussian random surfaces; area 20-30 % too small at light loads; stiffness, in "
+        "the mean over surfaces, within 20 % from 4 to 60 % contact if the roll-off is at 2 q_0 or "
         "more; without one 10 % less to 26 % more is found, and a single surface is 0.75 to 1.5 "
         "times as stiff",
     )

@@ -64,7 +64,7 @@ def theory(
     if isinstance(roughness, SelfAffine) and (difference := roughness.difference_from_surfaces()):
         validity = (
             f"{curve.validity}; of the continuum, with {difference} of the surfaces that this "
-            "spectrum generates: take spectrum.lattice(n) for these"
+            "spectrum generates: take spectrum.lattice(n) for those"
         )
         return replace(curve, validity=validity)
     return curve

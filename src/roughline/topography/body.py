@@ -42,16 +42,16 @@ class Surface:
     ----------
     heights : array_like, shape (nx, ny)
         Heights, pointing towards the other body; the array is not copied. [length] Or a topography
-        of SurfaceTopography, which brings its sizes along; one that states its unit is converted
-        to metres, as by :func:`roughline.read`.
+        of SurfaceTopography, which has its own sizes; one that states its unit is converted to
+        metres, as by :func:`roughline.read`.
     sizes : tuple of float
         Sides of the rectangle, (Lx, Ly); a cell is Lx / nx by Ly / ny. [length]
     unit : str, optional
         Unit of all lengths, where it is known; :func:`roughline.read` gives "m".
     settings : mapping, optional
-        Where the heights come from; travels with every result.
+        Where the heights come from; stored with every result.
     is_cut_out : bool, optional
-        Whether a larger surface goes on beyond the border, as it does of measured and cropped ones.
+        Whether the surface is a piece of a larger one, as measured and cropped surfaces are.
         Default: as the settings record.
     removed_trend : {"none", "mean", "tilt", "curvature"}, optional
         Trend that was removed from the heights. Default: as the settings record.
@@ -59,8 +59,8 @@ class Surface:
     Raises
     ------
     InputError
-        For heights that are not real, finite numbers or a single one, and for sizes that are not
-        positive.
+        For heights that are not real, finite numbers, for a single height, and for sizes that are
+        not positive.
     """
 
     heights: Real
@@ -141,12 +141,12 @@ class Surface:
         Parameters
         ----------
         x, y : tuple of int
-            First point along each side, and the one after the last.
+            Index of the first point along each side, and one more than that of the last.
 
         Raises
         ------
         InputError
-            If they are not within the grid, in rising order.
+            If they are not within the grid, or not in rising order.
         """
         for name, (first, end), n in (("x", x, self.shape[0]), ("y", y, self.shape[1])):
             if not 0 <= first < end <= n:
@@ -198,7 +198,7 @@ class Line:
     unit : str, optional
         Unit of all lengths, where it is known.
     settings : mapping, optional
-        Where the heights come from; travels with every result.
+        Where the heights come from; stored with every result.
     kind : {"reduced", "profile"}, optional
         Whether this is the line of the reduction method (the paper's eq. 7), or a straight cut
         through a surface such as a stylus measures. A cut is not the reduced line of its surface
@@ -209,8 +209,8 @@ class Line:
     Raises
     ------
     InputError
-        For heights that are not real, finite numbers or fewer than 2, and for a length that is
-        not positive.
+        For heights that are not real, finite numbers, for fewer than 2 of them, and for a length
+        that is not positive.
     """
 
     heights: Real

@@ -23,7 +23,7 @@ def checked_heights(heights: Any, dimensions: int) -> Real:
     heights : array_like
         Heights of a Line or a Surface. [length]
     dimensions : {1, 2}
-        How many the array is to have.
+        Number of dimensions that the array must have.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Heights that an instrument could not measure: counted, bounded and filled."""
+"""Heights that an instrument could not measure: counted, refused if too many, and filled."""
 
 from __future__ import annotations
 

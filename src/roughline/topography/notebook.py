@@ -1,4 +1,4 @@
-"""How bodies show themselves: in a line at a prompt, with a picture in a notebook."""
+"""How bodies are displayed: as a line of text at a prompt, with a picture in a notebook."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _MOST_PIXELS = 200  # of a surface in a thumbnail, along a side
 
 
 def in_words(value: float, unit: str | None) -> str:
-    """Write a value with its unit; SI units get a prefix, and no unit is written as none."""
+    """Write a value with its unit; SI units get a prefix, None gives the number alone."""
     if unit in SI:
         return engineering(value, unit, _DIGITS)
     return f"{decimal(value, _DIGITS)} {unit or ''}".strip()

@@ -16,7 +16,7 @@ from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Mask, Real
 
-_TILT_MATTERS = 0.05  # share of the rms height; a larger one is warned of
+_TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
 _SPIKE = 5.0  # times the scatter of neighbours
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
 _ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
@@ -31,16 +31,16 @@ class Preparation:
     crop : tuple of float, optional
         (x0, x1, y0, y1) of a surface, (x0, x1) of a line; whole points are kept. [length]
     remove_outliers : bool, optional
-        Whether spikes are taken out and filled like missing points. They are counted always.
+        Whether spikes are removed and filled like missing points. They are always counted.
     trend : {"tilt", "curvature", "mean", "none"}, optional
         Least-squares polynomial that is removed. Default: the one that was removed from the body
-        before, by :func:`roughline.read` say, is removed again after a crop, and after spikes were
-        taken out; nothing is removed from other bodies.
+        before, for example by :func:`roughline.read`, is removed again after a crop or after
+        spikes were removed; otherwise nothing is removed.
     low_pass : float, optional
         Cutoff wavelength of a Gaussian filter after ISO 16610-61 (half of the amplitude of a wave
         of that length passes). [length]
     points : int or tuple of int, optional
-        Points to resample to: (nx, ny), one number for the longer side of a surface, or a line's.
+        Points to resample to: (nx, ny), or one number for the longer side of a surface or a line.
 
     Raises
     ------
@@ -125,7 +125,7 @@ def tilt_warnings(surface: Surface) -> tuple[str, ...]:
 
 
 def outliers(body: Body) -> Mask:
-    """Mark spikes: points that stick far out of their neighbours.
+    """Mark spikes: points that stick out far from their neighbours.
 
     A point is marked if its distance from the median of its neighbours is more than five times the
     scatter of neighbours, which is a median over the whole body. Neighbours are 5 x 5 points of a

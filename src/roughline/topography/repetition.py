@@ -1,4 +1,4 @@
-"""What repeating a surface periodically makes of its borders."""
+"""Steps at the borders of a surface that is repeated periodically."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BorderJump:
-    """Steps of a repeated surface across its borders, beside those within.
+    """Steps of a repeated surface across its borders, compared with those within.
 
     Attributes
     ----------

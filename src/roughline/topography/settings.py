@@ -1,7 +1,7 @@
 """Settings of a body: the record of where its heights come from and of what was done to them.
 
-The record travels with every result. Typed fields of the body decide how it is treated; they
-follow from the record where they are not given.
+The record is stored with every result. Typed fields of the body decide how it is treated; where
+they are not given, they follow from the record.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ PIECE = "topography"
 """Origin of a topography of SurfaceTopography that is not periodic, so a piece of a larger one."""
 
 PERIODIC = "periodic topography"
-"""Origin of one that is periodic."""
+"""Origin of a topography of SurfaceTopography that is periodic."""
 
 
 def checked_cut_out(given: object, settings: Settings) -> bool:

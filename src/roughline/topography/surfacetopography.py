@@ -28,12 +28,12 @@ def fields_of_topography(
     Raises
     ------
     InputError
-        If it is a line scan, or its sizes or unit are given once more.
+        If it is a line scan, or its sizes or unit are given a second time.
     UnitError
         If its unit is none of length.
     """
     if topography.dim != 2:
-        raise InputError("the topography is a line scan; a Surface takes a map: give a Line")
+        raise InputError("the topography is a line scan; a Surface needs a map: make a Line of it")
     if has_sizes:
         raise InputError("the topography has its own sizes; leave sizes out")
     if topography.unit and unit:

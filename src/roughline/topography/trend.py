@@ -83,12 +83,12 @@ def tilt_share(heights: Real, rms_height: float) -> float:
 
 
 def refuse_unknown_trend(trend: str) -> None:
-    """Refuse a name that no trend has.
+    """Refuse an unknown name of a trend.
 
     Raises
     ------
     InputError
-        With the names that there are.
+        If no trend has this name; the message lists the known names.
     """
     if trend not in DEGREES:
         raise InputError(f"trend is {trend!r}; one of {', '.join(DEGREES)} is needed")

@@ -43,7 +43,9 @@ def facing(first: Surface, second: Surface) -> Surface:
         for a, b, spacing in zip(first.sizes, second.sizes, first.spacing, strict=True)
     )
     if min(shape) < 2:
-        raise InputError(f"the surfaces have {shape[0]} x {shape[1]} points in common: too few")
+        raise InputError(
+            f"the surfaces have {shape[0]} x {shape[1]} points in common; at least 2 x 2 are needed"
+        )
     sizes = (first.spacing[0] * shape[0], first.spacing[1] * shape[1])
     same_grid = np.allclose(first.spacing, second.spacing, rtol=1e-9)
     other = (

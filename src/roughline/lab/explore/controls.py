@@ -24,8 +24,8 @@ ROLL_OFF = Control(
     1.0,
     1.0,
     "logarithmic",
-    "Longer waves than this are no higher: the spectrum is flat there. In sides of the surface, or "
-    "with a unit, such as 0.2 mm; at 1 there is no plateau.",
+    "The spectrum is flat for waves longer than this. Relative to the side of the surface, or with "
+    "a unit, such as 0.2 mm; at 1 there is no plateau.",
     0.02,
 )
 CUTOFF = Control(
@@ -36,8 +36,8 @@ CUTOFF = Control(
     0.5,
     1 / 512,
     "logarithmic",
-    "The shortest wave. In sides of the surface, or with a unit; a grid carries no waves shorter "
-    "than two of its points.",
+    "Length of the shortest wave. Relative to the side of the surface, or with a unit; a grid "
+    "carries no waves shorter than two of its spacings.",
     0.02,
 )
 HEIGHT = Control(
@@ -48,7 +48,7 @@ HEIGHT = Control(
     0.1,
     1e-3,
     "logarithmic",
-    "Root-mean-square height. In sides of the surface, or with a unit, such as 0.3 um.",
+    "Root-mean-square height. Relative to the side of the surface, or with a unit: 0.3 um.",
     0.02,
 )
 SLOPE = Control(
@@ -59,8 +59,8 @@ SLOPE = Control(
     1.0,
     0.1,
     "logarithmic",
-    "Root-mean-square slope of the surface on its grid, without unit; the theory is made for small "
-    "ones.",
+    "Root-mean-square slope of the surface on its grid, without unit; the theory assumes small "
+    "slopes.",
     0.02,
 )
 SEED = Control(
@@ -71,8 +71,8 @@ SEED = Control(
     999_999,
     7,
     "whole",
-    "Which of all such surfaces: the same seed gives the same surface, on a finer grid with more "
-    "detail.",
+    "Selects one of all random surfaces: the same seed gives the same surface, with more detail on "
+    "a finer grid.",
     1,
 )
 FORCE = Control(
@@ -95,20 +95,20 @@ HARDNESS = Control(
     5.0,
     0.5,
     "logarithmic",
-    "The most that a point bears, over E* and the rms slope on the grid, or with a unit, such as "
-    "2 GPa. What goes beyond it indents the surface for good.",
+    "Largest pressure that a point bears, over E* times the rms slope on the grid, or with a unit, "
+    "such as 2 GPa. Where it is reached, the surface is permanently indented.",
     0.02,
 )
 YIELDS = (
-    "Where the pressure reaches the hardness, points bear no more and are indented for good; "
-    "without it both bodies are elastic."
+    "Points at which the pressure reaches the hardness bear no more and are permanently indented; "
+    "without a hardness both bodies are elastic."
 )
 POINTS = Choice(
     "n",
     "points along a side",
     {str(n): str(n) for n in (64, 128, 256, 512, 1024)},
     "512",
-    "Points along a side of the grid: more points, finer waves and a longer wait.",
+    "Points along a side of the grid: more points give finer waves and take longer.",
 )
 ROUGHNESS = Choice(
     "rms",
@@ -122,15 +122,15 @@ BOUNDARY = Choice(
     "around the surface",
     {"free": "free", "periodic": "periodic"},
     "free",
-    "Free: the half-space goes on, unloaded, around the surface. Periodic: the surface is repeated "
-    "without end; the stiffness is then that of the interface alone.",
+    "Free: the half-space continues, unloaded, around the surface. Periodic: the surface is "
+    "repeated without end; the stiffness is then that of the interface alone.",
 )
 SHOWN = Choice(
     "shown",
     "contact as",
     {"area": "area", "pressure": "pressure", "gap": "gap", "displacement": "displacement"},
     "area",
-    "What the second map shows.",
+    "Quantity that the second map shows.",
 )
 THEORIES = Choice(
     "theories",
@@ -140,5 +140,5 @@ THEORIES = Choice(
         "bush-gibson-thomas": "Bush, Gibson, Thomas",
         "greenwood-williamson": "Greenwood, Williamson",
     },
-    meaning="Theories of the same waves, drawn beside the curves; they hold for periodic surfaces.",
+    meaning="Theories for the same waves, drawn with the curves; they hold for periodic surfaces.",
 )

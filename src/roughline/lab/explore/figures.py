@@ -51,7 +51,7 @@ def _area() -> figure:
 
 
 def _spectrum() -> figure:
-    plot = log_figure("waves in the side, q L / 2π", "C_2d [m⁴]", (0.8, 300), (1e-20, 1e-10))
+    plot = log_figure("waves along the side, q L / 2π", "C_2d [m⁴]", (0.8, 300), (1e-20, 1e-10))
     source = ColumnDataSource({"x": [], "y": [], "law": []}, name="spectrum")
     marks = plot.scatter("x", "y", source=source, size=4)
     marks.glyph.tags = themed(fill_color="mark", line_color="mark")

@@ -23,7 +23,7 @@ Item = dict[str, str]
 
 
 def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
-    """What the reduced model says at the load."""
+    """What the reduced model gives at the load."""
     without_yield = "" if state.hardness_bar is None else " Its springs do not yield."
     return [
         _item(
@@ -37,7 +37,7 @@ def line_words(state: ExploreState, stiffness: float, lines: int) -> list[Item]:
 
 
 def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surface) -> list[Item]:
-    """What the full model says at the load."""
+    """What the full model gives at the load."""
     if not pressed.converged[0] or fields is None:
         reason = rl.Status(pressed.status[0]).reason
         return [_item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
@@ -59,7 +59,7 @@ def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> Item:
         "k̄ (3D)",
         decimal(float(pressed.stiffness_bar[0]), _DIGITS) + (" *" if unsure else ""),
         "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
-        "square punch. The interval is what finer grids may change."
+        "square punch. The interval shows how far finer grids may change it."
         + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
         with_interval(float(pressed.stiffness[0]), ends, "N/m"),
     )
@@ -74,7 +74,7 @@ def _area(pressed: rl.Curve, intervals: Intervals | None) -> Item:
         "contact",
         f"{decimal(100 * area, _DIGITS)}%",
         "Real contact area over the nominal one, corrected for the steps of its outline. The "
-        "interval is what finer grids, with finer roughness, may change.",
+        "interval shows how much finer grids, with finer roughness, may change it.",
         *value_and_interval(written)[1:],
     )
 
@@ -126,21 +126,21 @@ def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surfac
             "k̄_u (3D)",
             decimal(float(unloading_bar(pressed)[0]), _DIGITS),
             "Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs back, while on "
-            "loading the spots at the hardness bear no more. Ultrasound and currents feel it.",
+            "loading the spots at the hardness bear no more. Ultrasound and currents depend on it.",
             with_interval(float(pressed.unloading_stiffness[0]), ends, "N/m"),
         ),
         _item(
             "plastic",
             "plastic",
             f"{decimal(100 * float(pressed.plastic_fraction[0]), _DIGITS)}%",
-            "Share of the contact that is at the hardness, which stands below it.",
+            "Share of the contact that is at the hardness; the hardness is given below.",
             f"H {engineering(pressed.hardness, 'Pa', _DIGITS)}",
         ),
         _item(
             "indentation",
             "indentation",
             f"{decimal(indentation / surface.rms_height, _DIGITS)} h",
-            "Largest indentation that stays when the load is taken off.",
+            "Largest permanent indentation, which remains after unloading.",
             engineering(indentation, "m", _DIGITS),
         ),
     ]
@@ -157,7 +157,7 @@ def _roughness(surface: rl.Surface) -> Item:
         "roughness",
         "h",
         engineering(surface.rms_height, "m", _DIGITS),
-        "Rms height; the rms slope on this grid stands below it.",
+        "Rms height; the rms slope on this grid is given below.",
         f"slope {decimal(surface.rms_slope, _DIGITS)}",
     )
 

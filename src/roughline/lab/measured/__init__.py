@@ -1,1 +1,1 @@
-"""My surface: a file of an instrument, prepared, pressed and answered for."""
+"""My surface: a file of an instrument, prepared and pressed, and the answers that follow."""

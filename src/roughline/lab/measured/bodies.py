@@ -81,7 +81,7 @@ def _flat(sides: Any) -> Body | None:
         or len(sides) not in (1, 2)
         or not all(isinstance(side, float | int) and 0 < side < math.inf for side in sides)
     ):
-        raise ControlError("this question is none of the lab's: reload the page")
+        raise ControlError("this question is not one of the lab: reload the page")
     if len(sides) == 1:
         return Line(np.zeros(2), sides[0], "m", kind="profile")
     return Surface(np.zeros((2, 2)), (sides[0], sides[1]), "m")

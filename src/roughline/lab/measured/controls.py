@@ -32,20 +32,20 @@ TREND = Choice(
         "none": "none",
     },
     "default",
-    "What is removed from the heights by least squares. As it stands, the tilt of the stage goes "
-    "out of what an instrument measured; our own files are kept.",
+    "What is removed from the heights by least squares. By default, the tilt of the stage is "
+    "removed from files of an instrument; our own files stay as they are.",
 )
 OUTLIERS = Choice(
     "outliers",
     "spikes",
     {"keep": "keep", "remove": "remove and fill"},
     "keep",
-    "Points that stick out of their neighbours by more than five times their scatter: dust, or "
-    "errors of the instrument. The highest point decides where touch is.",
+    "Points that differ from their neighbours by more than five times the scatter: dust, or errors "
+    "of the instrument. The highest point determines where first touch is.",
 )
 BODIES = Choice(
     "bodies",
-    "bodies by",
+    "bodies given by",
     {"materials": "two materials", "modulus": "contact modulus"},
     "materials",
     "Two materials give all answers; a contact modulus E* alone gives the curve.",
@@ -55,16 +55,16 @@ ELASTIC = Choice(
     "yield",
     {"no": "where a hardness is known", "yes": "elastic"},
     "no",
-    "Points of the contact bear the hardness of the softer body at most, and what goes beyond it "
-    "indents the surface for good. Or both bodies are elastic, however high the pressures.",
+    "Points of the contact bear at most the hardness of the softer body; where it is reached, the "
+    "surface is permanently indented. Or both bodies are elastic, however high the pressures.",
 )
 BOUNDARY = Choice(
     "boundary",
     "half-space",
     {"free": "free", "periodic": "periodic"},
     "free",
-    "Free: the half-space goes on, unloaded, around the surface. Periodic: the surface is repeated "
-    "without end.",
+    "Free: the half-space continues, unloaded, around the surface. Periodic: the surface is "
+    "repeated without end.",
 )
 GRID = Choice(
     "grid_error",

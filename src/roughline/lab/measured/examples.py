@@ -1,4 +1,4 @@
-"""Three measurements made by ourselves, written as an instrument would have."""
+"""Three artificial measurements, written as an instrument would write them."""
 
 from __future__ import annotations
 

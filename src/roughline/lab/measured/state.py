@@ -64,7 +64,7 @@ def said_of(arguments: Arguments) -> Said:
     """
     said = arguments.get("state")
     if not isinstance(said, Mapping) or not all(isinstance(each, str) for each in said.values()):
-        raise ControlError("this question is none of the lab's: reload the page")
+        raise ControlError("this question is not one of the lab: reload the page")
     if said.get("v", VERSION) != VERSION:
         raise ControlError(
             f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '

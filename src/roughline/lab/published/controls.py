@@ -42,7 +42,7 @@ PUNCH = Choice(
     {"paper": "1.1419 E* L", "exact": "1.1523 E* L", "raw": "E* L"},
     "paper",
     "What k is divided by in Figure 4: the square punch as the paper takes it, the exact square "
-    "punch, or the raw E* L. It moves ζ, and leaves α alone.",
+    "punch, or the raw E* L. It changes ζ, but not α.",
 )
 TOLERANCE = Control(
     "tolerance",
@@ -60,8 +60,8 @@ ROLL_OFF = Choice(
     "q_r/q_0",
     {text: text for text in ("1", "2", "4", "8", "16")},
     "1",
-    "Roll-off ratio: how many of the longest wave there are in the roll-off wavelength. At 1 the "
-    "spectrum has no plateau.",
+    "Roll-off ratio: how many roll-off wavelengths lie along a side. At 1 the spectrum has no "
+    "plateau.",
 )
 MAP_DIMENSION = Control(
     "map_D_f",

@@ -49,7 +49,7 @@ def _stiffness(model: str) -> figure:
     plot.patches("xs", "ys", source=bands, fill_color="colour", fill_alpha=0.25, line_color=None)
     _draw_curves(plot, name)
     fits = ColumnDataSource({"xs": [], "ys": []}, name=f"{name} fits")
-    law = plot.multi_line("xs", "ys", source=fits, line_width=1.5, line_dash=[6, 3])
+    law = plot.multi_line("xs", "ys", source=fits, line_width=1.5, line_dash="dashed")
     law.glyph.tags = [{"colours": {"line_color": "text"}}]
     _name_dimensions(plot)
     return plot

@@ -1,4 +1,4 @@
-"""The trust map: where the reduced model may be trusted, and what a point of it says."""
+"""The trust map: where the reduced model may be trusted, and the numbers at a point of it."""
 
 from __future__ import annotations
 

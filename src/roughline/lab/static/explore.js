@@ -93,7 +93,7 @@ class Explore {
   #cancel(works) {
     this.#stop(works);
     this.#stopped = this.#turn;
-    const left = {full: "the coarse answer is shown", curve: "the marks of the curves are of the surface before",
+    const left = {full: "the coarse answer is shown", curve: "the marks of the curves belong to the previous surface",
       back: "the way back is not shown", download: "nothing was saved"};
     this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
   }
@@ -186,7 +186,7 @@ class Explore {
     this.#plots.span("explore-spectrum", "x", waves);
     this.#plots.span("explore-spectrum", "y", C_2d);
     this.#plots.set("spectrum", {x: waves, y: C_2d, law: law.map((value) => value ?? NaN)});
-    fillTable("explore-spectrum", ["waves in the side", "C_2d [m⁴]", "law [m⁴]"], spectrum_table);
+    fillTable("explore-spectrum", ["waves along the side", "C_2d [m⁴]", "law [m⁴]"], spectrum_table);
   }
 
   #drawField(header) {

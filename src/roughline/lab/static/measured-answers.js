@@ -37,7 +37,7 @@ export class Answers {
     for (const button of this.#view.findAll("[data-code]")) button.disabled = !body;
     this.#view.find("[data-compare]").disabled = !isSurface;
     this.#view.find("[data-compare-note]").textContent = !body || isSurface
-      ? "Where the reduced model may be trusted on this surface, as its file has it; the preparation of step 2 is left out."
+      ? "Where the reduced model may be trusted on the surface as it is in the file, without the preparation of step 2."
       : "The models are compared on a surface: a line scan shows one direction, and the full model needs both.";
     this.changed();
   }

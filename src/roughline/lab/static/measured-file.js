@@ -31,7 +31,7 @@ export class Source {
       over(false);
       const {files} = event.dataTransfer;
       if (files.length) this.#bring([...files], false);
-      else view.refuse("This is no file: drop one, or choose it.", "file");
+      else view.refuse("This is not a file: drop a file, or choose one.", "file");
     });
   }
 
@@ -85,7 +85,7 @@ export class Source {
       });
       request.addEventListener("abort", () => done({refusal: ""}));
       request.addEventListener("error", () => done({
-        refusal: `${file.name} did not arrive: it may be larger than this lab takes, it cannot be read, or the connection was lost.`,
+        refusal: `${file.name} did not arrive: it may be larger than this lab accepts, it cannot be read, or the connection was lost.`,
       }));
       request.send(file);
     });

@@ -125,7 +125,7 @@ export function markKeys(place, yields) {
     patch.className = `patch ${name}`;
     return [patch, text];
   };
-  place.replaceChildren(...key("ink", "in contact"), ...(yields ? key("plastic", "of it at the hardness: indented for good") : []));
+  place.replaceChildren(...key("ink", "in contact"), ...(yields ? key("plastic", "of this at the hardness: permanently indented") : []));
 }
 
 // Put rows below a plot.

@@ -7,7 +7,7 @@ export class Waiting {
   // cancelled(works) is told the names of what was going on.
   constructor(root, cancelled) {
     this.#bar = root.querySelector("progress");
-    this.#bar.setAttribute("aria-label", "how far it is");
+    this.#bar.setAttribute("aria-label", "progress");
     this.#cancel = root.querySelector(".cancel");
     this.#text = root.querySelector("[data-left]");
     this.#cancel.addEventListener("click", () => {
