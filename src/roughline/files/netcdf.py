@@ -88,7 +88,7 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
             )
             heights = file["heights"][:]
             attrs = dict(file.attrs)
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, AttributeError):  # the last of h5netcdf before 1.7
         return None
     settings = {
         name.removeprefix("body_"): getattr(value, "item", lambda value=value: value)()
