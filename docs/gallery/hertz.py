@@ -28,5 +28,5 @@ left.legend()
 
 right.semilogx(depths, curve.stiffness / (2 * np.sqrt(R * depths)) - 1, "o-")
 right.semilogx(depths, curve.force / (4 / 3 * np.sqrt(R) * depths**1.5) - 1, "s-")
-right.set(xlabel="depth $d / R$", ylabel="over Hertz, less 1")
+right.set(xlabel="depth $d / R$", ylabel="full model / Hertz - 1")
 right.legend(["stiffness", "force"])

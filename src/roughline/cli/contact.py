@@ -115,7 +115,8 @@ def press_command(
         bool,
         typer.Option(
             "--periodic",
-            help="Repeat the surface periodically: results per nominal area.",
+            help="Repeat the surface periodically: it has no borders, and the stiffness is that of "
+            "the interface.",
             rich_help_panel=BODIES,
         ),
     ] = False,

@@ -132,7 +132,7 @@ class UnilateralContact:
 
 @dataclass(frozen=True)
 class YieldingContact:
-    """Elastic, perfectly plastic bodies: 0 <= p <= H, where p = H dents the surface for good [1]_.
+    """Elastic, perfectly plastic bodies: 0 <= p <= H, with permanent dents where p = H [1]_.
 
     Where p = 0 the gap is not negative, and where 0 < p < H it is zero. Where p = H the bodies
     overlap by what the load indents, and the surface is lower by that ever after. A node is at the

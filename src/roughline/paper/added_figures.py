@@ -121,7 +121,7 @@ def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
     right.axhline(0, color="k", linewidth=0.7)
     right.axhline(scaling.EXACT_PUNCH - 1, color="0.4", linewidth=0.8, linestyle=":")
     right.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
-    right.set(xscale="log", xlabel=FORCE_LABEL, ylabel="raw stiffness, 3D over 1D, less 1")
+    right.set(xscale="log", xlabel=FORCE_LABEL, ylabel="raw stiffness, $k_{3D} / k_{1D} - 1$")
     return figure
 
 

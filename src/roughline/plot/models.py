@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from roughline.comparison.trust import TrustMap
     from roughline.computing.arrays import Real
 
+_DIFFERENCE = "$k_{3D} / k_{1D} - 1$"
+
 TRUST_LEVELS = (-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4)
 """Differences at which the colour of the trust map changes."""
 
@@ -83,7 +85,7 @@ def difference(compared: Comparison, tolerance: float = 0.1, axes: Axes | None =
             marks: Any = {"marker": "o", "linestyle": "", "fillstyle": fill}
             drawn.semilogx(force[sure], compared.difference[sure], color=colour, **marks)
         drawn.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
-        drawn.set(xlabel=FORCE_LABEL, ylabel="3D over 1D, less 1")
+        drawn.set(xlabel=FORCE_LABEL, ylabel=_DIFFERENCE)
     return drawn
 
 
@@ -140,7 +142,7 @@ def draw_trust(axes: Axes, trust: TrustMap, roll_off: int) -> Any:
 def add_bar(axes: Any, shown: Any) -> None:
     """Add the bar of a trust map's colours beside axes."""
     figure = np.ravel(axes)[0].figure
-    bar = figure.colorbar(shown, ax=axes, label="3D over 1D, less 1", ticks=np.array(TRUST_LEVELS))
+    bar = figure.colorbar(shown, ax=axes, label=_DIFFERENCE, ticks=np.array(TRUST_LEVELS))
     bar.ax.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
 
 

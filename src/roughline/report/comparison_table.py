@@ -14,7 +14,7 @@ def comparison_table(compared: ModelComparison) -> tuple[list[str], list[list[st
     """Return header and rows; a star marks loads that the grid decides."""
     result = compared.comparison
     within = f"within {compared.tolerance:.0%}"
-    header = ["F / (E* h L)", "k 1D", "k 3D", "3D over 1D, less 1", within]
+    header = ["F / (E* h L)", "k 1D", "k 3D", "k 3D / k 1D - 1", within]
     shows_map = any(entry is not None for entry in compared.from_map)
     rows = []
     for i, difference in enumerate(result.differences()):
