@@ -40,8 +40,7 @@ peers: $(VENV)/installed
 	PYTHONPATH=src $(PEERS_PYTHON) benchmarks/peers.py
 
 memory: $(VENV)/installed
-	$(BIN)/python benchmarks/memory.py 4096
-	$(BIN)/python benchmarks/memory.py 8192
+	$(BIN)/python benchmarks/memory.py
 
 grid-error: $(VENV)/installed
 	$(BIN)/python benchmarks/grid_error.py

@@ -60,9 +60,9 @@ def compose(results: PaperResults, out: Path) -> tuple[str, str, list[Section]]:
     title = "The paper, recomputed: reduction method and 3D boundary elements"
     lead = (
         f"Normal contact of fractal rough surfaces in two models, recomputed with roughline "
-        f"{__version__} {results.name}. The paper is R. Pohrt and V. L. Popov, Investigation of the "
-        "dry normal contact between fractal rough surfaces using the reduction method, comparison "
-        "to 3D simulations, Physical Mesomechanics 15 (2012)."
+        f"{__version__} {results.name}. The paper is R. Pohrt and V. L. Popov, Investigation of "
+        "the dry normal contact between fractal rough surfaces using the reduction method, "
+        "comparison to 3D simulations, Physical Mesomechanics 15 (2012)."
     )
     sections = [
         claims_section(claims),
