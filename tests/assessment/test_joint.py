@@ -55,6 +55,8 @@ def test_forces_act_on_the_joint_and_pressures_are_the_same_everywhere(part):
         for load in ("1 kN", "5 MPa")
     )
     assert by_force.curve.force == pytest.approx(1e3 * piece.area / 2e-4, rel=1e-12)
+    told = by_force.curve.to_dataset().attrs  # a file of the map's curve names the joint
+    assert told["joint_area"] / told["length"] ** 2 * by_force.curve.force == pytest.approx([1e3])
     for key, answer in by_force.answers.items():
         other = by_pressure.answers[key]
         assert answer.rows == pytest.approx(other.rows, rel=1e-6), key

@@ -92,7 +92,7 @@ def assess_body(
         question,
         parts,
         body,
-        solution.curve,
+        _told_its_joint(solution.curve, question.joint),
         asked_loads(case, solution.curve.status.size),
         solution.intervals,
         solution.interrupted,
@@ -108,6 +108,15 @@ def assess_body(
     result = replace(result, partial_slip=slip, interrupted=result.interrupted or interrupted)
     warnings = warnings_of(result, spectrum, case.grid_error)
     return replace(result, warnings=warnings, notes=notes_of(result, solution.note))
+
+
+def _told_its_joint(curve: Curve, joint: float | None) -> Curve:
+    """Record the joint that the map of a curve is a part of; forces of the curve are the map's."""
+    if joint is None:
+        return curve
+    return replace(
+        curve, settings={**curve.settings, "joint_area": joint, "joint_area_units": "m^2"}
+    )
 
 
 def _needs_larger_surface(question: Question, body: Body) -> bool:
