@@ -26,7 +26,7 @@ FREE = ((0.03,), (3.0,), SEVERAL, (10.0,), (30.0,), (100.0,))
 PERIODIC = (*FREE[:-1], (60.0,))
 ELASTIC = (
     *((n, "free", forces) for n in (1024, 2048) for forces in FREE),
-    *((n, "periodic", forces) for n in (1024, 2048) for forces in PERIODIC),
+    *((1024, "periodic", forces) for forces in PERIODIC),
     *((4096, "free", (force,)) for force in (0.03, 0.3, 3.0, 30.0)),
     *((4096, "periodic", (force,)) for force in (0.03, 3.0)),
     *((8192, "free", (force,)) for force in (0.3, 3.0)),
