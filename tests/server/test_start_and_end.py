@@ -86,7 +86,7 @@ def test_what_a_killed_server_leaves_is_removed_by_the_next(tmp_path):
         (("--host", "192.0.2.1", "--password-file", "password"), "cannot listen on 192.0.2.1"),
         (
             ("--host", "no.such.invalid", "--password-file", "password"),
-            "no address of this machine",
+            "not an address of this machine",
         ),
         (("--password-file", "missing"), "cannot read the password"),
         (("--password-file", "empty"), "no password in its first line"),
