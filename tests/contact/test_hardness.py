@@ -129,7 +129,9 @@ def test_under_a_load_that_fails_smaller_ones_are_not_known_and_larger_ones_are(
     whole = rl.press(surface, **settings)
     assert curve.stiffness[3] == pytest.approx(whole.stiffness[3], rel=1e-6)
     assert curve.indentation[3] == pytest.approx(whole.indentation[3], rel=1e-5)
-    with pytest.raises(rl.ConvergenceError, match="the surface as a larger load before them left it") as caught:
+    with pytest.raises(
+        rl.ConvergenceError, match="the surface as a larger load before them left it"
+    ) as caught:
         rl.press(surface, max_iterations=most, **settings)
     assert "\n" not in str(caught.value)
     with pytest.raises(rl.InputError, match="load 1 was not solved .* is not known"):
