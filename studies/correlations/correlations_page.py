@@ -73,7 +73,8 @@ def _lead() -> str:
         f"conduct {_spread(elastic)} of what Mikic's correlation says, and fully plastic ones "
         f"{_spread(plastic)} of what CMY's says, where the roll-off waves are {_main_band()} "
         f"times as long as the shortest. From {min(BANDS)} to {max(BANDS)} times, the ratio to "
-        f"CMY's changes by {band.value:+.0%}. To our knowledge they had not been tested in this way."
+        f"CMY's changes by {band.value:+.0%}. To our knowledge they had not been tested in this "
+        "way."
     )
 
 
