@@ -92,7 +92,7 @@ def assess_body(
         question,
         parts,
         body,
-        _told_its_joint(solution.curve, question.joint),
+        _with_joint_recorded(solution.curve, question.joint),
         asked_loads(case, solution.curve.status.size),
         solution.intervals,
         solution.interrupted,
@@ -110,7 +110,7 @@ def assess_body(
     return replace(result, warnings=warnings, notes=notes_of(result, solution.note))
 
 
-def _told_its_joint(curve: Curve, joint: float | None) -> Curve:
+def _with_joint_recorded(curve: Curve, joint: float | None) -> Curve:
     """Record the joint that the map of a curve is a part of; forces of the curve are the map's."""
     if joint is None:
         return curve
