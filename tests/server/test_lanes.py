@@ -5,6 +5,7 @@ import os
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import psutil
 import pytest
@@ -308,6 +309,37 @@ def test_the_loss_of_the_process_that_forks_is_survived(lasting):
         await becomes(lambda: not any(psutil.pid_exists(pid) for pid in before))
 
     run(scenario, lasting=lasting)
+
+
+def test_an_answer_is_read_to_its_end_while_another_thread_ends_the_process():
+    class Slow:
+        """A connection from which an answer is read slowly."""
+
+        def __init__(self, connection):
+            self.connection, self.was_closed = connection, None
+
+        def __getattr__(self, name):
+            return getattr(self.connection, name)
+
+        def recv(self):
+            said = self.connection.recv()
+            begun.set()
+            time.sleep(0.5)
+            self.was_closed = self.connection.closed
+            return said
+
+    begun = threading.Event()
+    process = processes.Process(1e9)
+    slow = process._connection = Slow(process._connection)
+    with ThreadPoolExecutor(1) as threads:
+        sleep = doings.place_of("sleep")
+        asked = threads.submit(process.ask, sleep, {"seconds": 20}, lambda *_: None)
+        assert begun.wait(20)
+        process.end()
+        assert asked.result() == processes.LOST
+    assert slow.was_closed is False
+    assert slow.connection.closed
+    assert not process.is_alive
 
 
 def test_no_process_to_be_had_is_one_sentence(monkeypatch, caplog):

@@ -53,7 +53,7 @@ class Process:
 
     def __init__(self, memory: float, *, gives_way: bool = False) -> None:
         self.tasks = 0
-        self._ending = threading.Lock()
+        self._ending, self._reading = threading.Lock(), threading.Lock()
         self._connection, theirs = _CONTEXT.Pipe()
         with without_interrupts():
             self._process = _CONTEXT.Process(
@@ -71,10 +71,14 @@ class Process:
     @property
     def is_alive(self) -> bool:
         """Whether it can be asked; one that waits has nothing to say unless it has just died."""
+        if not self._ending.acquire(blocking=False):  # another thread ends it
+            return False
         try:
             return self._process.is_alive() and not self._connection.poll()
         except (ValueError, OSError):  # it was ended
             return False
+        finally:
+            self._ending.release()
 
     def ask(
         self, place: Place, arguments: Mapping[str, Any], progress: Callable[[int, int], None]
@@ -82,18 +86,19 @@ class Process:
         """Have a task done; waits for it, so it is called from a thread."""
         self.tasks += 1
         outcome = NOT_BEGUN
-        try:
-            self._connection.send((place, arguments))
-            while True:
-                said = self._connection.recv()
-                if isinstance(said, Outcome):
-                    return said
-                if said is None:  # it has the task
-                    outcome = LOST
-                else:
-                    progress(*said)
-        except (EOFError, OSError):  # it was stopped, or died
-            return outcome
+        with self._reading:
+            try:
+                self._connection.send((place, arguments))
+                while True:
+                    said = self._connection.recv()
+                    if isinstance(said, Outcome):
+                        return said
+                    if said is None:  # it has the task
+                        outcome = LOST
+                    else:
+                        progress(*said)
+            except (EOFError, OSError):  # it was stopped, or died
+                return outcome
 
     def lower_priority(self, nice: int) -> None:
         """Let other processes of this machine go first."""
@@ -102,7 +107,7 @@ class Process:
 
     def stop(self) -> None:
         """Stop it at once, whatever it is doing."""
-        with suppress(ValueError):  # it was ended
+        with suppress(ValueError, AttributeError):  # it was ended, or another thread ends it now
             self._process.kill()
 
     def end(self) -> None:
@@ -111,7 +116,8 @@ class Process:
         with self._ending, suppress(ValueError):  # it was ended
             self._process.join()
             self._process.close()  # one that no signal reaches any more ends itself now
-            self._connection.close()
+            with self._reading:  # an answer that is on its way is read to its end
+                self._connection.close()
 
 
 def start_forking(warm: str) -> None:
