@@ -132,7 +132,7 @@ lowest: RESOLUTION := lowest-direct
 newest: RESOLUTION := highest
 lowest newest: $(TOOLS)/installed
 	$(TOOLS)/bin/uv venv --quiet --clear --python $(PYTHON) out/$@
-	VIRTUAL_ENV=out/$@ $(TOOLS)/bin/uv pip install --quiet --resolution $(RESOLUTION) --editable ".[test]"
+	VIRTUAL_ENV=out/$@ $(TOOLS)/bin/uv pip install --quiet --compile-bytecode --resolution $(RESOLUTION) --editable ".[test]"
 	out/$@/bin/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup -o filterwarnings=
 
 # What a release uploads; its wheel is installed into an empty environment, and used.
