@@ -1,0 +1,71 @@
+"""The tutorials' commands run as they stand, and print what the pages show."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+DOCS = Path(__file__).parents[2] / "docs"
+PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
+CONSOLE = re.compile(r"^```console\n(.*?)^```", re.DOTALL | re.MULTILINE)
+NUMBER = re.compile(r"(?<![\w/])\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+
+
+@pytest.fixture
+def type_in(invoke, tmp_path, monkeypatch):
+    """Run a command of a page in a wide terminal; returns all that it says."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "160")
+
+    def run(command):
+        program, *arguments = shlex.split(command)
+        assert program == "roughline"
+        _, out, err = invoke(*arguments)
+        return out + err
+
+    return run
+
+
+def commands_of(page):
+    """Each command of a page with the lines that it prints there."""
+    for block in CONSOLE.findall(page.read_text("utf-8")):
+        for entry in block.replace("\\\n", "").removeprefix("$ ").split("\n$ "):
+            command, *lines = entry.splitlines()
+            yield command, lines
+
+
+def words(line):
+    """A line's words in a row, and its numbers apart."""
+    return " ".join(NUMBER.sub("#", line).split()), [float(each) for each in NUMBER.findall(line)]
+
+
+def shows(said, line):
+    """Whether a line is among those said, with numbers that agree to 2 %."""
+    start, numbers = words(line.partition("...")[0])
+    return any(
+        sentence.startswith(start) and found[: len(numbers)] == pytest.approx(numbers, rel=0.02)
+        for sentence, found in map(words, said.splitlines())
+    )
+
+
+def test_the_command_line(type_in):
+    for command, lines in commands_of(DOCS / "tutorials" / "command_line.md"):
+        if "paper" in command:  # takes minutes; tests/paper has it at a smaller size
+            continue
+        said = type_in(command)
+        for line in lines:
+            assert shows(said, line), f"{line}\nis not in\n{said}"
+
+
+def test_an_engineer_with_a_file(type_in):
+    page = DOCS / "tutorials" / "your_file.md"
+    text = page.read_text("utf-8")
+    for block in PYTHON.findall(text):
+        exec(compile(block, page.name, "exec"), {"__name__": "snippet"})
+    for command, lines in commands_of(page):
+        said = type_in(command)
+        for line in lines:
+            assert shows(said, line), f"{line}\nis not in\n{said}"
+    for name, answer in re.findall(r"^\| (\D+?) \| ([\d.][^|]+?) \|", text, re.MULTILINE):
+        assert shows(said, f"{name} {answer}"), f"{name} {answer}\nis not in\n{said}"
