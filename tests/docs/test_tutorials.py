@@ -1,4 +1,4 @@
-"""The tutorials' commands run as they stand, and print what the pages show."""
+"""Commands of the handbook run as they stand, and print what its pages show."""
 
 import re
 import shlex
@@ -69,3 +69,13 @@ def test_an_engineer_with_a_file(type_in):
             assert shows(said, line), f"{line}\nis not in\n{said}"
     for name, answer in re.findall(r"^\| (\D+?) \| ([\d.][^|]+?) \|", text, re.MULTILINE):
         assert shows(said, f"{name} {answer}"), f"{name} {answer}\nis not in\n{said}"
+
+
+def test_the_three_stiffnesses_of_a_measured_map(type_in, topographies):
+    page = (DOCS / "choices.md").read_text("utf-8")
+    (values,) = re.findall(r"has ([\d.]+), ([\d.]+) and ([\d.]+) MN/m in this order", page)
+    file = topographies / "al3d-1.al3d"
+    said = type_in(f'roughline press {file} --materials steel,copper --load "1 N"')
+    names = ("contact stiffness k", "unloading stiffness k_u", "interface stiffness k_i")
+    for name, value in zip(names, values, strict=True):
+        assert shows(said, f"{name} {value} MN/m")

@@ -70,7 +70,7 @@ from roughline.paper import study
 original = study.paper_plan
 def slow_but_small(scale, seed):
     plan = original(scale, seed)
-    sizes = {"lines": (2**14, 20), "lines-of-surfaces": (2**13, 20), "surfaces": (128, 12)}
+    sizes = {"lines": (2**14, 20), "lines-of-surfaces": (2**13, 20), "surfaces": (96, 8)}
     ensembles = tuple(
         replace(e, n=sizes[e.name][0], realisations=sizes[e.name][1], cutoff_ratio=None)
         for e in plan.ensembles
