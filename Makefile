@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
+.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -71,6 +71,10 @@ soak: $(VENV)/installed
 
 yielding: $(VENV)/installed
 	$(BIN)/python benchmarks/yielding.py
+
+# MAPS names the folder of the measured maps.
+yield-of-maps: $(VENV)/installed
+	$(BIN)/python benchmarks/yield_of_maps.py $(MAPS)
 
 start-up: $(VENV)/installed
 	$(BIN)/python benchmarks/start_up.py

@@ -58,6 +58,7 @@ WIDE = (
         "sessions-table",
         "memory-table",
         "yielding-table",
+        "yield-of-maps-table",
         "made/validation",
         "made/materials",
     ),

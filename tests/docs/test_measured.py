@@ -18,6 +18,7 @@ from roughline.contact.loads import Loads
 
 ROOT = Path(__file__).parents[2]
 TABLES = sorted((ROOT / "docs").glob("*-table.md"))
+NUMBER = re.compile(r"[\d.]+(?:e[+-]?\d+)?")
 MAKEFILE = (ROOT / "Makefile").read_text("utf-8")
 
 
@@ -34,6 +35,12 @@ def number(text):
     """The first number in a cell; a share where it is a percentage."""
     found = re.search(r"[\d.]+", text)[0]
     return float(found) / (100 if f"{found}%" in text else 1)
+
+
+def ohms(text):
+    """The resistance in a cell. [ohm]"""
+    value, unit = text.split()[:2]
+    return float(value) * {"Ω": 1.0, "mΩ": 1e-3}[unit]
 
 
 def surface_of(row):
@@ -115,6 +122,41 @@ def test_what_yields_is_what_the_table_says(hurst):
     assert curve.plastic_fraction[0] == pytest.approx(
         number(row["of the contact yields"]), abs=0.006
     )
+
+
+def test_measured_maps_yield_as_the_table_says(topographies, monkeypatch):
+    monkeypatch.syspath_prepend(str(ROOT / "benchmarks"))
+    import yield_of_maps
+
+    told = [list(row.values()) for row in rows_of("yield-of-maps")]
+    assert len(told) == sum(len(loads) for _, _, loads in yield_of_maps.CASES)
+    case = ("al3d-1.al3d", "steel,steel", ("1 MPa", "10 MPa", "100 MPa"))
+    assert case in yield_of_maps.CASES
+    found = list(yield_of_maps.rows(topographies, *case))
+    told = [row for row in told if row[0].startswith(case[0])]
+    for row, again in zip(told, found, strict=True):
+        assert row[:3] == again[:3]
+        for cell, other in zip(row[3:], again[3:], strict=True):
+            numbers, others = (list(map(float, NUMBER.findall(each))) for each in (cell, other))
+            assert numbers == pytest.approx(others, rel=0.02)
+
+
+def test_the_page_of_engineering_quotes_the_maps():
+    page = " ".join((ROOT / "docs" / "engineering.md").read_text("utf-8").split())
+    told = {
+        "10 MPa on al3d-1 the elastic area is {:.1f} times too small and the elastic resistance "
+        "{:.1f} times too large": ("al3d-1.al3d", "10 MPa"),
+        "they are off by factors of {:.0f} and {:.0f}": ("di-1.di", "1 uN"),
+    }
+    for sentence, (name, load) in told.items():
+        (row,) = (
+            each
+            for each in rows_of("yield-of-maps")
+            if each["map, rms slope"].startswith(name) and each["load"] == load
+        )
+        area = number(row["$A/A_0$ with yield"]) / number(row["$A/A_0$ elastic"])
+        resistance = ohms(row["$R$ elastic"]) / ohms(row["$R$ with yield"])
+        assert sentence.format(area, resistance) in page
 
 
 def test_the_page_of_speed_quotes_its_tables():
