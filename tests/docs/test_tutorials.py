@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from roughline import campaign
+
 DOCS = Path(__file__).parents[2] / "docs"
 PYTHON = re.compile(r"^```python\n(.*?)^```", re.DOTALL | re.MULTILINE)
 CONSOLE = re.compile(r"^```console\n(.*?)^```", re.DOTALL | re.MULTILINE)
@@ -79,3 +81,13 @@ def test_the_three_stiffnesses_of_a_measured_map(type_in, topographies):
     names = ("contact stiffness k", "unloading stiffness k_u", "interface stiffness k_i")
     for name, value in zip(names, values, strict=True):
         assert shows(said, f"{name} {value} MN/m")
+
+
+def test_the_plan_of_a_campaign_has_the_cases_that_the_page_tells(tmp_path):
+    page = (DOCS / "how-to" / "campaign.md").read_text("utf-8")
+    (text,) = re.findall(r"^```toml\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    (tmp_path / "study.toml").write_text(text)
+    plan = campaign.read_plan(tmp_path / "study.toml")
+    assert f"{plan.name}: {plan.cases} cases to compute" in page
+    for name in re.findall(r"^([\w-]+) +━", page, re.MULTILINE):
+        assert plan.ensemble(name)

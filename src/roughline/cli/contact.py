@@ -212,7 +212,8 @@ def press_command(
     --------
     roughline press scan.x3p --modulus "110 GPa"
 
-    roughline press scan.x3p --materials steel,copper --load "10 N" --report contact
+    roughline press scan.x3p --materials steel,copper --load "10 N" --joint-area "1 cm^2"
+    --report contact
 
     roughline press scans/*.x3p --materials steel,copper --load "10 N" --joint-area "2 cm^2"
 
