@@ -43,7 +43,7 @@ def smaller(plan, dimensions=None, realisations=None):
 def test_a_case_is_what_the_library_gives(plan, finished):
     data = campaign.Store(finished).dataset("surfaces")
     spectrum = rl.SelfAffine(fractal_dimension=2.4, rms_height=1.0)
-    surface = spectrum.surface(96, np.random.SeedSequence(5, spawn_key=(3,)))
+    surface = spectrum.surface(128, np.random.SeedSequence(5, spawn_key=(3,)))
     curve = rl.press(surface, E_star=1.0, forces=plan.ensemble("surfaces").force_bars)
     one = data.sel(fractal_dimension=2.4, realisation=3)
     assert (one.stiffness.values == curve.stiffness).all()
@@ -65,7 +65,7 @@ def test_xarray_reads_the_store_without_us(finished):
         assert data.stiffness.dims == ("fractal_dimension", "realisation", "force_bar")
         assert data.stiffness.attrs["long_name"] == "raw stiffness k / (E* L)"
         assert data.stiffness.attrs["units"] == "1"
-        assert (data.attrs["n"], data.attrs["seed"], data.attrs["boundary"]) == (96, 5, "free")
+        assert (data.attrs["n"], data.attrs["seed"], data.attrs["boundary"]) == (128, 5, "free")
         assert data.attrs["roughline_version"] == rl.__version__
         assert list(data.fractal_dimension.values) == [2.0, 2.4, 3.0]
 
@@ -112,7 +112,7 @@ def test_a_store_of_other_settings_is_refused_and_not_touched(plan, finished):
     before = tree(finished)
     lines, surfaces = plan.ensembles
     for changes, key in (
-        ({"n": 64}, "n is 96, the plan's is 64"),
+        ({"n": 64}, "n is 128, the plan's is 64"),
         ({"seed": 6}, "seed is 5, the plan's is 6"),
         ({"roll_off_ratio": 2.0}, "roll_off_ratio is 1.0"),
         ({"force_bars": surfaces.force_bars[:-1]}, "force_bars is"),
