@@ -4,9 +4,12 @@ import asyncio
 import json
 import re
 import sys
+from pathlib import Path
 
 import pytest
 
+from roughline.server.session import Session
+from roughline.server.settings import ServerSettings
 from server.serving import (
     becomes,
     raw,
@@ -123,3 +126,19 @@ def test_results_are_given_to_their_page_under_a_policy_of_their_own(lab):
                 assert (await lab.fetch(f"/results/{token}/{name}")).code == 404, name
 
     run(scenario)
+
+
+def test_a_file_that_is_read_on_windows_is_forgotten_and_goes_with_the_page(tmp_path, monkeypatch):
+    """There a file that is open cannot be deleted."""
+
+    def refuses(path, **options):
+        raise PermissionError(13, "used by another process", str(path))
+
+    unused = dict.fromkeys(("site", "quick", "slow", "send", "send_answer"))
+    page = Session("here", tmp_path, settings=ServerSettings(), **unused)
+    key, upload = page.new_upload("a.txt", 1)
+    upload.path.write_text("1")
+    monkeypatch.setattr(Path, "unlink", refuses)
+    page.forget_upload(key)
+    assert not page.uploads
+    assert upload.path.parent == page.folder
