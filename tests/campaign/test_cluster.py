@@ -7,6 +7,7 @@ import time
 
 import dask
 import pytest
+from distributed import LocalCluster, Status
 
 import roughline as rl
 from dask_processes import start_scheduler, start_worker
@@ -122,6 +123,22 @@ def test_workers_that_are_gone_for_good_are_replaced():
         while not here.cores():
             assert time.monotonic() < deadline, "no new worker"
             time.sleep(0.2)
+
+
+def test_a_cluster_is_closed_when_its_workers_have_started(monkeypatch):
+    """One that is closed while it starts ends with a traceback on the terminal, or never."""
+    close, running = LocalCluster.close, []
+
+    def recording_close(self, *arguments):
+        states = [worker.status for worker in self.scheduler.workers.values()]
+        running.append(states.count(Status.running))
+        return close(self, *arguments)
+
+    monkeypatch.setattr(LocalCluster, "close", recording_close)
+    with cluster.local(1) as one:
+        died = one.client.submit(os._exit, 9, pure=False)
+        assert type(died.exception()).__name__ == "KilledWorker"
+    assert running[0] == 1
 
 
 def test_the_callers_dask_is_left_alone():

@@ -8,7 +8,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from multiprocessing import resource_tracker
 from pathlib import Path
@@ -94,8 +94,23 @@ def local(workers: int) -> Iterator[Cluster]:
             except (OSError, RuntimeError, TimeoutError) as error:
                 raise ClusterError(f"workers on this machine do not start ({error})") from error
             client = stack.enter_context(Client(cluster, set_as_default=False))
+            stack.callback(_wait_for_starting_workers, cluster, client)
         # Dask gives up a worker that dies while it starts, unless it is asked for it again
         yield Cluster(client, client.dashboard_link, lambda: cluster.scale(workers))
+
+
+def _wait_for_starting_workers(cluster: Any, client: Any) -> None:
+    """Wait for workers that start in place of dead ones, before their cluster is closed.
+
+    Dask may take a worker for started that still registers. If it closes it then, the worker
+    closes twice, and ends with a traceback on the terminal.
+    """
+    from distributed import Status
+
+    kept = [nanny for nanny in cluster.workers.values() if nanny.status == Status.running]
+    if kept:
+        with suppress(TimeoutError, OSError):
+            client.wait_for_workers(len(kept), timeout=_PATIENCE / 3)
 
 
 @contextmanager
