@@ -7,8 +7,9 @@ import multiprocessing
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from multiprocessing import resource_tracker
 from pathlib import Path
@@ -108,9 +109,13 @@ def _wait_for_starting_workers(cluster: Any, client: Any) -> None:
     from distributed import Status
 
     kept = [nanny for nanny in cluster.workers.values() if nanny.status == Status.running]
-    if kept:
-        with suppress(TimeoutError, OSError):
-            client.wait_for_workers(len(kept), timeout=_PATIENCE / 3)
+    deadline = time.monotonic() + _PATIENCE / 3
+    while time.monotonic() < deadline:
+        # not by the cluster's own waiting, which loses what it was to be told of workers that leave
+        workers = client.scheduler_info()["workers"].values()
+        if sum(worker["status"] == Status.running.name for worker in workers) >= len(kept):
+            return
+        time.sleep(0.1)
 
 
 @contextmanager
