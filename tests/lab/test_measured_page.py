@@ -30,6 +30,16 @@ def answered(pages):
     return page
 
 
+@pytest.mark.parametrize("late", ["**/measured.js", "**/figures/measured"])
+def test_a_click_before_the_view_is_ready_is_not_lost(pages, late):
+    page = pages.blank()
+    page.route(late, lambda route: (page.wait_for_timeout(6000), route.continue_()))
+    page.goto(pages.address + "?view=measured", wait_until="domcontentloaded")
+    page.click(EXAMPLE)
+    page.wait_for_selector("[data-press]:not([disabled])")
+    page.context.close()
+
+
 def bring(page, name, content):
     """Choose a file, by its path or with its content."""
     file = {"name": name, "mimeType": "application/octet-stream", "buffer": content}

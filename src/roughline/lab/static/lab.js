@@ -43,7 +43,13 @@ async function show(name, said) {
   }
   document.title = `roughline: ${document.querySelector(`nav [data-view="${name}"]`).textContent}`;
   if (!opened.has(name)) {
-    opened.set(name, import(`./${name}.js`).then((module) => module.open(link, address, said)));
+    const root = document.querySelector(`#${name}`);
+    root.inert = true; // what is clicked before its buttons are listened to would be lost
+    opened.set(name, import(`./${name}.js`).then((module) => {
+      const view = module.open(link, address, said);
+      root.inert = false;
+      return view;
+    }));
   } else {
     (await opened.get(name)).shown?.();
   }

@@ -25,6 +25,7 @@ class Measured {
   #controls; #pictures; #source; #part; #answers; #waiting = {};
   #read = null; // what the file holds, as last read
   #prepared = null; // the same, prepared
+  #isAwaited = false; // a file that came before the pictures were there
 
   constructor(link, address) {
     this.#link = link;
@@ -34,7 +35,9 @@ class Measured {
       this.#waiting[name] = new Waiting(this.find(`[data-waiting="${name}"]`), () => {
         link.stop(`measured ${name}`);
         this.#undim(name);
-        if (name === "file") this.#source.stop();
+        if (name !== "file") return;
+        this.#isAwaited = false;
+        this.#source.stop();
       });
     }
     this.#source = new Source(link, this, this.#waiting.file);
@@ -49,10 +52,11 @@ class Measured {
   async open({view, theme, ...said}) {
     this.#take({...DEFAULTS, ...said});
     this.#askBodies();
+    if (said.example) this.look();
     this.#pictures = new Pictures(this, await embedded("measured"));
     this.#answers.pictures = this.#pictures;
     this.#pictures.onBox((crop) => this.set("crop", crop));
-    if (said.example) this.look();
+    if (this.#isAwaited) this.look();
   }
 
   shown() { this.#write(); }
@@ -147,6 +151,7 @@ class Measured {
     const {file, example} = this.#controls.said;
     if (!file && !example) return;
     this.#wait("file");
+    if (!this.#pictures) { this.#isAwaited = true; return; } // it is read when it can be drawn
     this.#link.ask("measured.look", "measured file", {state: this.stateOfMap}, {
       answer: (read) => {
         this.#end("file");
