@@ -73,6 +73,12 @@ def test_to_describe_what_an_instrument_measured_loads_its_reader_alone(files):
     assert not (loaded - set(reader.stdout.split())) & (TO_DRAW | TO_STORE | TO_SOLVE | TO_DESCRIBE)
 
 
+def test_the_lab_serves_its_page_before_it_can_draw():
+    code = "import sys; from roughline.lab.site import site; site().page(); print(*sys.modules)"
+    made = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not set(made.stdout.split()) & (TO_DRAW | TO_STORE | TO_READ)
+
+
 def test_the_package_runs_as_a_module():
     command = [sys.executable, "-m", "roughline", "--version"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)

@@ -14,7 +14,6 @@ from roughline.engineering.materials import materials
 from roughline.lab.explore import controls as explore
 from roughline.lab.measured import controls as measured
 from roughline.lab.published import controls as published
-from roughline.lab.published.study_figures import element_of
 from roughline.paper.studies import study_summaries
 
 _SUBSCRIPT = re.compile(r"_(\w)")
@@ -31,7 +30,6 @@ def page() -> str:
         published=published,
         materials=list(materials()),
         studies=study_summaries(),
-        element_of=element_of,
     )
 
 

@@ -6,6 +6,7 @@ from bokeh.models import ColumnDataSource, Whisker
 from bokeh.plotting import figure
 
 from roughline.lab.plots import embedded, linear_figure, semilog_figure, themed
+from roughline.lab.published.controls import element_of
 from roughline.paper.studies import StudyCurve, StudyPanel, study_summaries
 
 _COLUMNS = 3  # of the legend
@@ -21,11 +22,6 @@ def figures() -> bytes:
             for i, panel in enumerate(study.panels)
         }
     )
-
-
-def element_of(name: str, panel: int) -> str:
-    """Return the element of the page that a panel of a study belongs to."""
-    return f"study-{name}-{panel}"
 
 
 def _drawn(panel: StudyPanel) -> figure:
