@@ -7,7 +7,14 @@ from typing import Any
 
 from bokeh.document import Document
 from bokeh.embed.util import standalone_docs_json_and_render_items
-from bokeh.models import BoxAnnotation, ColorBar, ColumnDataSource, LinearColorMapper, Range1d
+from bokeh.models import (
+    BoxAnnotation,
+    ColorBar,
+    ColumnDataSource,
+    LinearColorMapper,
+    NoOverlap,
+    Range1d,
+)
 from bokeh.palettes import Cividis256, Viridis256
 from bokeh.plotting import figure
 
@@ -72,6 +79,7 @@ def _empty(x_label: str, y_label: str, x_range: tuple[float, float], **axes: Any
         **axes,
     )
     plot.xaxis.axis_label, plot.yaxis.axis_label = x_label, y_label
+    plot.axis.major_label_policy = NoOverlap()
     _plain(plot)
     return plot
 

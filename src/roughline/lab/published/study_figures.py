@@ -9,7 +9,7 @@ from roughline.lab.plots import embedded, linear_figure, semilog_figure, themed
 from roughline.lab.published.controls import element_of
 from roughline.paper.studies import StudyCurve, StudyPanel, study_summaries
 
-_COLUMNS = 3  # of the legend
+_COLUMNS = 2  # of the legend: three are wider than a phone
 _MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus")
 
 
@@ -31,7 +31,8 @@ def _drawn(panel: StudyPanel) -> figure:
     for curve in panel.curves:
         _draw(plot, curve)
     legend = plot.legend[0]
-    legend.ncols, legend.spacing = _COLUMNS, 12
+    legend.ncols, legend.spacing, legend.location = _COLUMNS, 12, "center"
+    legend.glyph_height = legend.label_height = 12  # [pixel] room for the curves instead
     plot.center.remove(legend)
     plot.add_layout(legend, "below")  # inside it would lie on the curves
     return plot
