@@ -1,5 +1,6 @@
 """Clusters by address: real schedulers and workers, as processes of their own."""
 
+import multiprocessing.util
 import os
 import subprocess
 import sys
@@ -139,6 +140,24 @@ def test_a_cluster_is_closed_when_its_workers_have_started(monkeypatch):
         died = one.client.submit(os._exit, 9, pure=False)
         assert type(died.exception()).__name__ == "KilledWorker"
     assert running[0] == 1
+
+
+@pytest.mark.parametrize("silent", [True, False])
+def test_a_worker_that_is_closed_says_no_more(silent, capfd, monkeypatch):
+    """Dask may close it twice, and its process ends with a traceback then."""
+
+    def complain_at_the_end():
+        def complain():
+            print("Traceback", file=sys.stderr, flush=True)
+
+        multiprocessing.util.Finalize(None, complain, exitpriority=1)
+
+    if not silent:
+        monkeypatch.setattr(cluster, "_SILENT_WHEN_CLOSED", {})
+    with cluster.local(1) as one:
+        one.client.run(complain_at_the_end)
+        assert "Traceback" not in capfd.readouterr().err
+    assert ("Traceback" in capfd.readouterr().err) is not silent
 
 
 def test_the_callers_dask_is_left_alone():

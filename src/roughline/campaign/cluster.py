@@ -38,6 +38,18 @@ _WITHOUT_PROFILES = {
     "distributed.admin.tick.interval": "1s",
     "distributed.admin.tick.limit": "10s",
 }
+# Dask may close a worker that still registers, and then closes it again when it has registered. The
+# second time fails, with a traceback on the terminal: so a worker is silent from the first.
+_SILENT_WHEN_CLOSED = {
+    "distributed.worker.preload": [
+        """
+import os
+
+async def dask_teardown(worker):
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
+"""
+    ]
+}
 _CAMPAIGN_AT_IMPORT = 77  # exit code of a process in which to import a script starts a campaign
 
 
@@ -78,7 +90,7 @@ def local(workers: int) -> Iterator[Cluster]:
     from distributed import Client, LocalCluster
 
     # these hold for workers that are started later, too
-    settings = _WITHOUT_PROFILES | {_ENVIRONMENT: _KEEP_MEMORY}
+    settings = _WITHOUT_PROFILES | _SILENT_WHEN_CLOSED | {_ENVIRONMENT: _KEEP_MEMORY}
     with _quiet(), dask.config.set(settings), ExitStack() as stack:
         with interrupts_held_back():
             try:
@@ -108,9 +120,9 @@ def _wait_for_starting_workers(cluster: Any, client: Any) -> None:
     """
     from distributed import Status
 
-    kept = [nanny for nanny in cluster.workers.values() if nanny.status == Status.running]
-    deadline = time.monotonic() + _PATIENCE / 3
+    deadline = time.monotonic() + _PATIENCE
     while time.monotonic() < deadline:
+        kept = [nanny for nanny in cluster.workers.values() if nanny.status == Status.running]
         # not by the cluster's own waiting, which loses what it was to be told of workers that leave
         workers = client.scheduler_info()["workers"].values()
         if sum(worker["status"] == Status.running.name for worker in workers) >= len(kept):
