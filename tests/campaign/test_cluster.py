@@ -148,7 +148,7 @@ def test_a_worker_that_is_closed_says_no_more(silent, capfd, monkeypatch):
 
     def complain_at_the_end():
         def complain():
-            print("Traceback", file=sys.stderr, flush=True)
+            sys.stderr.write("Traceback")
 
         multiprocessing.util.Finalize(None, complain, exitpriority=1)
 
