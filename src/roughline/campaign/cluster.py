@@ -19,7 +19,7 @@ from roughline._version import __version__
 from roughline.campaign.batch import check_version
 from roughline.errors import ClusterError, InputError
 
-_PATIENCE = 30.0  # until a scheduler has answered and a first worker has appeared [s]
+_PATIENCE = 30.0  # until a scheduler has answered, and until workers have started [s]
 _ENVIRONMENT = "distributed.nanny.pre-spawn-environ"
 # Dask makes its workers give freed memory back to the system at once; to get it again takes longer
 # than an FFT, so here they keep it.
@@ -38,8 +38,8 @@ _WITHOUT_PROFILES = {
     "distributed.admin.tick.interval": "1s",
     "distributed.admin.tick.limit": "10s",
 }
-# Dask may close a worker that still registers, and then closes it again when it has registered. The
-# second time fails, with a traceback on the terminal: so a worker is silent from the first.
+# Dask may close a worker that still registers, and closes it again once it has registered. The
+# second closing fails with a traceback, so a worker writes nothing to the terminal after the first.
 _SILENT_WHEN_CLOSED = {
     "distributed.worker.preload": [
         """
@@ -116,7 +116,7 @@ def _wait_for_starting_workers(cluster: Any, client: Any) -> None:
     """Wait for workers that start in place of dead ones, before their cluster is closed.
 
     Dask may take a worker for started that still registers. If it closes it then, the worker
-    closes twice, and ends with a traceback on the terminal.
+    closes twice, and sometimes never ends.
     """
     from distributed import Status
 
