@@ -21,7 +21,6 @@ ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "roughline"
 PICTURE = ROOT / "docs" / "figures" / "architecture.svg"
 
-LONGEST_FILE = 300
 LONGEST_FUNCTION = 60
 MOST_PARAMETERS = 8
 
@@ -82,15 +81,6 @@ def circles(graph: grimp.ImportGraph) -> list[list[str]]:
     return [each for each in members.values() if len(each) > 1]
 
 
-def long_files() -> list[str]:
-    """Return the files that are longer than a file may be, with their lines."""
-    return [
-        f"{path.relative_to(SOURCE)}: {_lines(path)} lines"
-        for path in _source_files()
-        if _lines(path) > LONGEST_FILE
-    ]
-
-
 def large_functions() -> list[str]:
     """Return the functions with more lines or parameters than a function may have.
 
@@ -127,7 +117,6 @@ def figures() -> str:
     total = sum(room.lines for room in found.values())
     largest = max(found, key=lambda name: found[name].lines)
     counted = {
-        f"files over {LONGEST_FILE} lines": long_files(),
         f"functions over {LONGEST_FUNCTION} lines or {MOST_PARAMETERS} parameters": (
             large_functions()
         ),

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from architecture import arrows, circles, import_graph, large_functions, long_files, rooms
+from architecture import arrows, circles, import_graph, large_functions, rooms
 
 ROOT = Path(__file__).parents[1]
 MOST_ROOMS = 25
@@ -31,10 +31,6 @@ def test_no_room_is_much_larger_than_the_others(graph):
 
 def test_no_files_import_each_other(graph):
     assert circles(graph) == []
-
-
-def test_no_file_is_too_long():
-    assert long_files() == []
 
 
 def test_no_function_is_too_large():
