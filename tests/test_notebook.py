@@ -3,11 +3,25 @@
 import re
 from html.parser import HTMLParser
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 
 import roughline as rl
 
+CELLS = (
+    "import roughline as rl\n"
+    "line = rl.SelfAffine(hurst=0.7, length=1.0, rms_height=1.0).line(64, 1)\n"
+    "curve = rl.press(line, E_star=1.0, n_loads=3)",
+    "rl.plot.topography(line);",
+    "from matplotlib import pyplot\npyplot.plot([1, 2]);",
+    "rl.plot.curve(curve);",
+    "pyplot.ioff()\nrl.plot.curve(curve);",
+    "pyplot.plot([1, 2]);",
+    "pyplot.close('all')\n%matplotlib inline",
+    "rl.plot.spectrum(rl.Line(line.heights, 1.0, kind='profile'));",
+    "pyplot.plot([1, 2]);",
+)
 SPECTRUM = rl.SelfAffine(fractal_dimension=2.2, length=1e-3, rms_height=1e-6)
 
 
@@ -79,3 +93,30 @@ def test_a_notebook_shows_the_loads_of_a_curve():
     unsolved = rl.press(surface, E_star=1e11, forces=[1], max_iterations=2, throw=False)
     _, row = cells(unsolved._repr_html_())
     assert row == ["0", "–", "–", "–", "–", "max_iterations reached above the tolerance"]
+
+
+def pictures_below(cells):
+    """The number of pictures below each cell of a notebook, which a kernel of its own runs."""
+    import nbformat
+    from nbclient import NotebookClient
+
+    notebook = nbformat.v4.new_notebook(cells=[*map(nbformat.v4.new_code_cell, cells)])
+    with pytest.MonkeyPatch.context() as environment:
+        environment.delenv("MPLBACKEND", raising=False)
+        NotebookClient(notebook, kernel_name="python3", timeout=120).execute()
+    return [
+        sum("image/png" in output.get("data", {}) for output in cell.outputs)
+        for cell in notebook.cells
+    ]
+
+
+def test_every_picture_of_a_notebook_appears_below_its_cell():
+    assert pictures_below(CELLS) == [0, 1, 1, 1, 0, 0, 0, 1, 1]
+
+
+def test_a_picture_leaves_the_settings_of_matplotlib_as_they_were():
+    mpl.get_backend()  # chooses one, which is a setting too
+    with mpl.rc_context({"font.size": 13, "interactive": False}):
+        before = dict(mpl.rcParams)
+        rl.plot.topography(SPECTRUM.surface(16, 3), mpl.figure.Figure().subplots())
+        assert dict(mpl.rcParams) == before

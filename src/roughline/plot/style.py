@@ -48,9 +48,19 @@ def new_figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width, height))
 
 
-def styled() -> Any:
-    """Context in which figures are drawn and saved."""
-    return mpl.rc_context(_RC)
+@contextmanager
+def styled() -> Iterator[None]:
+    """Context in which figures are drawn and saved.
+
+    It gives back its own settings alone. The first figure of a notebook makes all later pictures
+    appear, by another setting, which has to stay.
+    """
+    before = {name: mpl.rcParams[name] for name in _RC}
+    mpl.rcParams.update(_RC)
+    try:
+        yield
+    finally:
+        mpl.rcParams.update(before)
 
 
 @contextmanager
