@@ -36,7 +36,11 @@ NOWHERE = "no/such/file.x3p"
         ),
         (
             {"materials": "steel,copper", "friction": 0.0},
-            "the coefficient of friction is 0.0; a positive one is needed",
+            "the coefficient of friction (friction=) is 0.0; a number above 0 and up to 5",
+        ),
+        *(
+            ({"materials": "steel,copper", "friction": given}, "above 0 and up to 5 is needed")
+            for given in (30, -1, 5.1, float("nan"), float("inf"), "0.3", True)
         ),
     ],
 )

@@ -164,6 +164,24 @@ def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     assert "if nothing yielded" not in out
 
 
+def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(rough, invoke, tmp_path):
+    asked = ("press", rough, *PAIR, "--load", "10 N")
+    _, screen, _ = invoke(*asked)
+    rows = [line for line in table_lines(screen) if " h_c " in line or " G " in line]
+    assert len(rows) == 2
+    assert all("in vacuum" in row for row in rows)
+    assert "note: thermal conductances are those of the solid spots alone" in screen
+    _, out, _ = invoke(*asked, "--json", "--report", tmp_path / "report")
+    told = json.loads(out)
+    for symbol in ("G", "h_c", "h_Mikic", "h_CMY"):
+        assert "as in vacuum: gas in the gap adds to it" in told["answers"][symbol]["validity"]
+    assert any("air may carry several times what the spots do" in note for note in told["notes"])
+    page = (tmp_path / "report" / "report.html").read_text(encoding="utf-8")
+    lead = re.search('<p class="lead">(.*?)</p>', page)[1]
+    assert "thermal conductance per area in vacuum" in lead
+    assert "air may carry several times what the spots do" in page
+
+
 def test_a_report_speaks_to_a_client(holed, invoke, tmp_path):
     file, *options = holed
     code, _, errors = invoke(

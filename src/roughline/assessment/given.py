@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,9 @@ from roughline.errors import InputError
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import in_si, load_in_newtons, refuse_decimal_comma
 
+MOST_FRICTION = 5.0
+"""Largest coefficient of friction; that of rubber on dry glass is about 4."""
+
 
 def several(given: Any) -> tuple[Any, ...]:
     """One value or several as a tuple."""
@@ -23,6 +27,23 @@ def several(given: Any) -> tuple[Any, ...]:
 def as_si(given: float | str, unit: str, name: str) -> float:
     """A number in an SI unit, or a text with a unit of its own, as a number in the SI unit."""
     return in_si(given, unit, name) if isinstance(given, str) else float(given)
+
+
+def checked_friction(given: Any) -> float:
+    """Return a coefficient of friction.
+
+    Raises
+    ------
+    InputError
+        If it is no number, or none that two bodies have.
+    """
+    is_number = isinstance(given, Real) and not isinstance(given, bool)
+    if not is_number or not 0 < given <= MOST_FRICTION:
+        raise InputError(
+            f"the coefficient of friction (friction=) is {given!r}; a number above 0 and up to "
+            f"{MOST_FRICTION:g} is needed, such as 0.3"
+        )
+    return float(given)
 
 
 def has_forces(loads: Any) -> bool:

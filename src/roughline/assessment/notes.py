@@ -245,6 +245,16 @@ def _scatter_in_words(result: Assessment) -> str:
     )
 
 
+def of_gas_in_the_gap(result: Assessment) -> list[str]:
+    """Say of thermal conductances that the gap adds to them."""
+    if "thermal_conductance_per_area" not in result.answers:
+        return []
+    return [
+        "thermal conductances are those of the solid spots alone, as in vacuum: gas in the gap "
+        "adds to them, and air may carry several times what the spots do"
+    ]
+
+
 def change_in_words(least: float, largest: float) -> str:
     """Write how far a least and a largest ratio are from one, such as "-11 to +6%"."""
 

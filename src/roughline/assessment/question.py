@@ -13,7 +13,14 @@ from roughline.assessment.consistency import (
     refuse_inconsistent_loads,
     refuse_inconsistent_maps,
 )
-from roughline.assessment.given import as_si, bodies_or_paths, body_or_path, pair_of, several
+from roughline.assessment.given import (
+    as_si,
+    bodies_or_paths,
+    body_or_path,
+    checked_friction,
+    pair_of,
+    several,
+)
 from roughline.assessment.hardness import checked_hardness
 from roughline.assessment.misfit import refuse_misfit
 from roughline.assessment.nominal import area_of_joint
@@ -72,7 +79,7 @@ class Question:
     periodic : bool, optional
         As for :func:`roughline.press`.
     friction : float, optional
-        Coefficient of friction; adds partial slip at the largest load. [1]
+        Coefficient of friction, above 0 and up to 5; adds partial slip at the largest load. [1]
     frequency : float or str, optional
         Of an ultrasonic wave; adds its reflection. [Hz]
     theories : str or sequence of str, optional
@@ -277,7 +284,5 @@ class Question:
             if not 0 < hertz < math.inf:
                 raise InputError(f'frequency is "{self.frequency}"; a positive one is needed')
             object.__setattr__(self, "frequency", hertz)
-        if self.friction is not None and not 0 < self.friction < math.inf:
-            raise InputError(
-                f"the coefficient of friction is {self.friction}; a positive one is needed"
-            )
+        if self.friction is not None:
+            object.__setattr__(self, "friction", checked_friction(self.friction))

@@ -36,6 +36,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
     notes = say.of_yield(result)
     if pair is not None:
         notes += say.how_far_a_line_serves(result, grave=False)
+        notes += say.of_gas_in_the_gap(result)
         notes += left_out(pair, question.frequency_in_hertz)
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")

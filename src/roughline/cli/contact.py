@@ -123,7 +123,8 @@ def press_command(
     friction: Annotated[
         float | None,
         typer.Option(
-            help="Coefficient of friction: adds partial slip to the report and to JSON.",
+            help="Coefficient of friction, above 0 and up to 5: adds partial slip to the report "
+            "and to JSON.",
             rich_help_panel=ANSWERS,
         ),
     ] = None,

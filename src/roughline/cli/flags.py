@@ -14,6 +14,7 @@ _FLAGS = {
     "against": "--against",
     "hardness": "--hardness",
     "elastic": "--elastic",
+    "friction": "--friction",
     "history": "--history",
     "unload": "--unload",
     "joint_area": "--joint-area",

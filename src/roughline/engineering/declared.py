@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from roughline.engineering.formulas import ELASTIC_UP_TO
 
+_IN_VACUUM = "solid spots alone, as in vacuum: gas in the gap adds to it"
+
 
 @dataclass(frozen=True)
 class Declaration:
@@ -134,20 +136,20 @@ DECLARED = {
         growth=-0.5,
     ),
     "thermal_conductance": Declaration(
-        "thermal conductance",
+        "thermal conductance in vacuum",
         "G",
         "W/K",
         "kappa_s k_u / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
-        "solid spots alone, in vacuum; k_u, as heat spreads from spots however they were formed",
+        f"{_IN_VACUUM}. k_u, as heat spreads from the contact spots however they were formed",
         "Barber 2003",
         growth=1,
     ),
     "thermal_conductance_per_area": Declaration(
-        "thermal conductance per area",
+        "thermal conductance per area in vacuum",
         "h_c",
         "W/(m² K)",
         "kappa_s k_i / (E* A_0)",
-        "as G, but without the bodies' constriction to A_0, like k_i",
+        f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i",
         "Barber 2003",
     ),
     "mikic_conductance": Declaration(
@@ -155,7 +157,7 @@ DECLARED = {
         "h_Mikic",
         "W/(m² K)",
         "1.55 kappa_s m/sigma (sqrt(2) p/(E* m))^0.94",
-        "Gaussian heights, light loads, no large waves",
+        f"{_IN_VACUUM}. Gaussian heights, light loads, no large waves",
         "Mikic 1974",
     ),
     "plastic_conductance": Declaration(
@@ -163,7 +165,7 @@ DECLARED = {
         "h_CMY",
         "W/(m² K)",
         "1.25 kappa_s m/sigma (p/H)^0.95",
-        "Gaussian heights, all contact plastic",
+        f"{_IN_VACUUM}. Gaussian heights, all contact plastic",
         "Yovanovich 2005",
     ),
     "tangential_stiffness": Declaration(

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import roughline as rl
+from roughline.assessment.given import checked_friction
 from roughline.assessment.hardness import checked_hardness
 from roughline.assessment.nominal import area_of_joint
 from roughline.assessment.question import Question
@@ -164,6 +165,8 @@ def question_of(said: Said, source: Source) -> Question:
     loads = loads_of(said)
     with at("friction"):
         friction = _number(said.get("friction"), "the coefficient of friction")
+        if friction is not None:
+            checked_friction(friction)
     with at("frequency"):
         frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None
     needs = next((key for key in _NEEDING if key in said), "")

@@ -19,6 +19,7 @@ _CONTROLS = {
     "hardness": "hardness",
     "elastic": '"elastic"',
     "joint_area": "joint area",
+    "friction": "friction",
 }
 
 
