@@ -1,5 +1,6 @@
 """What a run will cost, what is refused before it starts, and what a result warns of."""
 
+import math
 import multiprocessing
 import os
 from functools import partial
@@ -29,6 +30,31 @@ def test_an_estimate_grows_with_points_loads_and_fields():
     assert rl.estimate((2048, 2048), 20, fields=True).memory > 3 * small.memory
     assert rl.estimate((2048, 2048), 20, yielding=True).memory > 1.3 * small.memory
     assert str(large).startswith("about 4.7 GB and ")
+
+
+def test_an_estimate_counts_the_loads_whose_fields_are_kept():
+    none, one, every = (
+        rl.estimate((1024, 1024), 20, fields=fields).memory for fields in (False, [3], True)
+    )
+    assert one - none == pytest.approx((every - none) / 20)
+
+
+@pytest.mark.parametrize(
+    ("name", "wrong"),
+    [
+        *(("shape", each) for each in (64, (0, 5), (-1, 5), (64,), (8, 8, 8), "ab", (2.5, 3))),
+        *(("n_loads", each) for each in (0, 2.5, "3", True, None)),
+        *(("fields", each) for each in (3, [2], "0", None)),
+        *(("area_fraction", each) for each in (7, -0.1, math.nan, "0.2", True, np.ones(2))),
+        *(("periodic", each) for each in ("no", 1, None)),
+        *(("yielding", each) for each in ("no", 1, None)),
+    ],
+)
+def test_what_is_estimated_is_checked(name, wrong):
+    asked = {"shape": (64, 64), "n_loads": 2} | {name: wrong}
+    with pytest.raises(rl.InputError, match=f"{name} is ") as refusal:
+        rl.estimate(asked.pop("shape"), asked.pop("n_loads"), **asked)
+    assert "\n" not in str(refusal.value)
 
 
 @pytest.mark.parametrize("periodic", [False, True])

@@ -86,6 +86,55 @@ def test_impossible_loads_are_refused_by_both_models(surface, line, loads, messa
             rl.press(body, E_star=1.0, **loads)
 
 
+WRONG_ARGUMENTS = {
+    "E_star": ["110 GPa", None, True, [1.0, 2.0], 1e200, 10**400, 1j],
+    "hardness": ["1 GPa", -1.0, math.nan, True, np.ones(2)],
+    "depths": ["1", [None], [[1], [1, 2]], [True], [1j], {}, np.ma.masked_equal([1.0, 2.0], 2.0)],
+    "forces": [None, -1.0, [math.inf], [], "10 N", 1e308],
+    "n_loads": ["3", 2.5, 1, True, 10**12, math.nan, [3]],
+    "periodic": ["no", None, 1, [True]],
+    "fields": [3, "0", [True], [2], [-1], [0.5], None],
+    "grid_error": ["yes", 1],
+    "rtol": ["1e-6", 0.0, 1.0, math.nan, None],
+    "max_iterations": [0, -3, 0.5, math.inf, "9"],
+    "precision": ["half", None, ["mixed"], np.ones(2)],
+    "throw": ["no", 0],
+    "progress": [True, "bar"],
+}
+
+
+@pytest.mark.parametrize("name", WRONG_ARGUMENTS)
+def test_every_argument_is_checked_and_named_in_one_line(surface, name):
+    for wrong in WRONG_ARGUMENTS[name]:
+        loads = {} if name in ("depths", "n_loads") else {"forces": [0.1]}
+        with pytest.raises(rl.InputError) as refusal:
+            rl.press(surface, **{"E_star": 1.0} | loads | {name: wrong})
+        message = str(refusal.value)
+        assert name in message or "no loads given" in message
+        assert "\n" not in message
+        assert len(message) < 250
+
+
+def test_whole_numbers_and_flags_may_come_from_numpy(surface):
+    curve = rl.press(
+        surface,
+        E_star=np.float64(1),
+        n_loads=np.int64(2),
+        periodic=np.True_,
+        fields=iter([np.int32(1)]),
+        max_iterations=1e3,
+    )
+    assert [fields is not None for fields in curve.fields] == [False, True]
+    assert curve.settings["boundary"] == "periodic"
+
+
+@pytest.mark.parametrize("load", ["0", 0.5, None, True, [0], 2, -3])
+def test_a_load_that_is_no_number_of_a_load_has_no_surface(surface, load):
+    curve = rl.press(surface, E_star=1.0, forces=[0.1, 0.3], hardness=5.0)
+    with pytest.raises(rl.InputError, match="load is "):
+        curve.surface_after(load)
+
+
 @pytest.mark.parametrize("E_star", [0.0, -1.0, math.nan, math.inf, "stiff", None])
 def test_an_impossible_modulus_is_refused(surface, line, E_star):
     for body in (surface, line):
@@ -231,6 +280,23 @@ def test_a_written_curve_carries_units_and_settings(surface, tmp_path):
         curve.write(tmp_path / "no" / "such" / "folder.nc")
 
 
+def test_files_hold_fields_of_the_loads_alone_of_which_they_were_kept(surface, tmp_path):
+    import xarray
+
+    forces = np.geomspace(0.01, 1.0, 20)
+    curve = rl.press(surface, E_star=1.0, forces=forces, fields=[3, 17])
+    curve.write(tmp_path / "curve.nc")
+    with xarray.open_dataset(tmp_path / "curve.nc", engine="h5netcdf") as data:
+        assert data.pressure.dims == ("field_load", "x", "y")
+        assert data.field_load.values.tolist() == [3, 17]
+        assert data.force[data.field_load].values.tolist() == forces[[3, 17]].tolist()
+        shown = data.pressure.sel(field_load=17)
+        assert (shown.values == curve.fields[17].pressure).all()
+        assert data.nbytes < 2.1 * 4 * 8 * 32**2 + 20 * 200
+    curve.write(tmp_path / "curve.csv")
+    assert len((tmp_path / "curve.csv").read_text(encoding="utf-8").splitlines()) == 21
+
+
 @pytest.mark.parametrize("control", ["force", "depth"])
 def test_a_curve_is_drawn_over_what_was_prescribed(surface, line, control):
     from matplotlib.figure import Figure
@@ -250,6 +316,9 @@ def test_a_curve_is_written_as_its_name_says(surface, tmp_path):
     assert header.startswith("force [force],depth [length],stiffness [force/length],status,")
     assert "pressure" not in header
     assert [float(row.split(",")[2]) for row in rows] == curve.stiffness.tolist()
+    for path in (3, None, b"curve.nc"):
+        with pytest.raises(rl.InputError, match="path is "):
+            curve.write(path)
     for name in ("curve.h5", "curve", "curve.txt"):
         with pytest.raises(rl.InputError, match=f'{name} ends in neither ".nc"'):
             curve.write(tmp_path / name)

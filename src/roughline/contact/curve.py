@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
+from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.notebook import described, html_of_curve
 from roughline.contact.quantities import IN_FILES
@@ -85,7 +87,8 @@ class Curve:
     warnings : sequence of str
         What a user of the numbers must know; empty if there is nothing to say.
     fields : sequence of Fields
-        One for each load if asked for, else empty; None for a load that did not converge.
+        One for each load if asked for, else empty; None for a load that did not converge, and for
+        one whose fields were not asked for.
     surface : Surface or None
         The untouched surface; None for a line.
     dents : sequence of Indentation
@@ -170,6 +173,7 @@ class Curve:
         InputError
             If there is no such load, it was not solved, or the body is a line.
         """
+        load = checked_count("load", load)
         if self.surface is None:
             raise InputError("this curve has no surface: the reduced model of a line has no yield")
         count = self.status.size
@@ -192,17 +196,25 @@ class Curve:
 
         The prescribed quantity, force or depth, is the coordinate, so that
         ``curve.to_dataset().stiffness.plot()`` shows stiffness over it. Fields, if they were kept,
-        are included over this coordinate, "x" and "y".
+        are included over this coordinate, "x" and "y". Where they were kept of some loads only,
+        the dimension "field_load" takes its place, with the numbers of these loads from 0:
+        ``data.stiffness[data.field_load]`` are their stiffnesses.
         """
         import xarray  # here because it loads slowly
 
-        variables = {}
+        variables: dict[str, Any] = {}
         for quantity in IN_FILES:
             values = self._values(quantity)
             if values is not None:
                 flags = STATUS_FLAGS if quantity.name == "status" else {}
                 attributes = quantity.attributes(self.unit) | flags
-                variables[quantity.name] = (quantity.dims, values, attributes)
+                dims = quantity.dims
+                if dims != OVER_LOADS and self._fields_are_of_some:
+                    dims = ("field_load", *dims[1:])
+                variables[quantity.name] = (dims, values, attributes)
+        if self._fields_are_of_some:
+            meaning = {"long_name": "number, from 0, of a load whose fields were kept"}
+            variables["field_load"] = ("field_load", self._with_fields, meaning)
         attrs = {
             "E_star": self.E_star,
             "E_star_units": unit_of("pressure", self.unit),
@@ -228,10 +240,22 @@ class Curve:
         kept = [fields for fields in self.fields if fields is not None]
         if not kept:
             return None
-        missing = np.full(kept[0].gap.shape, np.nan)
-        name = quantity.attribute
-        stack = [getattr(fields, name) if fields else missing for fields in self.fields]
-        return np.array(stack, float)
+        values = np.array([getattr(fields, quantity.attribute) for fields in kept], float)
+        if self._fields_are_of_some:
+            return values
+        over_loads = np.full((len(self.fields), *values.shape[1:]), np.nan)
+        over_loads[self._with_fields] = values
+        return over_loads
+
+    @property
+    def _with_fields(self) -> list[int]:
+        """The numbers of the loads whose fields were kept."""
+        return [i for i, fields in enumerate(self.fields) if fields is not None]
+
+    @property
+    def _fields_are_of_some(self) -> bool:
+        """Whether the fields of some solved loads were kept, and of others not."""
+        return 0 < len(self._with_fields) < int(self.converged.sum())
 
     def write(self, path: str | Path) -> None:
         """Write the curve to a file.
@@ -249,6 +273,8 @@ class Curve:
         StoreError
             If the file cannot be written.
         """
+        if not isinstance(path, str | os.PathLike):
+            raise InputError(f'path is {path!r}; a name that ends in ".nc" or ".csv" is needed')
         path = Path(path)
         if path.suffix not in (".nc", ".csv"):
             raise InputError(
@@ -259,10 +285,10 @@ class Curve:
             if path.suffix == ".nc":
                 data.to_netcdf(path, engine="h5netcdf")
                 return
-            over_loads = data.drop_dims(["x", "y"], errors="ignore")
+            over_loads = data.drop_dims(["field_load", "x", "y"], errors="ignore")
             table = over_loads.to_dataframe().reset_index()
             units = {name: over_loads[name].attrs.get("units") for name in table}
             table.columns = [f"{name} [{units[name]}]" if units[name] else name for name in table]
             table.to_csv(path, index=False)
-        except OSError as error:
+        except (OSError, ValueError) as error:
             raise StoreError(f"cannot write {path} ({error}): choose another place") from error

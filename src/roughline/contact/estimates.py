@@ -4,10 +4,18 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from roughline.contact.arguments import (
+    checked_count,
+    checked_flag,
+    checked_shape,
+    checked_share,
+    kept_loads,
+)
 from roughline.contact.loads import Loads
 from roughline.topography.body import Surface
 
@@ -57,7 +65,7 @@ def estimate(
     n_loads: int,
     *,
     periodic: bool = False,
-    fields: bool = False,
+    fields: bool | Sequence[int] = False,
     yielding: bool = False,
     area_fraction: float | None = None,
 ) -> Estimate:
@@ -73,8 +81,9 @@ def estimate(
         Number of loads.
     periodic : bool, optional
         Whether the surface is repeated.
-    fields : bool, optional
-        Whether the fields of every load are kept.
+    fields : bool or sequence of int, optional
+        Whether the fields of every load are kept, or the numbers of the loads whose fields are, as
+        for :func:`press`.
     yielding : bool, optional
         Whether the surface is pressed with a hardness, which takes more memory.
     area_fraction : float, optional
@@ -86,7 +95,31 @@ def estimate(
     -------
     Estimate
         Memory [bytes] and time [s].
+
+    Raises
+    ------
+    InputError
+        If an argument is not what is described here.
     """
+    shape, n_loads = checked_shape(shape), checked_count("n_loads", n_loads, 1)
+    periodic, yielding = checked_flag("periodic", periodic), checked_flag("yielding", yielding)
+    kept = kept_loads(fields, n_loads)
+    if area_fraction is not None:
+        area_fraction = checked_share("area_fraction", area_fraction)
+    memory = memory_for(
+        shape,
+        periodic,
+        len(kept),
+        yielding=yielding,
+        several=n_loads > 1,
+        area_fraction=area_fraction,
+    )
+    seconds = _SECONDS_AT_LEAST + _CONVOLUTIONS * _convolution_seconds(shape, periodic)
+    return Estimate(memory, n_loads * seconds)
+
+
+def _convolution_seconds(shape: tuple[int, int], periodic: bool) -> float:
+    """Return how long a convolution of whole fields takes, from the time of a small one. [s]"""
     # compiled loops load slowly, so only here
     from roughline.halfspace.half_space import HalfSpace
     from roughline.halfspace.operator import displacement_field
@@ -100,16 +133,7 @@ def estimate(
         displacement_field(operator, pressure)
         probes.append(time.perf_counter() - start)
     points = shape[0] * shape[1]
-    growth = points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
-    memory = memory_for(
-        shape,
-        periodic,
-        n_loads if fields else 0,
-        yielding=yielding,
-        several=n_loads > 1,
-        area_fraction=area_fraction,
-    )
-    return Estimate(memory, n_loads * (_SECONDS_AT_LEAST + _CONVOLUTIONS * growth * min(probes)))
+    return min(probes) * points / _PROBE**2 * math.log(points + 1) / math.log(_PROBE**2)
 
 
 def memory_for(

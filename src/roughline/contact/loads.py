@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.contact.arguments import LARGEST, checked_count, checked_values
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.reduction.springs import Springs
@@ -22,6 +24,7 @@ _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision
 _SMALLEST_REACH = 1e-100  # below, squares of pressures leave the range of double precision
 _LARGEST_YIELDING = 0.5  # of the force under which all of the area yields
+_BYTES_PER_LOAD = 1000  # of what a load gives
 _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few points touch early
 
 
@@ -62,7 +65,14 @@ class GivenLoads:
 def line_loads(line: Line, springs: Springs, given: GivenLoads) -> Loads:
     """Return the loads of a line; spaced ones run from ten springs in contact to all of them."""
     if given.n_loads is None:
-        return _checked_loads(given)
+        loads = _checked_loads(given)
+        largest = int(loads.values.argmax())
+        if loads.values[largest] > LARGEST:
+            raise InputError(
+                f"{loads.control}[{largest}] is {loads.values[largest]:g}; at most {LARGEST:g} can "
+                "be computed with: give smaller loads"
+            )
+        return loads
     _refuse_constant(line, given)
     few = min(RESOLVED_FROM, line.heights.size - 1)
     highest_points = int(np.count_nonzero(line.heights == line.heights.max()))
@@ -124,10 +134,7 @@ def _checked_loads(given: GivenLoads) -> Loads:
         count = "no loads" if depths is None else "both depths and forces"
         raise InputError(f"{count} given; give one of depths, forces and n_loads")
     control: Control = "forces" if depths is None else "depths"
-    try:
-        values = np.atleast_1d(np.asarray(forces if depths is None else depths, np.float64))
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{control} are not numbers ({error})") from error
+    values = checked_values(control, forces if depths is None else depths)
     if values.ndim != 1 or values.size == 0:
         raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")
     before_touch = np.maximum.accumulate(np.nan_to_num(values)) <= 0
@@ -147,11 +154,10 @@ def _checked_loads(given: GivenLoads) -> Loads:
 def _spaced_loads(given: GivenLoads, lowest: float, highest: float) -> Loads:
     if given.depths is not None or given.forces is not None:
         raise InputError("n_loads given together with depths or forces; give one of the three")
-    n_loads = given.n_loads
-    if not isinstance(n_loads, int | np.integer) or n_loads < 2:
-        raise InputError(f"n_loads is {n_loads!r}; a whole number of at least 2 is needed")
+    n_loads = checked_count("n_loads", given.n_loads, 2)
+    refuse_beyond_memory(_BYTES_PER_LOAD * n_loads, f"n_loads = {n_loads}", "give fewer loads")
     lowest = min(lowest, _LARGEST_FIRST * highest)
-    return Loads("forces", np.geomspace(lowest, highest, int(n_loads)))
+    return Loads("forces", np.geomspace(lowest, highest, n_loads))
 
 
 def _refuse_constant(body: Body, given: GivenLoads) -> None:

@@ -10,6 +10,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
+from roughline.contact.arguments import (
+    LARGEST,
+    checked_count,
+    checked_flag,
+    checked_number,
+    kept_loads,
+    refuse_mute,
+    refuse_unknown_precision,
+)
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import expected_area_fraction, memory_for
 from roughline.contact.grid_error import refuse_few_points, with_grid_error
@@ -93,25 +102,27 @@ def press(
     Raises
     ------
     InputError
-        If the body, the modulus, the hardness or the loads cannot be used.
+        If the body, the loads or any other argument cannot be used.
     ConvergenceError
         With `throw`, if a load was not solved; it carries the curve.
     Interrupted
         On Ctrl-C between or in the loads of a surface; a KeyboardInterrupt that carries the curve
         of the loads before.
     """
-    _check_number("E_star", E_star, 0, np.inf, "a positive, finite contact modulus")
-    if hardness is not None:
-        _check_hardness(hardness, body)
-        hardness = None if hardness == np.inf else float(hardness)
-    _check_number("rtol", rtol, 1e-12, 1e-1, "a tolerance from 1e-12 to 0.1")
-    _check_number("max_iterations", max_iterations, 0, np.inf, "a positive number")
-    if precision not in ("mixed", "float64", "float32"):
-        raise InputError(
-            f'precision is {precision!r}; allowed are "mixed", "float64" and "float32"'
-        )
+    allowed = "a positive, finite contact modulus from 1e-150 to 1e150"
+    E_star = checked_number("E_star", E_star, allowed, 1 / LARGEST, LARGEST)
+    hardness = _checked_hardness(hardness, body)
+    rtol = checked_number("rtol", rtol, "a tolerance from 1e-12 to 0.1", 1e-12, 0.1)
+    max_iterations = checked_count("max_iterations", max_iterations, 1)
+    periodic, grid_error = (
+        checked_flag("periodic", periodic),
+        checked_flag("grid_error", grid_error),
+    )
+    throw = checked_flag("throw", throw)
+    refuse_unknown_precision(precision)
+    refuse_mute(progress)
     if isinstance(body, Line):
-        if periodic or fields or grid_error:
+        if periodic or grid_error or fields is not False:
             raise InputError(
                 "periodic, fields and grid_error belong to the full model; the reduced model of a "
                 "Line has none of these: leave them out, or press a Surface"
@@ -132,20 +143,15 @@ def press(
         single=precision == "float32",
         hardness=hardness,
     )
-    kept = _kept_loads(fields, loads.values.size)
-    refuse_beyond_memory(
-        _memory_for(body, E_star, loads, hardness, periodic, len(kept)),
-        f"pressing {body.shape[0]} x {body.shape[1]} points"
-        + (f" and keeping the fields of {len(kept)} loads" if kept else ""),
-        "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
-    )
+    kept = kept_loads(fields, loads.values.size)
+    _refuse_beyond_memory(body, E_star, loads, hardness, periodic, len(kept))
     if grid_error:
         refuse_few_points(body)
     # imported here because compiled loops load slowly
     from roughline.contact.full import press_surface
     from roughline.halfspace.state import Method
 
-    method = Method(rtol, int(max_iterations), precision)
+    method = Method(rtol, max_iterations, precision)
     pressed = partial(
         press_surface,
         E_star=E_star,
@@ -167,65 +173,49 @@ def press(
     return curve
 
 
-def _memory_for(
+def _refuse_beyond_memory(
     surface: Surface,
     E_star: float,
     loads: Loads,
     hardness: float | None,
     periodic: bool,
-    kept_fields: int,
-) -> int:
-    """Return the memory that the loads take; full contact is supposed where that fits."""
+    kept: int,
+) -> None:
+    """Refuse loads that memory cannot hold; full contact is supposed where that fits."""
     memory = partial(
         memory_for,
         surface.shape,
         periodic,
-        kept_fields,
+        kept,
         yielding=hardness is not None,
         several=loads.values.size > 1,
     )
-    most = memory(area_fraction=1.0)
-    if fits_into_memory(most):
-        return most
+    if fits_into_memory(memory(area_fraction=1.0)):
+        return
     share = expected_area_fraction(surface, E_star, loads, hardness, periodic=periodic)
-    return memory(area_fraction=share)
+    refuse_beyond_memory(
+        memory(area_fraction=share),
+        f"pressing {surface.shape[0]} x {surface.shape[1]} points"
+        + (f" and keeping the fields of {kept} loads" if kept else ""),
+        "take a smaller piece or every other point" + (", or keep fewer fields" if kept else ""),
+    )
 
 
-def _kept_loads(fields: bool | Sequence[int], count: int) -> frozenset[int]:
-    """Return the numbers of the loads whose fields are kept."""
-    if isinstance(fields, bool):
-        return frozenset(range(count)) if fields else frozenset()
-    if not all(isinstance(i, int | np.integer) and 0 <= i < count for i in fields):
-        raise InputError(
-            f"fields is {fields!r}; give True, False, or numbers of loads, 0 to {count - 1}"
-        )
-    return frozenset(int(i) for i in fields)
-
-
-def _check_number(name: str, value: float, low: float, high: float, allowed: str) -> None:
-    try:
-        usable = low <= value <= high and 0 < value < np.inf
-    except TypeError:
-        usable = False
-    if not usable:
-        raise InputError(f"{name} is {value!r}; {allowed} is needed")
-
-
-def _check_hardness(hardness: float, body: Body) -> None:
-    try:
-        usable = hardness > 0
-    except TypeError:
-        usable = False
-    if not usable:
-        raise InputError(
-            f"hardness is {hardness!r}; a positive pressure is needed, or none for elastic bodies"
-        )
-    if isinstance(body, Line) and hardness < np.inf:
+def _checked_hardness(hardness: float | None, body: Body) -> float | None:
+    """Return the hardness; None if it is infinite, as bodies are elastic then."""
+    if hardness is None:
+        return None
+    allowed = "a positive pressure, or none for elastic bodies,"
+    hardness = checked_number("hardness", hardness, allowed, most=np.inf)
+    if hardness == np.inf:
+        return None
+    if isinstance(body, Line):
         raise InputError(
             "hardness belongs to the full model; the reduced model of a Line has no yield: leave "
             "it out, and trust the line only while mean contact pressures stay below about 0.4 "
             "of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
         )
+    return hardness
 
 
 def _failure_message(curve: Curve) -> str:
