@@ -134,6 +134,11 @@ def read_groups(path: Path, plan: Plan) -> dict[str, xarray.Dataset]:
     return {name: _in_double(data) for name, data in read.items()}
 
 
+def version_of(data: Iterable[xarray.Dataset]) -> str:
+    """Return the version of roughline that computed some data; "a and b" if they were several."""
+    return " and ".join(sorted({each.attrs["roughline_version"] for each in data}))
+
+
 def write_one(path: Path, plan: dict[str, Any], data: xarray.Dataset) -> None:
     """Write data that are no ensembles, with the plan that they are made from."""
     unwritten = path.with_suffix(".part")

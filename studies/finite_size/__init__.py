@@ -1,1 +1,1 @@
-"""The study of finite size: where the power law ends and the linear law begins."""
+"""The study of finite size: where the power law ends, and whether a linear law follows."""

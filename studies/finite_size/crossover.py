@@ -1,4 +1,4 @@
-"""From a power law to the linear law: local exponents, the loads between, and gamma."""
+"""From a power law to proportionality: local exponents, the loads that they pass, and gamma."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from roughline.statistics.power_law import line_weights
 LINEAR = 1.0
 """Exponent of the linear law."""
 BETWEEN_THEM = 0.9
-"""Exponent between the two laws, as it is found on surfaces of many waves."""
+"""Exponent beyond the power law, as it is found on surfaces of many waves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +118,7 @@ def passing(exponents: LocalExponents, threshold: float) -> Passing:
 
 @dataclass(frozen=True)
 class CrossOver:
-    """What a sample says of the way from the power law to the linear law.
+    """What a sample says of the way from the power law to an exponent of 1.
 
     Attributes
     ----------
@@ -143,9 +143,9 @@ class CrossOver:
 
 
 def cross_over(force: Real, stiffness: Real, hurst: float, confidence: float = 0.95) -> CrossOver:
-    """Return where the power law ends, where the linear law begins, and gamma.
+    """Return where the power law ends, where the exponent nears 1, and gamma.
 
-    Loads beyond that of the largest F / k are not used for the laws' ends: there the surface nears
+    Loads beyond that of the largest F / k are not used for these places: there the surface nears
     full contact, and the exponent exceeds 1.
     """
     compliance = force / stiffness.mean(axis=0)

@@ -1,4 +1,4 @@
-"""What the study finds: where the power law ends, where the linear law begins, and in between."""
+"""What the study finds: where the power law ends, and how the stiffness goes on from there."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ MANY = 8
 SINGLE = (0.006, 0.06)
 """F / (E* h lambda_r) of the power law of a single wave."""
 BETWEEN = (0.5, 5.0)
-"""F / (E* h lambda_r) between the two laws."""
+"""F / (E* h lambda_r) between the power law and the load at which the exponent nears 1."""
 GAMMAS = (0.4, 0.5)
 DECADE = 1.0
 NEAR = 0.2
@@ -158,13 +158,13 @@ def _gamma() -> Finding:
 
 
 def _between() -> Finding:
-    """Judge the exponent between the two laws."""
+    """Judge the exponent beyond the power law."""
     cases = _many()
     level = confidence_of_each(len(cases))
     found = {name: exponent_in(one, BETWEEN, level) for name, one in cases.items()}
     parts = {name: judged_near(found[name], BETWEEN_THEM, one.count) for name, one in cases.items()}
     return range_of_cases(
-        f"With {MANY} waves or more, k ~ F^{BETWEEN_THEM:g} between the two laws (here), to "
+        f"With {MANY} waves or more, k ~ F^{BETWEEN_THEM:g} beyond the power law (here), to "
         f"±{EXPONENT_TOLERANCE:g}",
         f"exponent from F/(E* h λ_r) = {BETWEEN[0]:g} to {BETWEEN[1]:g}",
         list(found.values()),

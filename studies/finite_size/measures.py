@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
@@ -13,7 +14,10 @@ from roughline.statistics.averages import average, relative_difference
 from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
 from roughline.statistics.power_law import exponent_weights
 from studies.finite_size.crossover import LINEAR, CrossOver, cross_over, local_exponents
-from studies.finite_size.samples import BAND, Geometry, Sample, persson, sample
+from studies.finite_size.samples import BAND, HURSTS, SIZES, Geometry, Sample, persson, sample
+
+SEVERAL = tuple(size for size in SIZES[BAND] if size >= 4)
+"""Roll-off waves along a side from which on the size hardly matters where the exponent nears 1."""
 
 
 @cache
@@ -50,6 +54,41 @@ def decades_of_linear_law(one: Sample, confidence: float = 0.95) -> tuple[float,
     sure = np.count_nonzero((local.low >= low) & (local.high <= high))
     perhaps = np.count_nonzero((local.high >= low) & (local.low <= high))
     return sure * step, perhaps * step
+
+
+def pressures_near_one(band: int, sizes: Sequence[int], hurst: float | None = None) -> list[float]:
+    """Return P lambda_r / (E* h) from which on the exponent of periodic surfaces is near 1.
+
+    Of one Hurst exponent, or of all. Surfaces whose loads do not show it are left out.
+    """
+    found = [
+        crossing("periodic", band, size, each).reaches.force.value / size**2
+        for size in sizes
+        for each in (HURSTS if hurst is None else (hurst,))
+    ]
+    return [each for each in found if not math.isnan(each)]
+
+
+def most_by_size() -> float:
+    """Return by how much those pressures differ at most between sizes of several waves."""
+    by_hurst = [pressures_near_one(BAND, SEVERAL, hurst) for hurst in HURSTS]
+    return max(max(each) / min(each) - 1 for each in by_hurst)
+
+
+def exponents_beside_gamma() -> list[tuple[float, float]]:
+    """Return the exponents of periodic surfaces one load before that of gamma, and one after it.
+
+    Cases whose loads do not go on that far are left out.
+    """
+    found = []
+    for size in SIZES[BAND]:
+        for hurst in HURSTS:
+            one = sample("periodic", BAND, size, hurst)
+            local = local_exponents(one.force, one.stiffness)
+            top = int(np.argmax(one.gamma)) - 1  # local exponents begin at the second load
+            if top + 1 < local.value.size:
+                found.append((float(local.value[top - 1]), float(local.value[top + 1])))
+    return found
 
 
 def over_persson(one: Sample, decades_below: float, confidence: float = 0.95) -> IntervalEstimate:

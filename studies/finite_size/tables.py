@@ -32,8 +32,8 @@ def crossing_table(geometry: Geometry, band: int) -> Table:
         "half way, F/(E* h λ_r)",
         "half way, F/(E* h L)",
         "between",
-        "begin, F/(E* h λ_r)",
-        "begin, p λ_r/(E* h)",
+        "near 1, F/(E* h λ_r)",
+        "near 1, p λ_r/(E* h)",
         "γ",
         "p λ_r/(E* h) there",
     )
