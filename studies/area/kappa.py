@@ -88,7 +88,7 @@ def plan() -> campaign.Plan:
 def sample(kind: str, band: int, hurst: float) -> Sample:
     """Return the surfaces of one spectrum."""
     name = f"{kind}-{band}-{3 - hurst:g}"
-    ensemble, data = plan().ensemble(name), _data()[name].isel(fractal_dimension=0)
+    ensemble, one = plan().ensemble(name), data()[name].isel(fractal_dimension=0)
     lattice = ensemble.spectrum(3 - hurst).lattice(ensemble.n)
     height, slope, curvature = (lattice.moment(order) for order in (0, 2, 4))
     return Sample(
@@ -97,20 +97,21 @@ def sample(kind: str, band: int, hurst: float) -> Sample:
         hurst=hurst,
         # of a profile of an isotropic surface: m_2 = <|grad h|²> / 2, m_4 = 3 <(laplacian h)²> / 8
         nayak=1.5 * height * curvature / slope**2,
-        pressure=data.force_bar.values / math.sqrt(slope),
-        area=data.area_fraction_corrected.values,
-        cells=data.area_fraction.values,
+        pressure=one.force_bar.values / math.sqrt(slope),
+        area=one.area_fraction_corrected.values,
+        cells=one.area_fraction.values,
     )
 
 
 @cache
-def _data() -> dict[str, xarray.Dataset]:
+def data() -> dict[str, xarray.Dataset]:
+    """Return the data of the study, by the name of the ensemble."""
     return read_groups(DATA, plan())
 
 
 def unsolved_loads() -> tuple[int, int]:
     """Return how many loads of all surfaces have no certified solution, and how many there are."""
-    status = [data.status.values for data in _data().values()]
+    status = [each.status.values for each in data().values()]
     return sum(int((each != 0).sum()) for each in status), sum(each.size for each in status)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from roughline._version import __version__
 from roughline.report.page import Section, Table, render_markdown
 from roughline.statistics.bootstrap import IntervalEstimate
 from studies.area.findings import (
@@ -20,6 +19,7 @@ from studies.area.kappa import (
     HURSTS,
     LARGE_BANDS,
     Sample,
+    data,
     grid_shift,
     kappa,
     kappa_in_cells,
@@ -28,6 +28,7 @@ from studies.area.kappa import (
     unsolved_loads,
 )
 from studies.judged import findings_table
+from studies.reduced_data import version_of
 
 TITLE = "How large is the real contact area?"
 FOLDER = "figures/area"
@@ -241,8 +242,8 @@ def _repeat() -> Section:
             "The plan, the reduction and the data lie in `studies/area`: areas and statuses of "
             "every surface and load as NetCDF, in single precision. Surface i has the seed "
             "`SeedSequence(2017, spawn_key=(i,))`. `make area` computes everything again, in less "
-            "than an hour on two cores, and goes on where it stopped. Made with roughline "
-            f"{__version__}.",
+            "than an hour on two cores, and goes on where it stopped. The data were "
+            f"computed with roughline {version_of(data().values())}.",
         ],
     )
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from roughline._version import __version__
+from roughline.paper.results import published_dataset
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.paper.windows import Window
 from roughline.report.page import Section, Table, render_markdown
@@ -26,6 +26,7 @@ from studies.averaging.exponents import (
     windows,
 )
 from studies.judged import number_in_words
+from studies.reduced_data import version_of
 
 TITLE = "Which exponent? Averages and windows"
 FOLDER = "figures/averaging"
@@ -258,12 +259,13 @@ def _window(window: Window) -> str:
 
 
 def _repeat() -> Section:
+    version = version_of(map(published_dataset, BODIES))
     return Section(
         "Data, and how to repeat",
         [
             "The plan, the reduction and the exponents lie in `studies/averaging`; the surfaces "
             "and lines come with the package (`studies/paper`). `make averaging` fits everything "
-            f"again in a minute. Made with roughline {__version__}.",
+            f"again in a minute. The bodies were computed with roughline {version}.",
         ],
     )
 

@@ -163,6 +163,11 @@ def data() -> Mapping[str, NDArray[Any]]:
         return dict(arrays)
 
 
+def version() -> str:
+    """Return the version of roughline that computed the data."""
+    return str(data()["roughline_version"])
+
+
 def name_of(prefix: str, hardness_bar: float) -> str:
     """Return the name of an ensemble."""
     return f"{prefix}-elastic" if hardness_bar == ELASTIC else f"{prefix}-hardness{hardness_bar:g}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from roughline._version import __version__
 from roughline.report.page import Section, render_markdown
 from studies.correlations.conductance import (
     BANDS,
@@ -13,6 +12,7 @@ from studies.correlations.conductance import (
     PRESSURES,
     WINDOW,
     plan,
+    version,
 )
 from studies.correlations.correlation_claims import EXPONENT_TOLERANCE, MIXED, claims, claims_table
 from studies.correlations.correlation_dependences import dependences
@@ -218,7 +218,7 @@ def _methods_section() -> Section:
         ],
         tables=[ensembles_table()],
         note=(
-            f"To repeat: `make correlations` (version {__version__}), about "
+            f"To repeat: `make correlations` (these data: version {version()}), about "
             f"{core_seconds() / 60:.0f} min on one core, during other work; it can be interrupted, "
             f"and goes on. Surface i has the seed SeedSequence({seed}, spawn_key=(i,))."
         ),

@@ -16,7 +16,7 @@ from roughline import campaign
 from roughline.campaign.batch import evaluate_case
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from studies.reduced_data import finished, run
+from studies.reduced_data import finished, run, version_of
 
 HERE = Path(__file__).parent
 DATA = HERE / "data.npz"
@@ -39,6 +39,8 @@ def main(path: Path) -> None:
         arrays[f"{name}/rms_slope"] = data.rms_slope.values
         arrays[f"{name}/core_seconds"] = np.array(seconds_of(ensemble))
     arrays |= {f"heights/{name}": values for name, values in heights_of(plan.ensembles[0]).items()}
+    versions = version_of(store.dataset(each.name) for each in plan.ensembles)
+    arrays["roughline_version"] = np.array(versions)
     np.savez_compressed(DATA, **arrays)  # type: ignore[arg-type]
 
 

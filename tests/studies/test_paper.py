@@ -1,6 +1,8 @@
 """The paper's study: its data are those of its plan, and of the library."""
 
 import math
+import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,9 +12,13 @@ from roughline import campaign
 from roughline.paper.exponents import exponent_estimate
 from roughline.paper.results import published_dataset, published_results
 from roughline.paper.windows import WINDOW_FULL
+from studies.area.kappa import data as area
+from studies.correlations.conductance import version as version_of_correlations
+from studies.finite_size.samples import data as finite_size
 from studies.paper import publish
 from studies.paper.publish import ENSEMBLES, PLAN, refuse_another_plan
 from studies.paper.reduce import computing_of
+from studies.reduced_data import version_of
 
 
 def test_the_data_are_those_of_the_plan():
@@ -23,6 +29,30 @@ def test_the_data_are_those_of_the_plan():
         assert data.sizes["realisation"] == ensemble.realisations
         assert set(data.fractal_dimension.values) <= set(ensemble.fractal_dimensions)
         assert not data.status.values.any()  # no load is left out
+
+
+def test_pages_name_the_version_of_the_data_and_not_that_of_the_program():
+    """Whatever the program's own version is by now."""
+    root = PLAN.parents[2]
+    computed = published_results().version
+    versions = {
+        "docs/paper.md": f"recomputed with roughline {computed} ",
+        "studies/paper/README.md": f"roughline {computed} from the plan",
+        "docs/area.md": f"computed with roughline {version_of(area().values())}.",
+        "docs/finite_size.md": f"computed with roughline {version_of(finite_size().values())}.",
+        "docs/averaging.md": f"computed with roughline {computed}.",
+        "docs/correlations.md": f"(these data: version {version_of_correlations()})",
+    }
+    for page, said in versions.items():
+        text = " ".join((root / page).read_text(encoding="utf-8").split())
+        assert said in text, page
+        assert len(set(re.findall(r"roughline (\d+\.\d+\.\d+)", text))) <= 1, page
+
+
+def test_ensembles_of_several_versions_are_named_with_all_of_them():
+    results = published_results()
+    newer = replace(results, full=results.full.assign_attrs(roughline_version="9.8.7"))
+    assert newer.version == f"{results.version} and 9.8.7"
 
 
 def test_a_plan_that_was_changed_is_refused_with_the_difference(tmp_path, monkeypatch):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughline._version import __version__
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.pictures import draw_pictures
 from roughline.paper.sensitivity import sensitivities
@@ -60,8 +59,8 @@ def compose(results: PaperResults, out: Path) -> tuple[str, str, list[Section]]:
     title = "The paper, recomputed: reduction method and 3D boundary elements"
     lead = (
         f"Normal contact of fractal rough surfaces in two models, recomputed with roughline "
-        f"{__version__} {results.name}. The paper is R. Pohrt and V. L. Popov, Investigation of "
-        "the dry normal contact between fractal rough surfaces using the reduction method, "
+        f"{results.version} {results.name}. The paper is R. Pohrt and V. L. Popov, Investigation "
+        "of the dry normal contact between fractal rough surfaces using the reduction method, "
         "comparison to 3D simulations, Physical Mesomechanics 15 (2012)."
     )
     sections = [
@@ -160,7 +159,7 @@ def _methods_section(results: PaperResults) -> Section:
         ],
         tables=[settings_table(results)],
         note=(
-            f"To repeat: {results.command} (version {__version__}). "
+            f"To repeat: {results.command} (these data: version {results.version}). "
             "The numbers behind every figure are in the folder data, as NetCDF and CSV."
         ),
     )

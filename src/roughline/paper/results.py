@@ -91,6 +91,12 @@ class PaperResults:
     other_grid: xarray.Dataset | None = None
     computing: Computing | None = None
 
+    @property
+    def version(self) -> str:
+        """Version of roughline that computed the bodies; "a and b" if they were several."""
+        ensembles = (self.reduced, self.full, self.matched)
+        return " and ".join(sorted({each.attrs["roughline_version"] for each in ensembles}))
+
     @cached_property
     def laws(self) -> list[DimensionLaws]:
         """Laws of stiffness and contact area, for each fractal dimension of the surfaces."""
