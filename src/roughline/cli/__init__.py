@@ -20,9 +20,13 @@ from roughline.cli.lab import lab
 from roughline.cli.topography import generate, info
 from roughline.errors import ConvergenceError, RoughlineError
 
+NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered.md"
+"""The page on what the program does not do."""
+
 app = typer.Typer(
     name="roughline",
     help="The contact laboratory for rough surfaces.",
+    epilog=f"What it does not do, and what to use: {NOT_OFFERED}",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode="markdown",
