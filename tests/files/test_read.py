@@ -9,6 +9,8 @@ import pytest
 import xarray
 
 import roughline as rl
+from roughline.assessment.description import describe
+from roughline.assessment.source import topographies
 from roughline.files.read import measurement, suspicions
 from roughline.topography.missing import Missing
 from roughline.topography.preparation import prepared
@@ -219,3 +221,73 @@ def test_large_maps_open_without_further_copies(tmp_path, kind, trend, copies):
     assert surface.heights == pytest.approx(plain, abs=1e-18)
     assert held < 1.1 * heights.nbytes
     assert peak < (copies + 0.5) * heights.nbytes
+
+
+@pytest.fixture
+def half_known(tmp_path):
+    """A map whose right half was not measured, with two more holes in the left one."""
+    heights = SPECTRUM.surface(64, 7).heights + 1e-5 * np.linspace(0, 1, 64)
+    heights[32:] = np.nan
+    heights[4:6, 7] = np.nan
+    path = tmp_path / "half.npy"
+    np.save(path, heights)
+    return path, heights
+
+
+def test_missing_points_outside_a_crop_do_not_count(half_known):
+    path, heights = half_known
+    stated = {"unit": "m", "sizes": 1e-3}
+    with pytest.raises(rl.InputError, match=r"half.npy has 2050 .* to where points .* \(crop=\)"):
+        rl.read(path, **stated)
+    with pytest.raises(rl.InputError, match="the piece of half.npy has 162 missing points of 1440"):
+        rl.read(path, **stated, crop=(0, 36e-3 / 64, 0, 40e-3 / 64), most_missing=0.01)
+    crop = (0, 5e-4, 0, 1e-3)
+    piece = rl.read(path, **stated, crop=crop)
+    np.save(path.with_name("left.npy"), heights[:32])
+    alone = rl.read(path.with_name("left.npy"), unit="m", sizes=(5e-4, 1e-3))
+    assert (piece.heights == alone.heights).all()  # nothing outside fills the piece
+    assert piece.sizes == alone.sizes
+    assert piece.settings["missing_points"] == 2
+    assert piece.settings["cropped"] == "x 0:32, y 0:64"
+    preparation = rl.Preparation(crop=crop)
+    question = rl.Question(
+        path,
+        E_star=1e9,
+        loads=1,
+        reading=rl.Reading(unit="m", sizes=1e-3),
+        preparation=preparation,
+    )
+    (part,) = topographies(question)
+    assert (part.body.heights == piece.heights).all()
+    assert part.body.settings["missing_points"] == 2
+    described = describe(path, question.reading, preparation)
+    assert (described.missing.count, described.body.settings["missing_points"]) == (2, 2)
+
+
+def test_a_piece_that_is_read_is_the_piece_of_what_is_read(tmp_path):
+    """Whole maps and lines, even and uneven: cropped before or after, the heights are the same."""
+    body = replace(SPECTRUM.surface(48, 7).detrended(), unit="m")
+    rl.write(body, tmp_path / "map.nc")
+    crop = (1e-4, 6e-4, 0, 1e-3)
+    read = rl.read(tmp_path / "map.nc", crop=crop)
+    assert read.heights == pytest.approx(
+        prepared(body, rl.Preparation(crop=crop)).heights, abs=1e-18
+    )
+    assert (read.is_cut_out, read.removed_trend) == (True, "tilt")
+    x = np.cumsum(np.random.default_rng(0).uniform(1, 2, 80))
+    np.savetxt(tmp_path / "scan.txt", np.stack([x, np.sin(x / 9)], axis=1), fmt="%.17g")
+    whole = rl.read(tmp_path / "scan.txt", "um", trend="none")
+    piece = rl.read(tmp_path / "scan.txt", "um", trend="none", crop=(20e-6, 70e-6))
+    assert whole.heights.size > piece.heights.size > 25
+    assert piece.length == pytest.approx(50e-6, abs=4e-6)
+    assert piece.heights.max() == pytest.approx(1e-6, abs=1e-8)
+    for crop, message in (((0, 1e-3), "not within"), ((0, 1e-6), "keeps 1 points; take more")):
+        with pytest.raises(rl.InputError, match=message):
+            rl.read(tmp_path / "scan.txt", "um", crop=crop)
+
+
+def test_a_piece_of_a_filled_body_does_not_count_the_points_of_the_whole(half_known):
+    whole = rl.read(half_known[0], unit="m", sizes=1e-3, most_missing=0.9)
+    piece = prepared(whole, rl.Preparation(crop=(0, 5e-4, 0, 1e-3)))
+    assert "missing_points" not in piece.settings
+    assert piece.settings["filled_before_crop"] == 2050

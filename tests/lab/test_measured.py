@@ -410,6 +410,25 @@ def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
     )
 
 
+def test_a_crop_to_where_points_are_known_opens_a_file_that_is_refused_whole(page, tmp_path):
+    heights = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(64, 7).heights.copy()
+    heights[32:] = heights[3, 4] = np.nan
+    np.save(tmp_path / "half.npy", heights)
+    said = {**page.bring(tmp_path / "half.npy"), "unit": "m", "size": "1 mm"}
+    header, _ = page.ask("look", said)
+    assert "2049 missing points" in header["obstacles"][0]
+    for crop, points, missing in (
+        ("0 um, 500 um, 0 um, 1 mm", (32, 64), 1),
+        ("250 um, 500 um, 0 um, 1 mm", (16, 64), 0),
+    ):
+        header, _ = page.ask("prepare", {**said, "crop": crop})
+        assert header["obstacles"] == []
+        assert tuple(header["body"]["points"]) == points
+        assert header["missing"] == missing
+        filled = [remark for remark in header["remarks"] if "filled" in remark]
+        assert filled == ["1 missing points (0.05%) filled: harmonic"] * missing
+
+
 def test_a_contact_modulus_alone_gives_a_curve(page):
     said = {"example": "film", **SMALL, "bodies": "modulus", "E": "110 GPa"}
     header, _ = page.ask("answer", said)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from roughline.assessment.notes import filled_points_and_spikes
 from roughline.assessment.reading import Reading
-from roughline.assessment.source import measured_body
+from roughline.assessment.source import measured_body, of_piece
 from roughline.errors import InputError
 from roughline.files.measurement import Measurement
 from roughline.files.read import measurement, suspicions
@@ -30,8 +30,10 @@ class Description:
         Unit of its lengths, if the caller gave one.
     measurement : Measurement
         What the file holds.
+    piece : Measurement
+        What is left of it after a crop.
     missing : MissingPattern
-        Where points are missing in the file.
+        Where points are missing in the piece.
     obstacles : sequence of str
         Why it cannot be pressed as it is; empty if it can.
     body : Surface or Line or None
@@ -45,6 +47,7 @@ class Description:
     file: Path
     unit: str | None
     measurement: Measurement
+    piece: Measurement
     missing: MissingPattern
     obstacles: Sequence[str]
     body: Body | None = None
@@ -85,7 +88,7 @@ def describe_measurement(
     reading: Reading,
     preparation: Preparation | None = None,
     *,
-    body_of: Callable[[], Body] | None = None,
+    body_of: Callable[[Measurement, Reading, Preparation | None], Body] = measured_body,
 ) -> Description:
     """Prepare what a file holds, once it is read, and describe it.
 
@@ -98,26 +101,26 @@ def describe_measurement(
     reading, preparation
         As for :func:`describe`.
     body_of : callable, optional
-        Returns the body as it was read, before its preparation, if the caller has kept it.
+        As :func:`roughline.assessment.source.measured_body`, for a caller that keeps bodies.
 
     Raises
     ------
     InputError
         If what is asked for does not suit it.
     """
-    missing = missing_pattern(content.unknown, content.sizes)
+    piece, obstacles = content, content.scale_obstacles(reading.unit, reading.sizes)
+    if not obstacles:
+        piece, reading, preparation = of_piece(content, reading, preparation)
     filling = Missing(reading.missing, reading.most_missing)
-    obstacles = [str(each) for each in content.obstacles(reading.unit, reading.sizes, filling)]
+    obstacles = piece.obstacles(reading.unit, reading.sizes, filling)
+    missing = missing_pattern(piece.unknown, piece.sizes)
+    found = Description(file, reading.unit, content, piece, missing, list(map(str, obstacles)))
     if obstacles:
-        return Description(file, reading.unit, content, missing, obstacles)
-    if body_of is None:
-        read = measured_body(content, reading, preparation, in_place=False)
-    else:
-        read = body_of()
-    body = prepared(read, preparation)
+        return found
+    body = prepared(body_of(piece, reading, preparation), preparation)
     notes, parameters = suspicions(body) + filled_points_and_spikes(body), None
     try:
         parameters = roughness(body)
     except InputError as error:  # a reduced line is no topography
         notes.append(str(error))
-    return Description(file, reading.unit, content, missing, obstacles, body, parameters, notes)
+    return replace(found, body=body, roughness=parameters, notes=notes)

@@ -48,6 +48,11 @@ def filled_points_and_spikes(body: Body) -> list[str]:
     if body.settings.get("missing_points"):
         count, share = body.settings["missing_points"], float(body.settings["missing_share"])
         notes.append(f"{count} missing points ({share:.2%}) filled: {body.settings['filled']}")
+    if body.settings.get("filled_before_crop"):
+        notes.append(
+            f"{body.settings['filled_before_crop']} missing points had been filled before this "
+            "piece was cropped, and it is not known how many of them are in it"
+        )
     if body.settings.get("outliers_kept"):
         notes.append(
             f"{body.settings['outliers_kept']} spikes kept; the highest point decides the depth of "

@@ -32,11 +32,12 @@ class Topography:
     file : Path or None
         Where it is from; None for a body that was given.
     measurement : Measurement or None
-        What the file holds, its missing points marked; None where none were missing.
+        What the file holds, or the piece of it that is read, its missing points marked; None where
+        none were missing.
     reading : Reading
-        How the file was read.
+        How it was read.
     preparation : Preparation or None
-        What was done to the body.
+        What was done to the body after it was read.
     """
 
     body: Body
@@ -59,6 +60,7 @@ class Topography:
         if isinstance(given, Surface | Line):
             return cls(prepared(given, preparation), None, None, reading, preparation)
         content = measurement(given, reading.channel, reading.name)
+        content, reading, preparation = of_piece(content, reading, preparation)
         kept = content if not content.by_roughline and content.unknown.any() else None
         body = measured_body(content, reading, preparation, in_place=kept is None)
         return cls(prepared(body, preparation), given, kept, reading, preparation)
@@ -66,34 +68,53 @@ class Topography:
     @property
     def is_filled(self) -> bool:
         """Whether points were missing and have been filled."""
-        return bool(self.body.settings.get("missing_points"))
+        settings = self.body.settings
+        return bool(settings.get("missing_points") or settings.get("filled_before_crop"))
 
     def filled_by(self, method: Filling) -> Body:
         """The body with its missing points filled by a method; itself where they are not known."""
         if self.measurement is None:
             return self.body
         reading = replace(self.reading, missing=method)
-        body = measured_body(self.measurement, reading, self.preparation, in_place=False)
+        body = measured_body(self.measurement, reading, self.preparation)
         return prepared(body, self.preparation)
 
     @cached_property
     def filled_region(self) -> Surface | None:
         """Where points were filled: 1 there, 0 elsewhere; None where that is not known.
 
-        It is cropped like the body, and has the points of its file.
+        It has the points of the file, or of the piece of it that is read.
         """
         if self.measurement is None or self.measurement.kind != "surface":
             return None
         marked = replace(self.measurement, heights=self.measurement.unknown.astype(np.float64))
         marks = marked.body(self.reading.unit, self.reading.sizes, Missing(), "none")
         assert isinstance(marks, Surface)
-        crop = self.preparation.crop if self.preparation else None
-        cropped = Preparation(crop=crop, trend="none").applied(marks)
-        return replace(cropped, heights=np.sign(cropped.heights))
+        return replace(marks, heights=np.sign(marks.heights))
+
+
+def of_piece(
+    content: Measurement, reading: Reading, preparation: Preparation | None
+) -> tuple[Measurement, Reading, Preparation | None]:
+    """Crop what a file holds before anything is filled; return how to read and prepare the rest.
+
+    Raises
+    ------
+    InputError
+        If the crop does not suit the file, or its unit or sizes are not known.
+    """
+    if preparation is None or preparation.crop is None:
+        return content, reading, preparation
+    piece = content.piece(preparation.crop, reading.unit, reading.sizes)
+    return piece, replace(reading, sizes=None), replace(preparation, crop=None)
 
 
 def measured_body(
-    content: Measurement, reading: Reading, preparation: Preparation | None, *, in_place: bool
+    content: Measurement,
+    reading: Reading,
+    preparation: Preparation | None,
+    *,
+    in_place: bool = False,
 ) -> Body:
     """The body that a file holds; its trend is left to the preparation if that names one.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -11,8 +11,9 @@ from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.files.scale import Scale, Sizes
 from roughline.topography.body import Body, Line, Surface
+from roughline.topography.crop import Crop, points_between, points_in, settings_of_piece
 from roughline.topography.missing import Missing
-from roughline.topography.settings import AS_RECORDED, Settings
+from roughline.topography.settings import AS_RECORDED, Settings, checked_trend
 from roughline.topography.trend import Trend, remove_trend
 
 
@@ -44,6 +45,8 @@ class Measurement:
         Where the heights come from.
     is_cut_out, removed_trend
         As for :class:`roughline.Surface`, where the file states them.
+    is_piece : bool
+        Whether it is a piece of what the file holds.
     """
 
     file: str
@@ -58,11 +61,55 @@ class Measurement:
     settings: Settings = field(default_factory=dict)
     is_cut_out: bool = AS_RECORDED
     removed_trend: Trend = AS_RECORDED
+    is_piece: bool = False
 
     @property
     def unknown(self) -> Mask:
         """Which points are missing."""
         return np.ma.getmaskarray(self.heights) | ~np.isfinite(np.ma.getdata(self.heights))
+
+    def piece(self, crop: Crop, unit: str | None, sizes: Sizes | None) -> Measurement:
+        """Return a piece, with its own sizes, in which missing points are still missing.
+
+        What is missing elsewhere does not count, and the heights elsewhere fill nothing in it.
+
+        Parameters
+        ----------
+        crop : tuple of float
+            As for :class:`roughline.Preparation`. [m]
+        unit, sizes
+            As for :meth:`body`.
+
+        Raises
+        ------
+        InputError
+            If the crop does not suit the measurement, or its unit or sizes are not known.
+        """
+        scale = self._scale(unit, sizes)
+        for obstacle in scale.obstacles():
+            raise obstacle
+        if self.positions is None:
+            kept = points_in(crop, scale.sides, self.heights.shape)
+        else:
+            kept = points_between(crop, scale.metres * (self.positions - self.positions[0]))
+        positions = None if self.positions is None else self.positions[kept]
+        lengths = (
+            [
+                side * (each.stop - each.start) / n
+                for side, each, n in zip(scale.sides, kept, self.heights.shape, strict=True)
+            ]
+            if positions is None
+            else [scale.metres * (positions[-1] - positions[0])]
+        )
+        return replace(
+            self,
+            heights=self.heights[kept].copy(order="K"),  # so that the whole can go
+            sizes=tuple(length / scale.metres for length in lengths),
+            positions=positions,
+            settings=settings_of_piece(self.settings, kept),
+            is_cut_out=True,
+            is_piece=True,
+        )
 
     def obstacles(
         self, unit: str | None, sizes: Sizes | None, missing: Missing
@@ -80,6 +127,10 @@ class Measurement:
             If the caller gives what the file states too, or a unit that is not one of length.
         """
         return self._obstacles(self._scale(unit, sizes), missing)
+
+    def scale_obstacles(self, unit: str | None, sizes: Sizes | None) -> list[InputError]:
+        """List what is still needed of the scale; arguments and errors as :meth:`obstacles`."""
+        return self._scale(unit, sizes).obstacles()
 
     def body(
         self,
@@ -120,7 +171,7 @@ class Measurement:
         sides = scale.sides
         heights, filling = missing.completed(self.heights, self.file)
         settings = {**self.settings, **filling}
-        removed: Trend = "none" if self.by_roughline else trend
+        removed = self._trend_to_remove(trend)
         if not self.by_roughline:
             settings["file_unit"] = str(self.unit or unit)
         if scale.metres != 1 or removed != "none":
@@ -133,6 +184,12 @@ class Measurement:
             remove_trend(heights, removed)
             settings["detrended"] = removed
         return self._body(heights, sides, settings, removed)
+
+    def _trend_to_remove(self, wanted: Trend) -> Trend:
+        """The trend of what an instrument measured; from a piece of ours, what the whole lacks."""
+        if not self.by_roughline or wanted == "none":
+            return wanted
+        return checked_trend(self.removed_trend, self.settings) if self.is_piece else "none"
 
     def _body(
         self,
@@ -158,7 +215,8 @@ class Measurement:
 
     def _obstacles(self, scale: Scale, missing: Missing) -> list[InputError]:
         obstacles = scale.obstacles()
-        too_many = missing.too_many(self.unknown, self.file)
+        name = f"the piece of {self.file}" if self.is_piece else self.file
+        too_many = missing.too_many(self.unknown, name)
         return [*obstacles, too_many] if too_many else obstacles
 
 

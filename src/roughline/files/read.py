@@ -13,6 +13,7 @@ from roughline.files.measurement import Measurement
 from roughline.files.netcdf import read_body_file
 from roughline.files.scale import Sizes
 from roughline.topography.body import Body, Surface
+from roughline.topography.crop import Crop
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
@@ -30,6 +31,7 @@ def read(
     missing: Filling = "harmonic",
     most_missing: float = 0.1,
     trend: Trend = "tilt",
+    crop: Crop | None = None,
 ) -> Body:
     """Read a surface or a line from a file, in metres.
 
@@ -58,6 +60,9 @@ def read(
         Share of missing points above which the file is refused.
     trend : {"tilt", "none", "mean", "curvature"}, optional
         Least-squares polynomial that is removed from what an instrument measured.
+    crop : tuple of float, optional
+        The piece to read, (x0, x1, y0, y1) of a map or (x0, x1) of a line, from 0 along each side.
+        Missing points are counted and filled, and the trend is removed, in the piece alone. [m]
 
     Returns
     -------
@@ -73,7 +78,10 @@ def read(
     """
     filling = Missing(missing, most_missing)
     refuse_unknown_trend(trend)
-    return measurement(path, channel).body(unit, sizes, filling, trend, in_place=True)
+    content = measurement(path, channel)
+    if crop is not None:
+        content, sizes = content.piece(crop, unit, sizes), None
+    return content.body(unit, sizes, filling, trend, in_place=True)
 
 
 def measurement(

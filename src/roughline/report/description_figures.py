@@ -35,7 +35,7 @@ def write_description(description: Description, out: Path) -> list[Path]:
     files: list[Path] = []
     with styled():
         if description.missing.count or description.obstacles:
-            figure = measured_figure(description.measurement, description.missing)
+            figure = measured_figure(description.piece, description.missing)
             files += save(figure, out, "file")
         if body is not None and parameters is not None:
             files += save(roughness_figure(body, parameters), out, "roughness")

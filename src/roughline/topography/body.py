@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.topography.crop import settings_of_piece
 from roughline.topography.heights import (
     checked_heights,
     checked_length,
@@ -158,7 +159,7 @@ class Surface:
             self,
             heights=heights,
             sizes=(dx * heights.shape[0], dy * heights.shape[1]),
-            settings={**self.settings, "cropped": f"x {x[0]}:{x[1]}, y {y[0]}:{y[1]}"},
+            settings=settings_of_piece(self.settings, (slice(*x), slice(*y))),
             is_cut_out=True,
         )
 

@@ -87,8 +87,8 @@ class Missing:
             return None
         return InputError(
             f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
-            f"up to {self.most:.0%} are filled: crop it with the instrument's software to where "
-            "points are known, or allow more (most_missing=)"
+            f"up to {self.most:.0%} are filled: crop it to where points are known (crop=), or "
+            "allow more (most_missing=)"
         )
 
     def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> Real:

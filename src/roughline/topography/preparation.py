@@ -10,6 +10,7 @@ import numpy as np
 
 from roughline.errors import InputError
 from roughline.topography.body import Body, BodyType, Surface, with_heights
+from roughline.topography.crop import Crop, points_in, settings_of_piece
 from roughline.topography.missing import Missing
 from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
 
@@ -48,7 +49,7 @@ class Preparation:
         If a value makes no sense.
     """
 
-    crop: tuple[float, ...] | None = None
+    crop: Crop | None = None
     remove_outliers: bool = False
     trend: Trend | None = None
     low_pass: float | None = None
@@ -151,32 +152,18 @@ def outliers(body: Body) -> Mask:
     return marked
 
 
-def _cropped(body: BodyType, crop: tuple[float, ...]) -> BodyType:
+def _cropped(body: BodyType, crop: Crop) -> BodyType:
     sides = body.sizes if isinstance(body, Surface) else (body.length,)
-    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
-    if len(crop) != 2 * len(sides):
-        raise InputError(
-            f"crop has {len(crop)} lengths; give {2 * len(sides)}, from and to along each side"
-        )
-    ranges = []
-    for i, (side, spacing) in enumerate(zip(sides, spacings, strict=True)):
-        low, high = crop[2 * i : 2 * i + 2]
-        if not 0 <= low < high <= side * (1 + 1e-9):
-            raise InputError(
-                f"crop from {low:g} to {high:g} is not within 0 to {side:g}, or not rising"
-            )
-        first, end = round(low / spacing), round(high / spacing)
-        if end - first < 2:
-            raise InputError(f"crop from {low:g} to {high:g} keeps {end - first} points; take more")
-        ranges.append((first, min(end, body.heights.shape[i])))
+    kept = points_in(crop, sides, body.heights.shape)
     if isinstance(body, Surface):
-        return body.cropped(*ranges)
-    (first, end) = ranges[0]
+        x, y = ((each.start, each.stop) for each in kept)
+        return body.cropped(x, y)
+    heights = body.heights[kept]
     return replace(
         body,
-        heights=body.heights[first:end],
-        length=spacings[0] * (end - first),
-        settings={**body.settings, "cropped": f"{first}:{end}"},
+        heights=heights,
+        length=body.spacing * heights.size,
+        settings=settings_of_piece(body.settings, kept),
     )
 
 

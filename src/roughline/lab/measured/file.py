@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from roughline.assessment.description import Description, describe_measurement
+from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body
+from roughline.files.measurement import Measurement
 from roughline.files.read import measurement
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
@@ -31,6 +33,7 @@ from roughline.lab.measured.words import in_controls
 from roughline.report.description_table import description_table
 from roughline.server.tasks import Progress
 from roughline.topography.body import Body, Surface
+from roughline.topography.preparation import Preparation
 
 
 def look(arguments: Arguments, progress: Progress) -> bytes:
@@ -78,14 +81,16 @@ def described(
         (source.key, reading.channel),
         lambda: measurement(source.path, reading.channel, source.name),
     )
-    keeps_trend = preparation is not None and preparation.trend is not None
 
-    def body_of() -> Body:  # filling missing points loads slowly
+    def body_of(piece: Measurement, reading: Reading, rest: Preparation | None) -> Body:
+        """The body as it is read; kept, because filling missing points loads slowly."""
+        crop = preparation.crop if preparation else None
+        keeps_trend = rest is not None and rest.trend is not None
         return kept(
             session,
             "body",
-            (source.key, reading, keeps_trend),
-            lambda: measured_body(content, reading, preparation, in_place=False),
+            (source.key, reading, crop, keeps_trend),
+            lambda: measured_body(piece, reading, rest),
         )
 
     return describe_measurement(source.path, content, reading, preparation, body_of=body_of)

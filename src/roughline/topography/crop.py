@@ -1,0 +1,103 @@
+"""Pieces of a topography: which points lie in a crop, and the record of a piece."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughline.errors import InputError
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Real
+    from roughline.topography.settings import Settings
+
+Crop = tuple[float, ...]
+"""From and to along each side: (x0, x1, y0, y1) of a map, (x0, x1) of a line. [length]"""
+
+_COUNTS = ("missing_points", "missing_share", "filled", "outliers_kept")
+"""What settings say of all points of a body."""
+
+
+def points_in(crop: Crop, sides: tuple[float, ...], shape: tuple[int, ...]) -> tuple[slice, ...]:
+    """Return the points along each side that a crop keeps.
+
+    Parameters
+    ----------
+    crop : tuple of float
+        From and to along each side. [length]
+    sides : tuple of float
+        Sides of the map, or length of the line. [length]
+    shape : tuple of int
+        Points along each side.
+
+    Raises
+    ------
+    InputError
+        If the crop is not within the sides, or keeps fewer than two points along one of them.
+    """
+    _refuse_misplaced(crop, sides)
+    kept = []
+    for low, high, side, n in zip(crop[::2], crop[1::2], sides, shape, strict=True):
+        first, end = round(low / (side / n)), min(round(high / (side / n)), n)
+        _refuse_few((low, high), end - first)
+        kept.append(slice(first, end))
+    return tuple(kept)
+
+
+def points_between(crop: Crop, positions: Real) -> tuple[slice]:
+    """Return the points of an uneven line that a crop keeps.
+
+    Parameters
+    ----------
+    crop : tuple of float
+        From and to. [length]
+    positions : ndarray, shape (n,)
+        Of the points, rising from 0. [length]
+
+    Raises
+    ------
+    InputError
+        If the crop is not within the line, or keeps fewer than two points.
+    """
+    _refuse_misplaced(crop, (float(positions[-1]),))
+    first, end = (int(each) for each in np.searchsorted(positions, crop))
+    _refuse_few(crop, end - first)
+    return (slice(first, end),)
+
+
+def settings_of_piece(settings: Settings, kept: tuple[slice, ...]) -> Settings:
+    """Return the settings of a piece: what was cropped, and no counts of the whole.
+
+    Parameters
+    ----------
+    settings : mapping
+        Of the whole.
+    kept : tuple of slice
+        Points along each side that are in the piece.
+    """
+    ranges = [f"{each.start}:{each.stop}" for each in kept]
+    cropped = ranges[0] if len(kept) == 1 else f"x {ranges[0]}, y {ranges[1]}"
+    before = settings.get("missing_points", settings.get("filled_before_crop"))
+    left = {key: value for key, value in settings.items() if key not in _COUNTS}
+    filled = {"filled_before_crop": before} if before else {}
+    return {**left, **filled, "cropped": cropped}
+
+
+def _refuse_misplaced(crop: Crop, sides: tuple[float, ...]) -> None:
+    """Refuse a crop that has not two lengths for each side, or is not within it."""
+    if len(crop) != 2 * len(sides):
+        raise InputError(
+            f"crop has {len(crop)} lengths; give {2 * len(sides)}, from and to along each side"
+        )
+    for low, high, side in zip(crop[::2], crop[1::2], sides, strict=True):
+        if not 0 <= low < high <= side * (1 + 1e-9):
+            raise InputError(
+                f"crop from {low:g} to {high:g} is not within 0 to {side:g}, or not rising"
+            )
+
+
+def _refuse_few(crop: Crop, points: int) -> None:
+    """Refuse a crop that keeps fewer than two points along a side."""
+    if points < 2:
+        raise InputError(f"crop from {crop[0]:g} to {crop[1]:g} keeps {points} points; take more")
