@@ -86,13 +86,17 @@ def test_a_notebook_shows_the_loads_of_a_curve():
     surface = in_si(SPECTRUM.surface(32, 3))
     curve = rl.press(surface, E_star=1e11, forces=np.geomspace(0.01, 10, 30))
     header, *rows = cells(curve._repr_html_())
-    assert header == ["load", "depth d", "force F", "stiffness k", "contact area A/A_0", "remark"]
+    areas = ["raw area", "corrected area A/A_0"]
+    assert header == ["load", "depth d", "force F", "stiffness k", *areas, "remark"]
+    for column, area in ((4, curve.area_fraction), (5, curve.area_fraction_corrected)):
+        assert float(rows[-1][column]) == pytest.approx(area[-1], rel=1e-3)
+    assert area[-1] < curve.area_fraction[-1]
     assert [row[0] for row in rows] == [*map(str, range(12)), "…", *map(str, range(26, 30))]
     assert rows[-1][2] == "10 N"
     assert rows[0][-1] == "the grid decides"
     unsolved = rl.press(surface, E_star=1e11, forces=[1], max_iterations=2, throw=False)
     _, row = cells(unsolved._repr_html_())
-    assert row == ["0", "–", "–", "–", "–", "max_iterations reached above the tolerance"]
+    assert row == ["0", "–", "–", "–", "–", "–", "max_iterations reached above the tolerance"]
 
 
 def pictures_below(cells):

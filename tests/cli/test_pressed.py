@@ -10,6 +10,8 @@ import pytest
 import roughline as rl
 from roughline.assessment import grid
 from roughline.assessment import loads as load_cases
+from roughline.report.values import scale_of
+from roughline.units import decimal
 
 PAIR = ("--materials", "steel,copper")
 INTERVAL = re.compile(r"± \S+%|\S+ to \S+")
@@ -19,7 +21,7 @@ def table_lines(out):
     """Lines of the table on screen."""
     lines = out.splitlines()
     first = next(i for i, line in enumerate(lines) if line.strip().startswith("normal force")) - 1
-    after = ("*", "note:", "if nothing yielded")
+    after = ("*", "note:", "for comparison, ")
     last = next(i for i, line in enumerate(lines) if line.startswith(after))
     return lines[first:last]
 
@@ -148,6 +150,33 @@ def test_a_star_stands_at_the_load_that_the_grid_decides(rough, invoke):
     assert "* fewer than ten points in contact" in out
 
 
+@pytest.mark.parametrize("count", [1, 4, 30])
+def test_any_number_of_loads_prints_resistance_and_conductance(
+    tmp_path, invoke, monkeypatch, count
+):
+    monkeypatch.setenv("COLUMNS", "1000")  # all answers beside each other
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(16, 3)
+    rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "few.nc")
+    typed = [f"{10 + i} N" for i in range(count)]
+    question = ("press", tmp_path / "few.nc", *PAIR, *(f"--load={load}" for load in typed))
+    code, out, errors = invoke(*question)
+    assert code == 0, errors
+    answers = json.loads(invoke(*question, "--json")[1])["answers"]
+    for symbol in ("R", "h_c", "G", "k", "k_u", "A/A_0"):
+        each = answers[symbol]
+        assert out.count(f"{each['name']} {symbol}") == 1
+        for value in {each["values"][0], each["values"][-1]}:
+            factor, unit = scale_of(value, "%" if symbol == "A/A_0" else each["unit"])
+            assert f"{decimal(value * factor, 4)}{unit}" in out, (symbol, value)
+    assert answers["R"]["if_elastic"] is not None
+    told = out.index("constriction resistance R")
+    assert told < out.index("for comparison, if nothing yielded: ")
+    if count > 3:
+        rows = [line for line in out.splitlines() if re.match(r"\d+ N ", line)]
+        assert [" ".join(row.split()[:2]) for row in rows] == typed
+    assert ("use --json and --report" in out) == (count > 20)  # all answers up to there
+
+
 def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     loads = ("--load", "10 N", "--load", "2 MPa", "--load", "0.1 N")
@@ -158,7 +187,10 @@ def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     assert len(lines) - 1 <= 2 * 20  # two lines a quantity at most
     code, out, _ = invoke("press", *holed, *PAIR, *loads[:2])
     assert len(table_lines(out)) == 1 + 20  # one load: one line a quantity
-    assert sum(line.startswith("if nothing yielded: ") for line in out.splitlines()) == 1
+    assert (
+        sum(line.startswith("for comparison, if nothing yielded: ") for line in out.splitlines())
+        == 1
+    )
     code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--elastic")
     assert len(table_lines(out)) == 1 + 17
     assert "if nothing yielded" not in out
@@ -204,7 +236,7 @@ def test_a_report_speaks_to_a_client(holed, invoke, tmp_path):
     ):
         assert name in lead
         assert sum(each.startswith(name) for each in names) == 1
-    assert "; if nothing yielded: contact area fraction" in lead
+    assert "; for comparison, if nothing yielded: contact area fraction" in lead
     assert names.count("if nothing yielded") >= 2  # below what yield changes
     items = re.findall("<li>(.*?)</li>", page)
     told = (

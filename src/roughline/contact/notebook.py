@@ -38,8 +38,10 @@ def html_of_curve(curve: Curve) -> str:
     ]
     if curve.hardness is not None and curve.unloading_stiffness is not None:
         columns.append(("unloading stiffness", curve.unloading_stiffness, units["force/length"]))
+    if curve.area_fraction is not None:
+        columns.append(("raw area", curve.area_fraction, None))
     if curve.area_fraction_corrected is not None:
-        columns.append(("contact area A/A_0", curve.area_fraction_corrected, None))
+        columns.append(("corrected area A/A_0", curve.area_fraction_corrected, None))
     header = ["load", *(name for name, _, _ in columns), "remark"]
     rows = [
         [str(i), *(_cell(values[i], unit) for _, values, unit in columns), _remark(curve, i)]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 
-from roughline.report.terminal import table
+from roughline.report.terminal import print_table
 
 if TYPE_CHECKING:
     from roughline.campaign.progress import Summary
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def print_summary(summary: Summary, store: Path) -> None:
     """Print what a campaign did, equal reasons of failures together."""
-    console = Console()
+    console = Console(markup=False)
     done, failed = sum(summary.done.values()), sum(summary.failed.values())
     console.print(f"{done} cases computed, {failed} failed; results in {store}", soft_wrap=True)
     if summary.unconverged:
@@ -28,9 +28,9 @@ def print_summary(summary: Summary, store: Path) -> None:
 
 def print_status(store: Store) -> None:
     """Print what is done of a campaign, and why cases failed."""
-    console = Console()
+    console = Console(markup=False)
     rows = [[name, *map(str, store.counts(name))] for name in store.names]
-    console.print(table(["ensemble", "done", "failed", "in all"], rows))
+    print_table(console, ["ensemble", "done", "failed", "in all"], rows)
     reasons = Counter(why for name in store.names for why in store.failures(name).values())
     for reason, count in reasons.most_common():
         console.print(f"{count} failed: {reason}", highlight=False, soft_wrap=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,6 +31,7 @@ _LEADING = (
     "constriction_resistance",
     "thermal_conductance_per_area",
 )
+_AT_MANY_LOADS = ("thermal_conductance", "tangential_stiffness", "reflection")  # besides these
 _OF_JOINT = ("specific_contact_resistance",)
 
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
@@ -107,6 +109,21 @@ def answer_table(
     return header, rows
 
 
+def load_table(assessment: Assessment, keys: Sequence[str]) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of some answers, with a row for each load that was asked for.
+
+    Answers that a page begins with come first.
+    """
+    leading = [key for key in leading_keys(assessment) if key in keys]
+    shown = [assessment.answers[key] for key in dict.fromkeys((*leading, *keys))]
+    header = ["load", *(f"{each.name} {each.symbol}" for each in shown)]
+    rows = [
+        [heading, *(quantity(each, i) for each in shown)]
+        for i, heading in enumerate(starred(assessment))
+    ]
+    return header, rows
+
+
 def elastic_in_words(assessment: Assessment) -> str:
     """Say what the leading answers would be of elastic bodies, at the largest load.
 
@@ -118,7 +135,7 @@ def elastic_in_words(assessment: Assessment) -> str:
         elastic = assessment.elastic.get(key)
         if elastic is not None and _differs(elastic, assessment.answers[key], i):
             shown.append(f"{elastic.name} {quantity(elastic, i)}")
-    return f"{IF_ELASTIC}: {', '.join(shown)}" if shown else ""
+    return f"for comparison, {IF_ELASTIC}: {', '.join(shown)}" if shown else ""
 
 
 def _differs(elastic: Answer, yielding: Answer, i: int) -> bool:
@@ -150,6 +167,12 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
             low, high = (float(end[i]) for end in ratios)
             row.append("not known" if np.isnan(low) else change_in_words(low, high))
     return header, rows
+
+
+def keys_at_many_loads(assessment: Assessment) -> list[str]:
+    """Keys of the answers that are shown where there are too many loads for all of them."""
+    keys = [*leading_keys(assessment), *_AT_MANY_LOADS]
+    return [key for key in keys if key in assessment.answers]
 
 
 def leading_keys(assessment: Assessment) -> list[str]:

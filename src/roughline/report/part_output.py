@@ -12,17 +12,19 @@ from roughline.report.contact_tables import UNRESOLVED
 from roughline.report.json_output import of_assessment
 from roughline.report.part_tables import (
     elastic_of_part_in_words,
+    leading_keys_of,
     leading_table,
     maps_table,
+    part_load_table,
     part_table,
     star_is_shown_of,
 )
-from roughline.report.terminal import print_files, print_table
+from roughline.report.terminal import MOST_WITH_ALL, print_files, print_table
 
 if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
 
-_MOST_LOADS = 2  # whose answers fit on a screen beside each other
+_MOST_ABREAST = 2  # loads whose answers stand beside each other
 
 
 def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers_by: str) -> None:
@@ -37,21 +39,26 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
     many_answers_by : str
         Options of the caller that give the answers that are too many for a screen.
     """
-    console = Console()
+    console = Console(markup=False)
     print_table(console, *maps_table(part))
     console.print()
     print_table(console, *leading_table(part))
-    loads = range(len(part.headings))[:_MOST_LOADS]
+    count = len(part.headings)
     if part.answers:
         console.print()
-        print_table(console, *part_table(part, loads))
+    if part.answers and count <= _MOST_ABREAST:
+        print_table(console, *part_table(part, range(count)))
+    elif part.answers:
+        leading = [key for key in leading_keys_of(part) if key in part.answers]
+        keys = leading if count > MOST_WITH_ALL else dict.fromkeys((*leading, *part.answers))
+        print_table(console, *part_load_table(part, list(keys)))
     if elastic := elastic_of_part_in_words(part):
-        where = " (at the largest load)" if len(part.headings) > 1 else ""
+        where = " (at the largest load)" if count > 1 else ""
         console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
     if star_is_shown_of(part):
         console.print(f"* {UNRESOLVED}", highlight=False)
-    if len(part.headings) > _MOST_LOADS:
-        console.print(f"answers at more than {_MOST_LOADS} loads: use {many_answers_by}")
+    if count > MOST_WITH_ALL:
+        console.print(f"other answers at more than {MOST_WITH_ALL} loads: use {many_answers_by}")
     for remark in part.remarks:
         console.print(f"note: {remark}", highlight=False, soft_wrap=not console.is_terminal)
     print_files(files)

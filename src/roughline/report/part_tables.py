@@ -56,6 +56,22 @@ def part_table(
     return header, rows
 
 
+def part_load_table(part: PartAssessment, keys: Sequence[str]) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of mean, interval and scatter, with a row for each load."""
+    headings = [starred(each) for each in part.assessments]
+    answers = [part.answers[key] for key in keys]
+    header = ["load"]
+    for each in answers:
+        header += [f"{each.name} {each.symbol}", f"scatter of {each.symbol}"]
+    rows = []
+    for i in range(len(part.headings)):
+        row = [max((each[i] for each in headings), key=len)]
+        for each in answers:
+            row += [mean_and_interval(each, i), scatter_in_words(each, i)]
+        rows.append(row)
+    return header, rows
+
+
 def elastic_of_part_in_words(part: PartAssessment) -> str:
     """Say what the leading means would be of elastic bodies, at the largest load.
 
@@ -67,7 +83,7 @@ def elastic_of_part_in_words(part: PartAssessment) -> str:
         elastic, answer = part.elastic.get(key), part.answers.get(key)
         if elastic is not None and answer is not None and _differs(elastic, answer, i):
             shown.append(f"{elastic.name} {_mean(elastic, i)}")
-    return f"{IF_ELASTIC}: {', '.join(shown)}" if shown else ""
+    return f"for comparison, {IF_ELASTIC}: {', '.join(shown)}" if shown else ""
 
 
 def each_map_table(

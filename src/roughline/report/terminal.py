@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.console import Console
-from rich.table import Table
+from rich.text import Text
 
-from roughline.assessment.given import several
 from roughline.contact.status import Status
+from roughline.report.columns import blocks, paragraph
 from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
     curve_table,
     elastic_in_words,
+    keys_at_many_loads,
+    leading_keys,
+    load_table,
+    quantity,
     star_is_shown,
 )
 from roughline.report.description_table import description_table, missing_map
-from roughline.report.values import value_and_interval
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
@@ -32,9 +34,12 @@ if TYPE_CHECKING:
     from roughline.assessment.description import Description
     from roughline.theories.theory_curve import TheoryCurve
 
-_MOST_SHOWN = 200  # loads that are printed as a table
-_MOST_ANSWERED = 3  # loads whose answers fit on a screen
-_SHORTEST_NAME = 20  # columns that the name of an answer needs at least
+MOST_WITH_ALL = 20
+"""Loads of which all answers are printed."""
+
+_MOST_SHOWN = 1000  # loads that are printed as a table
+_MOST_ABREAST = 3  # loads whose answers stand beside each other
+_MOST_NAMED = 5  # loads that were not solved and are named
 
 
 def print_assessment(
@@ -55,7 +60,7 @@ def print_assessment(
     long_curves_by, many_answers_by : str
         Options of the caller that give the curve, or the answers, that are too long for a screen.
     """
-    console = Console()
+    console = Console(markup=False)
     console.print(_described(assessment.body), highlight=False, soft_wrap=True)
     curve, pair = assessment.curve, assessment.question.pair
     model = "reduced model, exact" if curve.area_fraction is None else "full model"
@@ -64,24 +69,25 @@ def print_assessment(
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
     count = assessment.asked.size
-    many, typed = count > _MOST_SHOWN, len(several(assessment.question.loads)) or count
-    answered = typed if pair is not None and typed <= _MOST_ANSWERED else 0
-    if many:
+    if count > _MOST_SHOWN:
         console.print(_in_one_line(assessment, long_curves_by), highlight=False, soft_wrap=True)
-    elif answered < count:
+    elif pair is None:
         print_table(console, *curve_table(assessment))
-    if answered:  # formulas are for the report
-        print_table(console, *answer_table(assessment, slice(answered)))
+    elif count <= _MOST_ABREAST:  # formulas are for the report
+        print_table(console, *answer_table(assessment, slice(None)))
+    else:
+        many = count > MOST_WITH_ALL
+        keys = keys_at_many_loads(assessment) if many else list(assessment.answers)
+        print_table(console, *load_table(assessment, keys))
     if elastic := elastic_in_words(assessment):
         where = " (at the largest load)" if count > 1 else ""
         console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
-    if star_is_shown(assessment) and not many:
+    if star_is_shown(assessment) and count <= _MOST_SHOWN:
         console.print(f"* {UNRESOLVED}", highlight=False)
-    if pair is not None and answered < count:
-        which = "under the falling loads" if answered else f"at more than {_MOST_ANSWERED} loads"
-        console.print(f"answers {which}: use {many_answers_by}")
-    for failure in _failures(assessment) if not many else ():
-        console.print(failure, highlight=False)
+    if pair is not None and MOST_WITH_ALL < count <= _MOST_SHOWN:
+        console.print(f"other answers at more than {MOST_WITH_ALL} loads: use {many_answers_by}")
+    for failure in _failures(assessment):
+        console.print(failure, highlight=False, soft_wrap=not console.is_terminal)
     for theory in assessment.theories:
         console.print(_theory_line(theory, assessment), highlight=False, soft_wrap=True)
     for note in assessment.remarks:
@@ -91,28 +97,39 @@ def print_assessment(
 
 def _in_one_line(assessment: Assessment, long_curves_by: str) -> str:
     """Both ends of a curve that is too long for a screen."""
-    curve, solved = assessment.curve, assessment.curve.converged
-    text = f"{solved.size} loads"
-    if solved.any():
-        ends = (
-            " to ".join(engineering(values[solved][end], unit) for end in (0, -1))
-            for values, unit in ((curve.force, "N"), (curve.depth, "m"), (curve.stiffness, "N/m"))
+    curve = assessment.curve_as_asked
+    solved = np.flatnonzero(curve.converged)
+    text = f"{curve.status.size} loads"
+    if solved.size:
+        ends = solved[[0, -1]]
+        force, depth = (
+            " to ".join(engineering(values[end], unit) for end in ends)
+            for values, unit in ((assessment.scale * curve.force, "N"), (curve.depth, "m"))
         )
-        text += " from {}: depth {}, stiffness {}".format(*ends)
-    for status, count in Counter(curve.status[~solved].tolist()).items():
-        text += f"; {count} not solved ({Status(status).reason})"
+        text += f" from {force}: depth {depth}"
+        if assessment.answers:
+            shown = (assessment.answers[key] for key in leading_keys(assessment))
+            told = {each.name: [quantity(each, int(end)) for end in ends] for each in shown}
+        else:
+            told = {"stiffness": [engineering(curve.stiffness[end], "N/m") for end in ends]}
+        text += "".join(f", {name} {' to '.join(values)}" for name, values in told.items())
     return f"{text}; for each load use {long_curves_by}"
 
 
 def _failures(assessment: Assessment) -> list[str]:
-    """Say which loads were not solved, and why."""
+    """Say which loads were not solved, and why: a line for each reason."""
     curve = assessment.curve
     asked = dict(zip(assessment.asked.tolist(), assessment.headings, strict=True))
-    failures = (
-        f"load {asked.get(int(i), 'of the curve')}: {Status(curve.status[i]).reason}"
-        for i in np.flatnonzero(~curve.converged)
-    )
-    return list(dict.fromkeys(failures))  # loads of the curve alone share a line
+    failed: dict[str, list[str]] = {}
+    for i in np.flatnonzero(~curve.converged).tolist():
+        failed.setdefault(Status(curve.status[i]).reason, []).append(asked.get(i, ""))
+    lines = []
+    for reason, loads in failed.items():
+        count = f"{len(loads)} of {curve.status.size} loads"
+        named = list(dict.fromkeys(filter(None, loads)))
+        which = f" ({', '.join(named)})" if 0 < len(named) <= _MOST_NAMED else ""
+        lines.append(f"{count}{which}: {reason}")
+    return lines
 
 
 def _theory_line(theory: TheoryCurve, assessment: Assessment) -> str:
@@ -126,11 +143,11 @@ def _theory_line(theory: TheoryCurve, assessment: Assessment) -> str:
 
 def print_description(description: Description, files: Iterable[Path] = ()) -> None:
     """Print what a topography is like."""
-    console = Console()
-    table = Table(box=None, show_header=False)
-    for row in description_table(description):
-        table.add_row(*row)
-    console.print(table, highlight=False)
+    console = Console(markup=False)
+    rows = description_table(description)
+    indent = 2 + max(len(name) for name, _ in rows)
+    for name, value in rows:
+        console.print(Text(paragraph(name, value, indent, console.width)), soft_wrap=True)
     for line in missing_map(description):
         console.print(line, highlight=False, soft_wrap=True)
     for obstacle in description.obstacles:
@@ -143,9 +160,9 @@ def print_description(description: Description, files: Iterable[Path] = ()) -> N
 
 def print_comparison(compared: ModelComparison, files: Iterable[Path] = ()) -> None:
     """Print both curves, their difference, and where the reduced model may be trusted."""
-    console = Console()
+    console = Console(markup=False)
     console.print(compared.what, highlight=False, soft_wrap=True)
-    console.print(table(*comparison_table(compared)))
+    print_table(console, *comparison_table(compared))
     if not compared.comparison.resolved.all():
         console.print("* fewer than ten cells in contact: the grid decides, not the surface")
     console.print(verdict_in_words(compared), highlight=False, soft_wrap=True)
@@ -155,56 +172,30 @@ def print_comparison(compared: ModelComparison, files: Iterable[Path] = ()) -> N
 
 
 def print_table(console: Console, header: list[str], rows: list[list[str]]) -> None:
-    """Print a table of names and values; where it is too wide, intervals stand below values."""
-    if _width(header, rows) > console.width:
-        rows = [[_stacked(cell) for cell in row] for row in rows]
-    shown = table(header, rows)
-    shown.columns[0].justify = "left"
-    if _width(header, [["", *row[1:]] for row in rows]) + _SHORTEST_NAME <= console.width:
-        for column in shown.columns[1:]:
-            column.no_wrap = True  # the names are broken in lines instead
-    console.print(shown)
-
-
-def _stacked(cell: str) -> str:
-    """A value, and its interval without brackets below it."""
-    value, *interval = value_and_interval(cell)
-    return "\n".join([value, *(each.strip("()") for each in interval)])
-
-
-def _width(header: list[str], rows: list[list[str]]) -> int:
-    """Columns of the screen that a table takes, with two between its own."""
-    columns = zip(header, *rows, strict=True)
-    return sum(
-        2 + max(len(line) for cell in cells for line in cell.split("\n")) for cells in columns
-    )
-
-
-def table(header: list[str], rows: list[list[str]]) -> Table:
-    """A table of texts without lines, numbers to the right."""
-    made = Table(box=None, header_style="bold", pad_edge=False, padding=(0, 2, 0, 0))
-    for name in header:
-        made.add_column(name, justify="right", overflow="fold")
-    for row in rows:
-        made.add_row(*row)
-    return made
+    """Print a table of names and values, in as many blocks as the width of the screen needs."""
+    for i, block in enumerate(blocks(header, rows, console.width)):
+        if i:
+            console.print()
+        for lines, style in ((block.header, "bold"), (block.body, "")):
+            for line in lines:
+                console.print(Text(line, style), soft_wrap=True)
 
 
 def print_files(files: Iterable[Path]) -> None:
     """Print which files were written."""
-    console = Console()
+    console = Console(markup=False)
     for file in files:
         console.print(f"wrote {file}", highlight=False, soft_wrap=True)
 
 
 def announce(text: str) -> None:
     """Print a line on standard error."""
-    Console(stderr=True).print(text, highlight=False, soft_wrap=True)
+    Console(stderr=True, markup=False).print(text, highlight=False, soft_wrap=True)
 
 
 def print_generated(body: Body, file: Path) -> None:
     """Print what was generated and where it is."""
-    console = Console()
+    console = Console(markup=False)
     console.print(_described(body), highlight=False)
     print_files([file])
 
