@@ -87,20 +87,33 @@ def test_a_curve_is_drawn_in_the_units_of_its_axes(curve):
     assert axes.get_xlabel() == "depth $d$ [µm]"
     assert points(axes)[1] == pytest.approx(curve.area_fraction)
     axes = rl.plot.curve(curve, "force_bar", "stiffness_bar")
-    assert axes.get_xlabel() == r"force $\bar F$"
+    assert axes.get_xlabel() == r"force $\bar F = F\,/\,(E^* h L)$"
     assert points(axes) == pytest.approx(np.array([curve.force_bar, curve.stiffness_bar]))
+
+
+def is_open(line):
+    return line.get_markerfacecolor() == "w"
 
 
 def test_open_marks_are_where_the_grid_decides(curve):
     axes = rl.plot.curve(curve)
-    filled, hollow = (
-        sum(len(line.get_xdata()) for line in axes.lines if line.get_fillstyle() == style)
-        - (curve.force.size if style == "full" else 0)  # the line that joins them
-        for style in ("full", "none")
-    )
-    assert (filled, hollow) == (curve.resolved.sum(), (~curve.resolved).sum())
-    assert 0 < hollow < curve.force.size
+    marks = [line for line in axes.lines if line.get_marker() == "o"]
+    counts = dict.fromkeys((False, True), 0)
+    for line in marks:
+        counts[is_open(line)] += len(line.get_xdata())
+    assert counts == {False: curve.resolved.sum(), True: (~curve.resolved).sum()}
+    assert 0 < counts[True] < curve.force.size
     assert "fewer than 10 cells touch" in texts(axes)
+
+
+def test_open_marks_stay_open_and_explained_under_another_curve(curve, surface):
+    other = rl.press(surface, E_star=1e11, forces=[30, 100, 30], hardness=3e9)
+    axes = rl.plot.curve(other, axes=rl.plot.curve(curve))
+    marks = [line for line in axes.lines if line.get_marker() == "o"]
+    highest_filled = max(line.get_zorder() for line in marks if not is_open(line))
+    assert all(line.get_zorder() > highest_filled for line in marks if is_open(line))
+    legend = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert legend == ["fewer than 10 cells touch", "after a larger load"]
 
 
 def test_unloading_is_told_from_loading(surface):
@@ -112,6 +125,8 @@ def test_unloading_is_told_from_loading(surface):
 
 def test_area_is_the_corrected_one_and_the_band_ends_at_the_cells(curve):
     axes = rl.plot.area(curve)
+    assert axes.get_ylabel() == "real contact area $A/A_0$"
+    assert "corrected for the steps of its outline up to the area in cells" in texts(axes)
     assert points(axes)[1] == pytest.approx(curve.area_fraction_corrected)
     (band,) = axes.collections
     assert band.get_paths()[0].vertices[:, 1].max() == pytest.approx(curve.area_fraction.max())
@@ -175,6 +190,27 @@ def test_a_spectrum_has_its_law_and_the_exponent(surface):
     assert rl.plot.spectrum(parameters).get_ylabel() == "spectrum $C_{2d}$"
     flat = rl.plot.spectrum(rl.Surface(np.zeros((8, 8)), (1.0, 1.0)))
     assert "no spectrum" in texts(flat)
+
+
+@pytest.mark.parametrize("n", [64, 200])
+def test_a_spectrum_leaves_out_rounding_and_nothing_else(n):
+    """Beyond the cutoff of a surface there is rounding alone, 28 powers of ten below its waves."""
+    cut = rl.SelfAffine(hurst=0.5, rms_height=1e-6, length=1e-3, q_high=10 * 2 * np.pi / 1e-3)
+    heights = cut.surface(n, 2).heights
+    q = rl.plot.spectrum(rl.Surface(heights, (1e-3, 1e-3))).lines[0].get_xdata()
+    assert q[-1] == pytest.approx(cut.q_high, rel=0.15)
+    # of the digits of an instrument, 12 decades below, every wave is drawn
+    noisy = rl.Surface(heights + np.random.default_rng(0).normal(0, 1e-15, (n, n)), (1e-3, 1e-3))
+    q = rl.plot.spectrum(noisy).lines[0].get_xdata()
+    assert q == pytest.approx(rl.roughness(noisy).spectrum.q)
+
+
+def test_a_power_law_names_what_was_fitted(curve):
+    law = rl.fit_power_law(curve.force, curve.area_fraction, (curve.force[1], curve.force[5]))
+    axes = rl.plot.power_law(curve.force, curve.area_fraction, law, x="force", y="area_fraction")
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("force $F$", "area fraction $A/A_0$")
+    with pytest.raises(rl.InputError, match="no quantity 'k' over the loads; allowed are depth"):
+        rl.plot.power_law(curve.force, curve.stiffness, law, y="k")
 
 
 def test_a_power_law_is_drawn_over_its_window():

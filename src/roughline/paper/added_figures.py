@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,6 +16,7 @@ from roughline.plot.models import add_bar, draw_trust
 from roughline.plot.style import (
     FORCE_LABEL,
     MARKERS,
+    OPEN,
     PAGE,
     SHADE,
     colours,
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     import xarray
 
     from roughline.comparison.trust import TrustMap
+    from roughline.paper.contact_area import AreaLaw
     from roughline.paper.laws import DimensionLaws
 
 CONVERGENCE_DIMENSIONS = (2.0, 2.4, 2.8)
@@ -63,18 +65,19 @@ def _draw_area(axes: Axes, full: xarray.Dataset) -> None:
 
 def _draw_kappa(axes: Axes, laws: list[DimensionLaws]) -> None:
     dimensions = [each.fractal_dimension for each in laws]
-    for area_laws, marks, filled, label in (
-        ([each.corrected for each in laws], "ko", "full", "this study, area corrected"),
-        ([each.cells for each in laws], "k^", "none", "this study, area in cells"),
-    ):
+    looks: tuple[tuple[list[AreaLaw], str, dict[str, Any], str], ...] = (
+        ([each.corrected for each in laws], "ko", {}, "this study, area corrected"),
+        ([each.cells for each in laws], "k^", OPEN, "this study, area in cells"),
+    )
+    for area_laws, marks, look, label in looks:
         kappas = [law.kappa for law in area_laws]
         axes.errorbar(
             dimensions,
             [kappa.value for kappa in kappas],
             yerr=np.transpose([(k.value - k.low, k.high - k.value) for k in kappas]),
             fmt=marks,
-            fillstyle=filled,
             capsize=2,
+            **look,
             label=label,
         )
     for kappa, name, style in (
@@ -100,14 +103,14 @@ def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
         resolved = (full.sel(fractal_dimension=dimension).resolved.values == 1).all(axis=0)
         look = {"color": colour, "marker": marker}
         left.loglog(force, np.nanmean(stiffness_1d, axis=0), color=colour, linewidth=1)
-        for shown, fill in ((resolved, "full"), (~resolved, "none")):
+        for shown, mark in ((resolved, {}), (~resolved, OPEN)):
             left.loglog(
                 force[shown],
                 np.nanmean(stiffness_3d, axis=0)[shown],
                 linestyle="",
-                fillstyle=fill,
-                label=f"{dimension:.1f}" if fill == "full" else None,
+                label=None if mark else f"{dimension:.1f}",
                 **look,
+                **mark,
             )
         difference, low, high = relative_difference(stiffness_3d, stiffness_1d, paired=False)
         right.fill_between(

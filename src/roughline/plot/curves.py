@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 
 from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
 from roughline.contact.quantity import OVER_LOADS
 from roughline.errors import InputError
 from roughline.plot.contacts import say
-from roughline.plot.style import drawing_on, label_decades
+from roughline.plot.style import FORCE_LABEL, OPEN, drawing_on, label_decades
 from roughline.plot.units import in_unit
 
 if TYPE_CHECKING:
@@ -85,6 +84,7 @@ def area(curve: Curve, axes: Axes | None = None) -> Axes:
     )
     label, factor = _label(curve, "force", curve.force)
     with drawing_on(axes) as drawn:
+        drawn.plot([], [], "o", color=_ELASTIC, label="corrected for the steps of its outline")
         draw_loads(drawn, curve.force * factor, corrected, curve)
         loaded = rising(curve)
         drawn.fill_between(
@@ -96,7 +96,7 @@ def area(curve: Curve, axes: Axes | None = None) -> Axes:
             linewidth=0,
             label="up to the area in cells",
         )
-        drawn.set(xlabel=label, ylabel="contact area $A/A_0$")
+        drawn.set(xlabel=label, ylabel="real contact area $A/A_0$")
         _explain(drawn, curve)
     return drawn
 
@@ -109,9 +109,9 @@ def draw_loads(axes: Axes, x: Real, y: Real, curve: Curve, *, linear: bool = Fal
     draw = axes.plot if linear else axes.loglog
     draw(x[shown], y[shown], color="0.5", linewidth=0.8)
     for when, colour in ((loaded, _ELASTIC), (~loaded, _AFTER_A_LARGER)):
-        for which, fill in ((resolved, "full"), (~resolved, "none")):
+        for which, look in ((resolved, {}), (~resolved, OPEN)):
             points = shown & when & which
-            draw(x[points], y[points], "o", color=colour, fillstyle=fill)
+            draw(x[points], y[points], "o", color=colour, **look)
     if not linear:
         label_decades(axes)
 
@@ -127,20 +127,20 @@ def _explain(axes: Axes, curve: Curve) -> None:
     if not solved.any():
         say(axes, "no load was solved")
         return
-    marks: list[tuple[str, Literal["full", "none"], str]] = []
+    marks: list[tuple[str, dict[str, Any]]] = []
     if (solved & ~curve.resolved & (curve.force > 0)).any():
-        marks.append((_ELASTIC, "none", f"fewer than {RESOLVED_FROM} {_cells(curve)} touch"))
+        text = f"fewer than {RESOLVED_FROM} {_cells(curve)} touch"
+        marks.append((text, {"marker": "o", "color": _ELASTIC, **OPEN}))
     if (solved & ~rising(curve)).any():
-        marks.append((_AFTER_A_LARGER, "full", "after a larger load"))
-    handles, _ = axes.get_legend_handles_labels()
-    handles += [
-        Line2D([], [], color=colour, fillstyle=fill, marker="o", linestyle="", label=text)
-        for colour, fill, text in marks
-    ]
-    missing = int((~solved).sum())
-    title = f"{missing} of {solved.size} loads not solved" if missing else None
-    if handles or title:
-        axes.legend(handles=handles, title=title)
+        marks.append(("after a larger load", {"marker": "o", "color": _AFTER_A_LARGER}))
+    if missing := int((~solved).sum()):
+        marks.append((f"{missing} of {solved.size} loads not solved", {}))
+    for text, look in marks:
+        axes.plot([], [], linestyle="", label=text, **look)
+    # of several curves on the same axes, each kind of mark is explained once
+    explained = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    if explained:
+        axes.legend(explained.values(), explained.keys())
 
 
 def _cells(curve: Curve) -> str:
@@ -149,11 +149,7 @@ def _cells(curve: Curve) -> str:
 
 def _values(curve: Curve, name: str) -> Real:
     """Return a quantity of a curve over its loads."""
-    known = [each for each, quantity in QUANTITIES.items() if quantity.dims == OVER_LOADS]
-    if name not in known:
-        raise InputError(
-            f"there is no quantity {name!r} over the loads; allowed are {', '.join(known)}"
-        )
+    name_of(name)
     values: Real | None = getattr(curve, name)
     if values is None:
         raise InputError(
@@ -164,7 +160,24 @@ def _values(curve: Curve, name: str) -> Real:
 
 def _label(curve: Curve, name: str, values: Real) -> tuple[str, float]:
     """Return the label of a quantity's axis, and the factor to the unit in it."""
-    quantity = QUANTITIES[name]
-    words = name.removesuffix("_bar").replace("_", " ")
-    symbol = f" ${quantity.symbol}$" if quantity.symbol else ""
-    return in_unit(words + symbol, values, quantity.unit_in(curve.unit))
+    return in_unit(name_of(name), values, QUANTITIES[name].unit_in(curve.unit))
+
+
+def name_of(quantity: str) -> str:
+    """Name a quantity over the loads in words, with its symbol.
+
+    Raises
+    ------
+    InputError
+        If there is no such quantity.
+    """
+    known = [each for each, declared in QUANTITIES.items() if declared.dims == OVER_LOADS]
+    if quantity not in known:
+        raise InputError(
+            f"there is no quantity {quantity!r} over the loads; allowed are {', '.join(known)}"
+        )
+    if quantity == "force_bar":
+        return FORCE_LABEL
+    symbol = QUANTITIES[quantity].symbol
+    words = quantity.removesuffix("_bar").replace("_", " ")
+    return f"{words} ${symbol}$" if symbol else words

@@ -12,7 +12,7 @@ from matplotlib.ticker import PercentFormatter
 
 from roughline.comparison.trust import trust_map as published_map
 from roughline.errors import InputError
-from roughline.plot.style import FORCE_LABEL, SHADE, colours, drawing_on
+from roughline.plot.style import FORCE_LABEL, OPEN, SHADE, colours, drawing_on
 
 if TYPE_CHECKING:
     from roughline.comparison.models import Comparison
@@ -81,9 +81,8 @@ def difference(compared: Comparison, tolerance: float = 0.1, axes: Axes | None =
             force, compared.low, compared.high, color=colour, alpha=0.25, linewidth=0
         )
         drawn.semilogx(force, compared.difference, color=colour)
-        for sure, fill in ((compared.resolved, "full"), (~compared.resolved, "none")):
-            marks: Any = {"marker": "o", "linestyle": "", "fillstyle": fill}
-            drawn.semilogx(force[sure], compared.difference[sure], color=colour, **marks)
+        for sure, look in ((compared.resolved, {}), (~compared.resolved, OPEN)):
+            drawn.semilogx(force[sure], compared.difference[sure], "o", color=colour, **look)
         drawn.yaxis.set_major_formatter(PercentFormatter(1, decimals=0))
         drawn.set(xlabel=FORCE_LABEL, ylabel=_DIFFERENCE)
     return drawn

@@ -9,14 +9,18 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
 from roughline.plot.contacts import say
-from roughline.plot.style import FORCE_LABEL, SHADE, drawing_on, label_decades
+from roughline.plot.curves import name_of
+from roughline.plot.style import SHADE, drawing_on, label_decades
 from roughline.plot.units import in_unit
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.roughness import Roughness, roughness
 
 if TYPE_CHECKING:
+    from roughline.spectra.profile import ProfileSpectrum
     from roughline.statistics.power_law import PowerLaw
     from roughline.topography.body import Body
+
+_MOST_ROUNDING = 1e4  # how far above that of rounding a spectrum is still rounding
 
 
 def spectrum(described: Body | Roughness, axes: Axes | None = None) -> Axes:
@@ -33,7 +37,8 @@ def spectrum(described: Body | Roughness, axes: Axes | None = None) -> Axes:
     -------
     Axes
         The axes that were drawn on: C_2d of a surface, C_profile of a line. The title gives the
-        Hurst exponent with its interval.
+        Hurst exponent with its interval. Waves that are no more than rounding of the heights, as
+        a generated surface has beyond its cutoff, are left out.
 
     Raises
     ------
@@ -48,27 +53,42 @@ def spectrum(described: Body | Roughness, axes: Axes | None = None) -> Axes:
 
 
 def power_law(
-    force_bar: ArrayLike, stiffness_bar: ArrayLike, law: PowerLaw, axes: Axes | None = None
+    force_bar: ArrayLike,
+    stiffness_bar: ArrayLike,
+    law: PowerLaw,
+    axes: Axes | None = None,
+    *,
+    x: str = "force_bar",
+    y: str = "stiffness_bar",
 ) -> Axes:
-    """Draw stiffness over force with a fitted power law.
+    """Draw stiffness over force, or any quantity over another, with a fitted power law.
 
     Parameters
     ----------
     force_bar : array_like, shape (loads,)
-        Dimensionless forces.
+        Dimensionless forces, or what `x` says.
     stiffness_bar : array_like, shape (loads,) or (realisations, loads)
-        Dimensionless stiffness at these forces. Of several realisations each is drawn, and their
-        mean: arithmetic or geometric, as for the law.
+        Dimensionless stiffness at these forces, or what `y` says. Of several realisations each is
+        drawn, and their mean: arithmetic or geometric, as for the law.
     law : PowerLaw
         What :func:`roughline.fit_power_law` returned.
     axes : Axes, optional
         Where to draw; default: those of a new figure.
+    x, y : str, optional
+        What was fitted, for the labels: names of quantities over the loads, such as "force" and
+        "area_fraction_corrected".
 
     Returns
     -------
     Axes
         The axes that were drawn on; the window of the fit is shaded.
+
+    Raises
+    ------
+    InputError
+        If there is no such quantity.
     """
+    labels = [name_of(name) for name in (x, y)]
     force = np.asarray(force_bar, dtype=np.float64)
     stiffness = np.atleast_2d(np.asarray(stiffness_bar, dtype=np.float64))
     with drawing_on(axes) as drawn:
@@ -82,7 +102,7 @@ def power_law(
         low, high = law.exponent_interval
         of = f", {law.realisations} realisations" if law.realisations > 1 else ""
         drawn.set_title(rf"$\alpha$ = {law.exponent:.3f} ({low:.3f} to {high:.3f}){of}", fontsize=9)
-        drawn.set(xlabel=FORCE_LABEL, ylabel=r"stiffness $\bar k$")
+        drawn.set(xlabel=labels[0], ylabel=labels[1])
     return drawn
 
 
@@ -92,7 +112,7 @@ def draw_spectrum(axes: Axes, found: Roughness, unit: str | None) -> None:
     if found.spectrum is None or power is None:
         say(axes, "no spectrum")
         return
-    known = power > 0
+    known = power > _MOST_ROUNDING * _rounding(found.spectrum, found.rms_height)
     axes.loglog(found.spectrum.q[known], power[known], ".", color="0.4", markersize=2)
     if found.law is not None:
         axes.loglog(*found.law, color="tab:red")
@@ -105,6 +125,14 @@ def draw_spectrum(axes: Axes, found: Roughness, unit: str | None) -> None:
     if found.fit is not None:
         low, high = found.fit.hurst_interval
         axes.set_title(f"H = {found.fit.hurst:.2f} ({low:.2f} to {high:.2f})", fontsize=9)
+
+
+def _rounding(spectrum: IsotropicSpectrum | ProfileSpectrum, rms_height: float) -> float:
+    """Spectrum of heights that are nothing but rounding of others, on the same grid."""
+    variance, q_last = (np.finfo(np.float64).eps * rms_height) ** 2, float(spectrum.q[-1])
+    if isinstance(spectrum, IsotropicSpectrum):
+        return variance / (4 * q_last**2)
+    return variance / (2 * q_last)
 
 
 def _mean(stiffness: np.ndarray, law: PowerLaw) -> np.ndarray:

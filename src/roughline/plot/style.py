@@ -20,6 +20,8 @@ COLUMN, PAGE = 3.5, 7.2
 MARKERS = "osD^vP"
 
 FORCE_LABEL = r"force $\bar F = F\,/\,(E^* h L)$"
+OPEN: dict[str, Any] = {"markerfacecolor": "w", "zorder": 3}
+"""Look of an open mark: nothing that is drawn below it, or after it, fills it."""
 SHADE: dict[str, Any] = {"color": "0.92", "zorder": -10, "linewidth": 0}
 
 _RC: Any = {
