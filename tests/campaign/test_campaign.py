@@ -268,7 +268,7 @@ def test_what_does_not_fit_is_refused_with_numbers(plan, tmp_path, monkeypatch):
     huge = replace(plan.ensemble("surfaces"), n=2**15, realisations=1)
     with pytest.raises(rl.InputError, match="GB of memory for the largest case"):
         campaign.run(replace(plan, ensembles=(huge,)), tmp_path / "huge")
-    # nothing was computed, so the same name may have other settings now
+    assert not (tmp_path / "huge").exists()
     small = replace(huge, n=24)
     assert campaign.run(replace(plan, ensembles=(small,)), tmp_path / "huge").done["surfaces"] == 3
     with pytest.raises(rl.InputError, match="take fewer workers"):

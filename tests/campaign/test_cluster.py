@@ -2,8 +2,10 @@
 
 import multiprocessing.util
 import os
+import socket
 import subprocess
 import sys
+import threading
 import time
 
 import dask
@@ -43,13 +45,49 @@ def test_workers_with_several_threads_give_the_same_bytes(plan, few_undisturbed,
             process.wait()
 
 
-@pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nonsense://x", "127.0.0.1:1"])
+SENSELESS = ("", "nonsense://x:1", "8786", "tcp://", "10.0.0.1", "tcp://10.0.0.1:99999")
+
+
+@pytest.mark.parametrize("address", [*SENSELESS, "http://127.0.0.1:8787/status"])
+def test_an_address_that_makes_no_sense(plan, tmp_path, address):
+    with pytest.raises(rl.InputError, match="the address that `dask scheduler` prints") as caught:
+        campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
+    assert repr(address) in str(caught.value)
+    assert ("dashboard" in str(caught.value)) == address.startswith("http")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "tls://127.0.0.1:1", "127.0.0.1:1"])
 def test_a_scheduler_that_does_not_answer(plan, tmp_path, address, monkeypatch):
-    monkeypatch.setattr(cluster, "_PATIENCE", 3.0)
+    monkeypatch.setattr(cluster, "_TO_ANSWER", 0.3)
     with pytest.raises(rl.ClusterError, match="no Dask scheduler answers at") as caught:
         campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
     assert "\n" not in str(caught.value)
+    assert ("certificates" in str(caught.value)) == address.startswith("tls")
     assert dask.config.get("scheduler", None) is None  # the caller's Dask is left as it was
+    assert not list(tmp_path.iterdir())  # no store, and nothing else
+
+
+@pytest.mark.parametrize("says", [b"", b"HTTP/1.1 400 Bad Request\r\n\r\n"])
+def test_a_server_that_is_no_scheduler(plan, tmp_path, monkeypatch, says):
+    """One that is silent, and one that says what Dask takes for the size of a message."""
+    monkeypatch.setattr(cluster, "_TO_ANSWER", 0.5)
+    ended = threading.Event()
+
+    def serve():
+        connection, _ = server.accept()
+        with connection:
+            connection.sendall(says)
+            ended.wait()
+
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        thread = threading.Thread(target=serve)
+        thread.start()
+        address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+        with pytest.raises(rl.ClusterError, match=f"no Dask scheduler answers at {address}"):
+            campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
+        ended.set()
+        thread.join()
 
 
 def test_a_scheduler_without_workers(plan, tmp_path, monkeypatch):
@@ -58,6 +96,7 @@ def test_a_scheduler_without_workers(plan, tmp_path, monkeypatch):
     try:
         with pytest.raises(rl.ClusterError, match="has no workers; start some with"):
             campaign.run(campaign.read_plan(plan), tmp_path / "store", scheduler=address)
+        assert not (tmp_path / "store").exists()
     finally:
         scheduler.kill()
         scheduler.wait()

@@ -8,6 +8,7 @@ import xarray
 import roughline as rl
 
 PLAN = """
+name = "another name"
 seed = 3
 [[ensemble]]
 name = "lines"
@@ -29,8 +30,8 @@ def plan(tmp_path):
 def test_a_campaign_from_plan_to_files(invoke, plan, tmp_path):
     code, out, err = invoke("campaign", "run", plan)
     assert code == 0
-    assert "8 cases computed, 0 failed; results in" in out
-    assert "study: 8 cases to compute; about" in err
+    assert f"8 cases computed, 0 failed; results in {tmp_path / 'study.zarr'}" in out
+    assert "another name: 8 cases to compute; about" in err
     assert "dashboard: http" in err
     code, out, _ = invoke("campaign", "status", plan)
     assert code == 0

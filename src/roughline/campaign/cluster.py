@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import multiprocessing
+import queue
 import signal
 import sys
 import threading
@@ -14,12 +16,15 @@ from dataclasses import dataclass
 from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
 
 from roughline._version import __version__
 from roughline.campaign.batch import check_version
 from roughline.errors import ClusterError, InputError
 
-_PATIENCE = 30.0  # until a scheduler has answered, and until workers have started [s]
+_PATIENCE = 30.0  # until a scheduler and its workers are ready [s]
+_TO_ANSWER = 3.0  # until a scheduler has answered [s]
+_SCHEMES = ("tcp", "tls", "ws", "wss")  # of addresses that lead to another machine
 _ENVIRONMENT = "distributed.nanny.pre-spawn-environ"
 # Dask makes its workers give freed memory back to the system at once; to get it again takes longer
 # than an FFT, so here they keep it.
@@ -143,12 +148,14 @@ def remote(address: str) -> Iterator[Cluster]:
 
     with _quiet():
         try:
+            _hear_from(address)
             # as the default, a client that fails would break later calls that ask for a scheduler
             client = Client(address, timeout=_PATIENCE / 3, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
+            means = " with the certificates of Dask's configuration" if "tls:" in address else ""
             raise ClusterError(
-                f"no Dask scheduler answers at {address}; start one with `dask scheduler`, or "
-                "leave the address out to compute on this machine"
+                f"no Dask scheduler answers at {address}{means}; start one with `dask scheduler`, "
+                "or leave the address out to compute on this machine"
             ) from error
         with client:
             try:
@@ -160,6 +167,59 @@ def remote(address: str) -> Iterator[Cluster]:
                 ) from error
             _check_versions(client)
             yield Cluster(client, client.dashboard_link, lambda: None)
+
+
+def refuse_senseless(address: str) -> None:
+    """Refuse a text that cannot be the address of a scheduler.
+
+    Raises
+    ------
+    InputError
+        If it has no host, no port, or a scheme of something else.
+    """
+    try:
+        parts = urlsplit(address if "://" in address else f"tcp://{address}")
+        if parts.scheme in _SCHEMES and parts.hostname and parts.port and not parts.path:
+            return
+    except ValueError:  # of a port
+        pass
+    dashboard = ": http:// leads to its dashboard" if address.startswith("http") else ""
+    raise InputError(
+        f"scheduler is {address!r}; the address that `dask scheduler` prints is needed, such as "
+        f"tcp://10.0.0.1:8786{dashboard}; leave it out to compute on this machine"
+    )
+
+
+def _hear_from(address: str) -> None:
+    """Wait for the answer of a scheduler; raise an OSError where none comes.
+
+    A client of Dask that fails ends with a traceback, and waits for ever for what is no scheduler.
+    """
+    from distributed import Security
+    from distributed.comm.core import connect
+
+    answer: queue.Queue[Exception | None] = queue.Queue()
+
+    async def greet() -> None:
+        secured = Security().get_connection_args("client")
+        connection = await connect(address, timeout=_TO_ANSWER, **secured)
+        await connection.close()
+
+    def listen() -> None:
+        try:
+            asyncio.run(greet())
+        except Exception as error:  # of what it was taken for a scheduler, there are many
+            answer.put(error)
+        else:
+            answer.put(None)
+
+    threading.Thread(target=listen, daemon=True).start()
+    try:
+        error = answer.get(timeout=2 * _TO_ANSWER)
+    except queue.Empty:
+        error = TimeoutError("no answer")
+    if error is not None:
+        raise OSError(str(error)) from error
 
 
 def _check_versions(client: Any) -> None:

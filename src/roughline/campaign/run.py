@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from contextlib import AbstractContextManager, ExitStack, suppress
+from contextlib import ExitStack, suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -95,10 +95,13 @@ def _computed(
     if scheduler is None:
         clusters.refuse_unguarded_script()
     refuse_countless(plan)
-    if not store.exists():  # what an existing store lacks is known below
-        whole = {ensemble.name: ensemble.cases for ensemble in plan.ensembles}
-        refuse_beyond_disk(plan, whole, store)
+    cluster = None
     with ExitStack() as stack:
+        if not store.exists() or (store.is_dir() and not any(store.iterdir())):
+            # a new store is made once its cluster is there: what is refused leaves nothing behind
+            whole = {ensemble.name: ensemble.cases for ensemble in plan.ensembles}
+            refuse_beyond_disk(plan, whole, store)
+            cluster, threads = _started(stack, plan, whole, scheduler, workers, threads, say)
         with clusters.interrupts_held_back():
             writer = stack.enter_context(writing(store, plan))
             batches = {ensemble.name: writer.missing(ensemble) for ensemble in plan.ensembles}
@@ -107,25 +110,39 @@ def _computed(
         if not (with_gallery or any(missing.values())):
             _report_all(plan, missing, report)
             return Summary()
-        cost = cost_of(plan, missing)
-        refuse_beyond_disk(plan, missing, store)
-        if scheduler is None:
-            workers = workers_that_fit(max(cost.memory, 1), workers)
-            threads = _threads_that_fit(workers, threads)
-        say(f"{plan.name}: {cost.described(workers)}")
-        cluster: AbstractContextManager[clusters.Cluster] = (
-            clusters.remote(scheduler) if scheduler else clusters.local(workers or 1)
-        )
-        with cluster as started_cluster:
-            say(f"dashboard: {started_cluster.dashboard}")
-            _report_all(plan, missing, report)
-            dispatch = Dispatch(plan, writer, started_cluster, threads or 1, missing, report)
-            started = time.time()
-            try:
-                dispatch.work(batches, with_gallery)
-            finally:
-                _log(store, started, dispatch)
+        if cluster is None:
+            refuse_beyond_disk(plan, missing, store)
+            cluster, threads = _started(stack, plan, missing, scheduler, workers, threads, say)
+        _report_all(plan, missing, report)
+        dispatch = Dispatch(plan, writer, cluster, threads or 1, missing, report)
+        started = time.time()
+        try:
+            dispatch.work(batches, with_gallery)
+        finally:
+            _log(store, started, dispatch)
         return dispatch.summary
+
+
+def _started(
+    stack: ExitStack,
+    plan: Plan,
+    missing: dict[str, int],
+    scheduler: str | None,
+    workers: int | None,
+    threads: int | None,
+    say: Callable[[str], None],
+) -> tuple[clusters.Cluster, int | None]:
+    """Return a cluster for cases that are missing, which ends with the stack, and its threads."""
+    if scheduler is not None:
+        cluster = stack.enter_context(clusters.remote(scheduler))
+    cost = cost_of(plan, missing)
+    if scheduler is None:
+        workers = workers_that_fit(max(cost.memory, 1), workers)
+        threads = _threads_that_fit(workers, threads)
+        cluster = stack.enter_context(clusters.local(workers))
+    say(f"{plan.name}: {cost.described(workers)}")
+    say(f"dashboard: {cluster.dashboard}")
+    return cluster, threads
 
 
 def _threads_that_fit(workers: int, wanted: int | None) -> int:
@@ -149,6 +166,8 @@ def _check(scheduler: str | None, workers: int | None, threads: int | None) -> N
             "both workers and a scheduler are given; the workers of a cluster are started there: "
             "leave one of them out"
         )
+    if scheduler is not None:
+        clusters.refuse_senseless(scheduler)
 
 
 def _report_all(plan: Plan, missing: dict[str, int], report: EnsembleProgress) -> None:

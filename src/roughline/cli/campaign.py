@@ -78,7 +78,10 @@ def paper(
 def run_campaign(
     plan: Annotated[Path, typer.Argument(help="A plan in TOML.")],
     store: Annotated[
-        Path | None, typer.Option(help="Folder for the results [default: the plan's name.zarr].")
+        Path | None,
+        typer.Option(
+            help="Folder for the results [default: that of the plan's file, ending in .zarr]."
+        ),
     ] = None,
     scheduler: Scheduler = None,
     workers: Workers = None,
