@@ -208,7 +208,8 @@ def test_a_spectrum_leaves_out_rounding_and_nothing_else(n):
 def test_a_power_law_names_what_was_fitted(curve):
     law = rl.fit_power_law(curve.force, curve.area_fraction, (curve.force[1], curve.force[5]))
     axes = rl.plot.power_law(curve.force, curve.area_fraction, law, x="force", y="area_fraction")
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("force $F$", "area fraction $A/A_0$")
+    assert axes.get_xlabel() == "force $F$"
+    assert axes.get_ylabel().startswith("area fraction")
     with pytest.raises(rl.InputError, match="no quantity 'k' over the loads; allowed are depth"):
         rl.plot.power_law(curve.force, curve.stiffness, law, y="k")
 
