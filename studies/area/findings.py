@@ -26,6 +26,8 @@ from studies.area.kappa import (
     sample,
     widened_kappa,
 )
+from studies.area.rings import COUNT as RINGS_OF_EACH
+from studies.area.rings import Rings, rings
 from studies.judged import (
     Finding,
     Judgement,
@@ -108,6 +110,7 @@ def findings() -> list[Finding]:
         _falls(),
         _logarithmically(),
         _nayak_alone(),
+        _nayak_of_others(),
     ]
 
 
@@ -174,12 +177,37 @@ def _nayak_alone() -> Finding:
         )
 
     return _of_samples(
-        f"Nayak's parameter alone determines κ, whatever the Hurst exponent (here), to {SAME:.0%}",
+        f"Of self-affine spectra, Nayak's parameter alone determines κ (here), to {SAME:.0%}",
         f"κ at {MIDDLE:.0%} in contact over {line}",
         over_law,
         (1 - SAME, 1 + SAME),
         ".3f",
     )
+
+
+def _nayak_of_others() -> Finding:
+    """Judge that the law of self-affine spectra holds for those of another family."""
+    found = {
+        f"α = {one.nayak:.0f}": over_law(one, confidence_of_each(len(rings()))) for one in rings()
+    }
+    parts = {
+        name: judged(WidenedInterval.of(each), RINGS_OF_EACH, -SAME, SAME)
+        for name, each in found.items()
+    }
+    return Finding(
+        f"The same line holds for spectra of two narrow rings of waves (here), to {SAME:.0%}",
+        f"κ at {MIDDLE:.0%} in contact over the line, less 1: "
+        f"{', '.join(f'{each.value:+.1%}' for each in found.values())} at {', '.join(found)}",
+        ", ".join(f"{each.low:+.1%} to {each.high:+.1%}" for each in found.values()),
+        judged_together(list(parts.values())),
+        where_others(list(parts.items())),
+    )
+
+
+def over_law(one: Rings, confidence: float = 0.95) -> IntervalEstimate:
+    """Return kappa of two rings over that of the common law, less 1."""
+    found, expected = one.kappa(MIDDLE, confidence), common_law(MIDDLE)(one.nayak)
+    return IntervalEstimate(*(each / expected - 1 for each in (found.value, found.low, found.high)))
 
 
 def _of_samples(

@@ -121,8 +121,8 @@ def _linear_law() -> Finding:
     parts = {name: judged_at_least(each, DECADE) for name, each in found.items()}
     least, most = min(sure for sure, _ in found.values()), max(most for _, most in found.values())
     return finding_of_cases(
-        f"With {MANY} waves or more, k = p/(γ h) over a decade of loads or more (Persson; Pastewka "
-        "and others)",
+        f"With {MANY} waves or more, k = p/(γ h) over a decade of loads or more (Persson; Akarapu "
+        "and others; Pastewka and others)",
         f"the exponent is 1 within {EXPONENT_TOLERANCE:g} over {least:.2f} to {most:.2f} decades",
         f"{least:.2f} to {most:.2f}",
         parts,

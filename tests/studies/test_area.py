@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from studies.area.findings import MIDDLE, main_samples
+from studies.area.findings import HEAVY, LIGHT, MIDDLE, common_law, main_samples, over_law
 from studies.area.kappa import (
     AREAS,
     BANDS,
@@ -23,7 +23,8 @@ from studies.area.kappa import (
     size_shift,
     unsolved_loads,
 )
-from studies.area.page import page
+from studies.area.page import lead, page
+from studies.area.rings import POINTS, area_of, rings, rings_surface
 
 AGAIN = "the page is not that of the data any more: run make published"
 TRIALS = 200
@@ -59,6 +60,32 @@ def test_half_of_the_surfaces_widen_an_interval_by_the_square_root_of_two():
         whole, half = (kappa(each, MIDDLE) for each in (one, one.first(one.count // 2)))
         ratios.append((half.high - half.low) / (whole.high - whole.low))
     assert np.mean(ratios) == pytest.approx(math.sqrt(2), rel=0.1)
+
+
+def test_surfaces_of_two_rings_are_what_the_library_gives():
+    one = rings()[0]
+    surface, nayak = rings_surface(one.long_waves, 3)
+    assert one.nayak == pytest.approx(nayak)
+    assert one.area[3] == pytest.approx(area_of(surface), rel=1e-5)
+    slope = math.sqrt(np.mean(np.square(np.gradient(surface.heights * POINTS)).sum(axis=0)))
+    assert slope == pytest.approx(1, rel=0.06)  # by central differences, of eight cells a wave
+
+
+def test_the_law_of_self_affine_spectra_is_off_for_those_of_two_rings():
+    """By more than it is off for any of its own, so that it is told with them."""
+    own = common_law(MIDDLE).deviation
+    for one in rings():
+        assert 2 * own < over_law(one).low
+    lowest, highest = (f(over_law(one).value for one in rings()) for f in (min, max))
+    assert f"lie {lowest:.1%} to {highest:.1%} above this line" in lead()
+    assert "Among self-affine spectra" in lead()
+
+
+def test_the_page_of_the_science_quotes_the_study():
+    text = " ".join((HERE.parents[1] / "docs" / "science.md").read_text("utf-8").split())
+    for level, told in ((LIGHT, "{} to {} at 0.5 % in contact"), (HEAVY, "{} to {} at 15 %")):
+        found = [kappa(one, level).value for one in main_samples()]
+        assert told.format(f"{min(found):.2f}", f"{max(found):.2f}") in text
 
 
 def test_the_page_is_that_of_the_data():
