@@ -119,3 +119,22 @@ def test_a_load_that_only_the_softest_body_does_not_bear_is_answered(maps, more)
         assert np.isfinite(found.values).all()
         assert np.isnan([found.low, found.high]).all()
     assert any("does not bear the largest load" in note for note in result.notes)
+
+
+def test_near_full_contact_a_repeated_interface_has_no_upper_end_and_in_full_contact_no_end():
+    """With a last gap open its stiffness depends on that gap; without one it is infinite."""
+    rough = rl.SelfAffine(hurst=0.8, length=1e-4, rms_height=1e-7, q_high=2e6).surface(64, 5)
+    smooth = rl.Surface(rough.heights, rough.sizes, "m")
+    q = 2e4 * np.pi * np.hypot(*np.meshgrid(*[np.fft.fftfreq(64, 1 / 64)] * 2, indexing="ij"))
+    heights = np.fft.fft2(smooth.heights)
+    pair = ("E=2 MPa nu=0.49 hardness=1 GPa", "rigid")
+    E_star = rl.Question(smooth, pair).modulus
+    closing = -np.fft.ifft2(E_star * q / 2 * heights).real.min()
+    loads = [f"{share * closing} Pa" for share in (0.97, 1.01)]
+    result = rl.assess(rl.Question(smooth, pair, loads=loads, periodic=True, grid_error=True))
+    for key in ("contact_stiffness", "unloading_stiffness", "tangential_stiffness"):
+        found = result.answers[key]
+        assert 0 < found.low[0] < found.values[0] / 2 < found.values[0] < np.inf
+        assert found.high[0] == np.inf
+        assert found.values[1] == np.inf
+        assert found.low[1] == np.inf

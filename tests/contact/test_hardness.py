@@ -190,3 +190,24 @@ def test_a_load_that_was_solved_before_takes_no_convolutions(surface, softness):
     assert (curve.residual[3:5] == curve.residual[1]).all()
     if softness:
         assert all(each is curve.dents[1] for each in curve.dents[2:5])  # kept once
+
+
+@pytest.mark.parametrize("hurst", [0.2, 0.8])
+@pytest.mark.parametrize("softness", [1.0, 0.5, 0.2, 0.05])
+def test_the_mean_contact_pressure_is_the_hardness_only_where_all_yields(hurst, softness):
+    """Also of a few cells, where the correction of the outline is as large as what is possible."""
+    surface = rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(64, 3)
+    hardness = softness * surface.rms_slope
+    forces = hardness * surface.area * np.geomspace(1e-4, 0.9, 8)
+    curve = rl.press(surface, E_star=1.0, hardness=hardness, forces=forces)
+    pressure = curve.force / (curve.area_fraction_corrected * surface.area)
+    all_yields = curve.plastic_fraction == 1
+    assert (pressure[~all_yields] < 0.9995 * hardness).all()
+    assert (pressure <= hardness * (1 + 1e-9)).all()
+    elastic = rl.press(surface, E_star=1.0, forces=forces)
+    alike = (curve.plastic_fraction == 0) & (
+        elastic.force < 0.999 * hardness * elastic.area_fraction_corrected * surface.area
+    )
+    assert alike.any()
+    alike_areas = curve.area_fraction_corrected[alike], elastic.area_fraction_corrected[alike]
+    assert alike_areas[0].tolist() == alike_areas[1].tolist()

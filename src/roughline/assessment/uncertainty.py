@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends, Intervals
+
+_UNSURE = 5.0  # upper over lower end above which a stiffness near full contact may be infinite
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,22 +70,27 @@ class Solution:
         low, high = interval(value, np.hypot(error, changes.area))
         loading = interval(curve.stiffness, np.hypot(curve.stiffness_error, changes.stiffness))
         springing = interval(unloading, np.hypot(unloading_error, changes.unloading))
+        if curve.settings.get("boundary") == "periodic":  # a full contact is infinitely stiff
+            may_be_full = high >= 1
+            loading, springing = (_open(ends, may_be_full) for ends in (loading, springing))
         if curve.hardness is not None:  # no area bears more than the hardness
             low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
             loading = loading_under_unloading(loading, springing)
-        intervals = Intervals(
-            loading,
-            springing,
-            # whole cells overstate an area under summits, and finer waves take away from it
-            (low, np.minimum(high, most + changes.area)),
-        )
-        return cls(curve, interrupted, intervals, note)
+        # whole cells overstate an area under summits, and finer waves take away from it
+        area_ends = low, np.minimum(high, most + changes.area)
+        return cls(curve, interrupted, Intervals(loading, springing, area_ends), note)
 
 
 def interval(value: Real, error: Real) -> Ends:
     """Both ends of an interval, v / (1 + e / v) and v + e: nothing positive gets below zero."""
     with np.errstate(invalid="ignore"):
         return np.where(value == 0, 0.0, value / (1 + error / value)), value + error
+
+
+def _open(ends: Ends, may_be_full: Mask) -> Ends:
+    """Ends of a stiffness, without an upper one where contact may be full and little is known."""
+    unsure = ends[1] > _UNSURE * ends[0]
+    return ends[0], np.where(may_be_full & unsure, np.inf, ends[1])
 
 
 def loading_under_unloading(loading: Ends, unloading: Ends) -> Ends:
@@ -100,6 +107,6 @@ def change(before: Real | None, after: Real | None) -> tuple[Real, float]:
     """By how much each load changes, and by how many per cent at most."""
     assert before is not None
     assert after is not None
-    moved = np.abs(after - before)
     with np.errstate(invalid="ignore", divide="ignore"):
+        moved = np.where(after == before, 0.0, np.abs(after - before))  # infinite in full contact
         return moved, 100 * float(np.nanmax(moved / before, initial=0.0))

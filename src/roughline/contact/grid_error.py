@@ -37,9 +37,10 @@ def with_grid_error(
     The coarse grids hold the means of two by two points, or of equal pieces where a side has an odd
     number of points. Differences between grids are those of logarithms. The error is the larger of
     the last difference and half of the one before, times a safety factor, and times the growth of
-    the differences where they grow over all loads: a grid convergence index [1]_ for quantities
-    that vary as powers of the spacing. An area is at least as uncertain as its perimeter
-    correction, also on plateaus, where none is made.
+    the differences where they grow: a grid convergence index [1]_ for quantities that vary as
+    powers of the spacing. The error under a load does not depend on the other loads. Where a
+    coarser grid is in full contact, differences are those of compliances. An area is at least as
+    uncertain as its perimeter correction, also on plateaus, where none is made.
 
     Yield adds to this. Safety factors of stiffnesses grow with the share of the contact that
     yields. Where something yields, the error of the logarithm of a stiffness is at least a part of
@@ -65,7 +66,8 @@ def with_grid_error(
     -------
     Curve
         With ``stiffness_error``, ``unloading_stiffness_error`` and ``area_fraction_error``: a value
-        v with error e lies between v / (1 + e / v) and v + e. NaN where a grid did not converge.
+        v with error e lies between v / (1 + e / v) and v + e. NaN where a grid did not converge,
+        and where the surface is in full contact and coarser grids are not.
 
     References
     ----------
@@ -100,9 +102,14 @@ def _stiffness_errors(curves: Sequence[Curve], area: Real) -> tuple[Real, Real]:
         # where all of the contact yields, nothing is left of k
         taken = np.where((plastic > 0) & (k > 0), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
         return (
-            np.maximum(_error(loading, safety), k * np.expm1(np.maximum(least, taken))),
-            np.maximum(_error(unloading, safety), k_u * np.expm1(least)),
+            np.maximum(_error(loading, safety), _times(k, np.expm1(np.maximum(least, taken)))),
+            np.maximum(_error(unloading, safety), _times(k_u, np.expm1(least))),
         )
+
+
+def _times(stiffness: Real, share: Real) -> Real:
+    """Return a share of a stiffness; none of an infinite one, which has no error of its own."""
+    return np.where(np.isinf(stiffness), 0.0, stiffness * share)
 
 
 def _open_share(curve: Curve) -> Real | float:
@@ -148,13 +155,14 @@ def _unloading(curve: Curve) -> Real:
 def _error(values: Sequence[Real], safety: float | Real) -> Real:
     """Return the error of the last of three grids, each twice as fine as the one before."""
     quarter, half, full = values
-    nothing = np.array([quarter, half, full]) == 0  # bodies apart, or all of the contact yields
-    with np.errstate(invalid="ignore", divide="ignore"):  # stiffness is infinite in full contact
+    with np.errstate(invalid="ignore", divide="ignore"):  # of nothing, and of full contact
         first, second = np.abs(np.log(half / quarter)), np.abs(np.log(full / half))
-        # over all loads: at a single load the ratio is small or large by chance, and there is none
-        # where a grid has nothing
-        squares = np.where(nothing.any(axis=0), np.nan, [first**2, second**2])
-        growth = np.sqrt(np.nansum(squares[1]) / np.nansum(squares[0]))
-        growth = np.clip(np.nan_to_num(growth), 1.0, _FASTEST_GROWTH)
+        growth = np.clip(np.nan_to_num(second / first), 1.0, _FASTEST_GROWTH)
         error = full * np.expm1(safety * np.maximum(second, _FASTEST_DECAY * first) * growth)
-    return np.where(nothing.all(axis=0), 0.0, error)
+        # compliances over that of the last grid; nothing is left of them in full contact
+        before, last = full / quarter, full / half
+        change = np.maximum(np.abs(1 - last), _FASTEST_DECAY * np.abs(last - before))
+        closed = (np.isinf(quarter) | np.isinf(half)) & np.isfinite(full)
+        error = np.where(closed, full * safety * change, error)
+        error = np.where(np.isinf(full), np.nan, error)
+    return np.where((quarter == half) & (half == full), 0.0, error)

@@ -91,9 +91,9 @@ class LoadResult:
             return cls(Status.NO_TANGENT, contact.residuals.worst, convolutions)
         cells, nodes = int(np.count_nonzero(contact.pressure > 0)), contact.gap.size
         most, overstated = overstated_cells(contact, scaled.spacing, periodic)
-        if hardness is not None:  # an area below F / H would bear more than the hardness
+        if hardness is not None:
             borne = contact.force * scaled.force / (hardness * scaled.cell_area)
-            overstated = min(overstated, max(cells - borne, 0.0))
+            overstated = _of_yielding(overstated, max(cells - borne, 0.0), contact)
         dents = None if hardness is None else _dents(contact, scaled)
         indented = dents.depth if dents is not None else np.zeros(1)
         dissipated = (hardness or 0.0) * scaled.cell_area * float(indented.sum())
@@ -118,6 +118,18 @@ class LoadResult:
             fields=_fields(contact, scaled, dents) if with_fields else None,
             dents=dents,
         )
+
+
+def _of_yielding(overstated: float, possible: float, contact: Contact) -> float:
+    """Cells by which the count exceeds an area that bears at most the hardness, F / H or more.
+
+    The area does not get below the middle between F / H and that of the cells: at F / H itself all
+    of the contact would yield. Where nothing yields, it is that of elastic bodies if that is
+    possible.
+    """
+    if overstated < possible and not contact.plastic.any():
+        return overstated
+    return min(overstated, possible / 2)
 
 
 def columns(results: Sequence[LoadResult]) -> dict[str, Any]:
