@@ -157,7 +157,11 @@ def _lines(path: Path) -> int:
 
 
 def _length(function: ast.FunctionDef) -> int:
-    return (function.end_lineno or function.lineno) - function.lineno + 1
+    """Lines of a function, without the examples at the end of its docstring."""
+    told = ast.get_docstring(function, clean=False) or ""
+    examples = told.partition("    Examples\n    --------\n")[2]
+    written = (function.end_lineno or function.lineno) - function.lineno + 1
+    return written - (3 + examples.count("\n") if examples else 0)  # and the heading
 
 
 def _parameters(function: ast.FunctionDef) -> int:

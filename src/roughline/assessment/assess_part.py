@@ -66,6 +66,20 @@ def assess(
     InputError
         If a file cannot be read, or the question does not suit what it holds; for several maps,
         only if this is so for all of them.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4)
+    >>> surface = spectrum.surface(64, rng=7)  # in metres
+    >>> question = rl.Question(surface, materials="steel,copper", loads="10 N", elastic=True)
+    >>> result = rl.assess(question)
+    >>> stiffness = result.answers["contact_stiffness"]
+    >>> print(stiffness.name, stiffness.values.round(-5), stiffness.unit)
+    contact stiffness [23000000.] N/m
+    >>> resistance = result.answers["constriction_resistance"]
+    >>> print(f"{resistance.values[0]:.3g} {resistance.unit}")
+    0.000346 ohm
     """
     if not question.is_of_several:
         return assess_body(question, announce=announce, progress=progress)

@@ -70,6 +70,16 @@ def press_scan(
     ------
     InputError
         If the line is no profile, has no spectrum, or the forces cannot be used.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0)
+    >>> surface = spectrum.surface(256, rng=7)
+    >>> scan = rl.Line(surface.heights[0], length=1.0, kind="profile")
+    >>> pressed = rl.press_scan(scan, E_star=1.0, forces=[1e-3])
+    >>> print(pressed.curve.stiffness.round(2), pressed.low.round(2), pressed.high.round(2))
+    [0.21] [0.11] [0.4]
     """
     scans = [each for each in (scan, against) if each is not None]
     springs = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE * scan.heights.size)

@@ -137,6 +137,14 @@ def compare(
         If a value is outside its range, or a surface has no spectrum.
     ConvergenceError
         If a load was not solved to the tolerance.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0, q_roll=25.0)
+    >>> found = rl.compare(spectrum, n=64, surfaces=4, force_bars=[0.1, 0.3])
+    >>> print(found.force_bar, found.difference.round(2))
+    [0.1 0.3] [ 0.25 -0.01]
     """
     forces = np.geomspace(1e-3, 3, 15) if force_bars is None else np.asarray(force_bars, float)
     report = progress or (lambda done, total: None)

@@ -100,6 +100,13 @@ def estimate(
     ------
     InputError
         If an argument is not what is described here.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> told = rl.estimate((4096, 4096), n_loads=20)
+    >>> print(told.memory > 8 * 4096**2, told.seconds > 0)
+    True True
     """
     shape, n_loads = checked_shape(shape), checked_count("n_loads", n_loads, 1)
     periodic, yielding = checked_flag("periodic", periodic), checked_flag("yielding", yielding)

@@ -108,6 +108,28 @@ def press(
     Interrupted
         On Ctrl-C between or in the loads of a surface; a KeyboardInterrupt that carries the curve
         of the loads before.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
+    >>> curve = rl.press(surface, E_star=1.0, forces=[1e-4, 1e-3])
+    >>> print(curve.depth.round(4), curve.stiffness.round(3))
+    [0.0028 0.0093] [0.069 0.252]
+    >>> print(curve.area_fraction_corrected.round(3))
+    [0.001 0.007]
+
+    With a hardness points yield, and the order of the loads counts:
+
+    >>> curve = rl.press(surface, E_star=1.0, forces=[1e-3, 1e-4], hardness=0.05)
+    >>> print(curve.plastic_fraction.round(2))
+    [0.79 0.  ]
+
+    A line is solved with the reduced model, which has no area:
+
+    >>> line = rl.SelfAffine(hurst=0.8, rms_height=0.01).line(2**12, rng=7)
+    >>> print(rl.press(line, E_star=1.0, depths=[0.01]).stiffness.round(3))
+    [0.308]
     """
     allowed = "a positive, finite contact modulus from 1e-150 to 1e150"
     E_star = checked_number("E_star", E_star, allowed, 1 / LARGEST, LARGEST)

@@ -127,6 +127,15 @@ def material(description: str) -> Material:
         If the name or a property is unknown, a value is missing, or outside its range.
     UnitError
         If a value has no unit, or a wrong one.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> copper = rl.material("copper")
+    >>> print(copper.E, copper.nu)
+    129800000000.0 0.343
+    >>> print(rl.material("steel hardness=2 GPa").hardness)
+    2000000000.0
     """
     known = _table()
     start = re.search(r"\w+\s*=", description)

@@ -90,6 +90,13 @@ def contact_modulus(first: Material, second: Material) -> float:
     ------
     InputError
         If both materials are rigid.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> modulus = rl.contact_modulus(rl.material("steel"), rl.material("copper"))
+    >>> print(f"{modulus / 1e9:.1f} GPa")
+    89.9 GPa
     """
     compliance = sum((1 - each.nu**2) / each.E for each in (first, second))
     if compliance == 0:

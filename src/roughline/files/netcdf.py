@@ -33,6 +33,16 @@ def write(body: Body, path: str | Path) -> None:
         If the name does not end in ".nc".
     StoreError
         If the file cannot be written.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughline as rl
+    >>> heights = 1e-6 * np.random.default_rng(7).standard_normal((32, 32))
+    >>> surface = rl.Surface(heights, sizes=(1e-3, 1e-3), unit="m", is_cut_out=True)
+    >>> rl.write(surface, "map.nc")
+    >>> print((rl.read("map.nc").heights == surface.heights).all())
+    True
     """
     import xarray  # here because it loads slowly
 

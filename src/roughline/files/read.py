@@ -75,6 +75,16 @@ def read(
         If the file states no unit and `unit` is not given, or if both give one.
     InputError
         If the file does not exist, has an unknown format, is damaged, or lacks points or sizes.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughline as rl
+    >>> heights = 1e-6 * np.random.default_rng(7).standard_normal((32, 32))
+    >>> rl.write(rl.Surface(heights, sizes=(1e-3, 1e-3), unit="m", is_cut_out=True), "map.nc")
+    >>> surface = rl.read("map.nc")
+    >>> print(surface.shape, surface.unit)
+    (32, 32) m
     """
     filling = Missing(missing, most_missing)
     refuse_unknown_trend(trend)

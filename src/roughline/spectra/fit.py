@@ -141,6 +141,14 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     ----------
     P. Whittle, "Estimation and information in stationary time series", Ark. Mat. 2, 423-434
     (1953).
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(128, rng=7)
+    >>> fitted = rl.fit_self_affine(rl.isotropic_spectrum(surface))
+    >>> print(round(fitted.hurst, 1))
+    0.8
     """
     observed = (
         ScanBins.of(spectrum) if isinstance(spectrum, ProfileSpectrum) else MapRings.of(spectrum)

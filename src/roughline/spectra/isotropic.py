@@ -108,6 +108,14 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     ------
     InputError
         If it is flat, or has fewer than 8 points along a side.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(128, rng=7)
+    >>> spectrum = rl.isotropic_spectrum(surface)
+    >>> print(spectrum.q[:3].round(2), spectrum.C_2d.shape == spectrum.q.shape)
+    [ 6.28 12.57 18.85] True
     """
     if min(surface.shape) < 8:
         raise InputError(f"the surface has {surface.shape} points; a spectrum needs 8 x 8 or more")

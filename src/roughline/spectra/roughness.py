@@ -96,6 +96,14 @@ def roughness(body: Body) -> Roughness:
     ------
     InputError
         For a reduced line, which is no topography.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(64, rng=7)
+    >>> found = rl.roughness(surface)
+    >>> print(f"{found.rms_height:.1e} {found.rms_slope:.2f}")
+    1.0e-06 0.02
     """
     if isinstance(body, Line) and body.kind == "reduced":
         raise InputError(

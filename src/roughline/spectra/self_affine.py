@@ -68,6 +68,18 @@ class SelfAffine:
     ------
     InputError
         If both or neither of a pair are given, or a value is outside its range.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> spectrum = rl.SelfAffine(hurst=0.8, length=1.0, rms_height=0.01, q_roll=25.0)
+    >>> surface = spectrum.surface(64, rng=7)
+    >>> print(surface.shape, round(surface.rms_height, 4))
+    (64, 64) 0.01
+    >>> print(spectrum.line(2**10, rng=7).heights.shape)
+    (1024,)
+    >>> print(round(spectrum.fractal_dimension, 2))
+    2.2
     """
 
     hurst: float

@@ -73,6 +73,14 @@ def average(
     ------
     InputError
         If the shape is another, or the mean is geometric and a value is not positive.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> stiffness = [[1.0, 2.0], [1.2, 2.3], [0.9, 2.1], [1.1, 1.9]]  # four bodies, two loads
+    >>> mean = rl.average(stiffness)
+    >>> print(mean.mean.round(3), mean.low.round(2), mean.high.round(2))
+    [1.05  2.075] [0.84 1.8 ] [1.26 2.35]
     """
     table = _checked_table(values, averaging, confidence)
     averaged = np.log(table) if averaging == "geometric" else table

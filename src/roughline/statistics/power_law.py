@@ -94,6 +94,20 @@ def fit_power_law(
     InputError
         If the window holds fewer than three loads, or values that are not positive and finite
         (loads that did not converge are NaN: leave them out knowingly).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughline as rl
+    >>> spectrum, forces = rl.SelfAffine(hurst=0.8, rms_height=1.0), np.geomspace(1e-3, 1e-1, 9)
+    >>> lines = [spectrum.line(2**12, rng=seed) for seed in range(20)]
+    >>> stiffness = [rl.press(line, E_star=1.0, forces=forces).stiffness_bar for line in lines]
+    >>> law = rl.fit_power_law(forces, stiffness, window=(1e-3, 1e-1))
+    >>> print(round(law.exponent, 2))
+    0.51
+    >>> low, high = law.exponent_interval
+    >>> print(round(low, 2), round(high, 2))
+    0.49 0.54
     """
     force, stiffness = _loads_in_window(force_bar, stiffness_bar, window, confidence)
     several = stiffness.shape[0] > 1

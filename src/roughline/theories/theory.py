@@ -55,6 +55,14 @@ def theory(
     InputError
         If there is no theory of that name, a pressure is not positive, or the spectrum has no
         upper end.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0).surface(64, rng=7)
+    >>> persson = rl.theory("persson", surface, E_star=1.0, pressure=[1e-3, 1e-2])
+    >>> print(persson.area_fraction.round(4), persson.stiffness.round(3))
+    [0.0036 0.0356] [0.19  1.887]
     """
     refuse_unknown(name)
     pressures = np.atleast_1d(np.asarray(pressure, dtype=np.float64))

@@ -62,6 +62,18 @@ class Surface:
     InputError
         For heights that are not real, finite numbers, for a single height, and for sizes that are
         not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughline as rl
+    >>> x, y = np.meshgrid(np.linspace(-1, 1, 33), np.linspace(-1, 1, 33), indexing="ij")
+    >>> sphere = rl.Surface(-(x**2 + y**2) / 2, sizes=(2.0, 2.0), is_cut_out=False)
+    >>> print(sphere.shape, sphere.sizes)
+    (33, 33) (2.0, 2.0)
+    >>> curve = rl.press(sphere, E_star=1.0, depths=[0.1])
+    >>> print(round(float(curve.force[0]), 3))  # Hertz: 4/3 d^(3/2) = 0.042
+    0.041
     """
 
     heights: Real
@@ -212,6 +224,16 @@ class Line:
     InputError
         For heights that are not real, finite numbers, for fewer than 2 of them, and for a length
         that is not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughline as rl
+    >>> s = np.linspace(-1, 1, 1001)
+    >>> line = rl.Line(-(s**2), length=2.0)  # of the reduction method, for a sphere of radius 1
+    >>> curve = rl.press(line, E_star=1.0, depths=[0.1])
+    >>> print(round(float(curve.force[0]), 3))  # Hertz: 4/3 d^(3/2) = 0.042
+    0.042
     """
 
     heights: Real

@@ -102,6 +102,14 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
         Any body.
     preparation : Preparation, optional
         Default: spikes are counted, and nothing is changed.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> surface = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(64, rng=7)
+    >>> piece = rl.prepared(surface, rl.Preparation(crop=(0, 5e-4, 0, 5e-4), trend="tilt"))
+    >>> print(piece.shape, piece.is_cut_out)
+    (32, 32) True
     """
     preparation = preparation or Preparation()
     if isinstance(body, Surface):

@@ -31,6 +31,14 @@ def facing(first: Surface, second: Surface) -> Surface:
     ------
     InputError
         If their units differ, or what they have in common is less than 2 x 2 points.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0)
+    >>> both = rl.facing(spectrum.surface(64, rng=1), spectrum.surface(64, rng=2))
+    >>> print(round(both.rms_height / 0.01, 1))  # two independent bodies: the root of 2
+    1.4
     """
     if first.unit != second.unit:
         raise InputError(
