@@ -15,3 +15,19 @@ def test_numbers_of_the_readme_stand_on_the_page_of_the_paper():
     told = [number for _, found, _ in rows[1:] for number in re.findall(r"\d+\.\d+", found)]
     assert len(told) > 30
     assert not [number for number in told if number not in page]
+
+
+def test_installing_is_told_as_it_works_without_a_release():
+    """Wherever `pip install roughline` is told, `pip install .` stands before it."""
+    for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")):
+        if "made" in page.parts:
+            continue
+        before, told, _ = page.read_text(encoding="utf-8").partition("pip install roughline")
+        assert not told or "pip install ." in before, page
+    assert "$ pip install ." in (ROOT / "docs" / "start.md").read_text(encoding="utf-8")
+
+
+def test_the_start_page_of_the_handbook_shows_a_picture():
+    page = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
+    (picture,) = re.findall(r"!\[[^\]]+\]\(([^)]+)\)", page.partition("\n- **")[0])
+    assert (ROOT / "docs" / picture).is_file()
