@@ -164,7 +164,7 @@ def test_a_report_a_client_could_receive(topographies, invoke, tmp_path):
         assert text in page, text
     pdf = (folder / "report.pdf").read_bytes()
     assert pdf.startswith(b"%PDF")
-    assert pdf.count(b"/Type /Page\n") == 1
+    assert pdf.count(b"/Type /Page\n") > 1
     # the grid's error, as a report estimates it
     bare = " ".join(re.sub("<[^>]*>", " ", page).split())
     interval = r"(± \S+%|\(\S+ to \S+\))"

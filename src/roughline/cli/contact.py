@@ -193,10 +193,10 @@ def press_command(
     With two materials it prints contact stiffness, real contact area, contact pressure over
     hardness, electrical and thermal contact conductance and tangential stiffness; with --report it
     writes them with their formulas, the surface, the preparation, the assumptions and this command
-    on one page, as HTML and PDF. A value is followed by ± or by both ends of its interval. The
-    interval holds the uncertainty due to the grid, to filled points and to the scatter of a
-    hardness, or to a single line scan. A star after a load marks fewer than ten points in contact:
-    the grid decides there.
+    to a report, as one page of HTML and as PDF to be printed. A value is followed by ± or by both
+    ends of its interval. The interval holds the uncertainty due to the grid, to filled points and
+    to the scatter of a hardness, or to a single line scan. A star after a load marks fewer than ten
+    points in contact: the grid decides there.
 
     For several maps it prints the answers of each map, their mean, their scatter between places and
     an interval for the part. With --joint-area the map stands for a joint that has the same

@@ -33,7 +33,7 @@ _RC: Any = {
     "axes.axisbelow": True,
     "lines.linewidth": 1.3,
     "lines.markersize": 3.5,
-    "legend.fontsize": 7.5,
+    "legend.fontsize": 8,
     "legend.frameon": False,
     "xtick.direction": "in",
     "ytick.direction": "in",

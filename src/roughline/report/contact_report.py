@@ -1,4 +1,4 @@
-"""The report for a client: one page, as HTML and PDF, from an assessment."""
+"""The report for a client, as HTML and PDF, from an assessment."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from roughline.plot.bodies import draw_heights
@@ -26,20 +27,24 @@ from roughline.report.contact_tables import (
     answer_table,
     elastic_in_words,
     formula_table,
+    keys_at_many_loads,
     leading_keys,
+    load_table,
     material_in_words,
     quantity,
     star_is_shown,
 )
 from roughline.report.document import write_document
-from roughline.report.page import Picture, Section, Table
-from roughline.topography.body import Body, Line, Surface
+from roughline.report.page import Headline, KeyFigure, Picture, Section, Table
+from roughline.report.preparation import STEPS, preparation_in_words
+from roughline.topography.body import Line, Surface
 from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
 
-_ABREAST = 4  # loads that fit beside each other on a page
+_ABREAST = 3  # loads that fit beside each other on a page
+_PANEL, _PANELS = 2.6, 8.2  # heights of a row of panels, and of all at most [inch]
 
 ASSUMPTIONS = (
     "Both bodies are half-spaces, linear elastic up to the hardness of the softer body, if that is "
@@ -87,81 +92,107 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
         overview = save(_overview(assessment), folder, "overview")
     title, lead = f"Contact of {assessment.question.name}", _lead(assessment)
     sections = _sections(assessment, overview[0], how_to_repeat)
-    return [*write_document(folder, title, lead, sections), *files, *overview]
+    document = write_document(folder, title, lead, sections, _headline(assessment))
+    return [*document, *files, *overview]
 
 
 def _lead(assessment: Assessment) -> str:
-    """The answers at the largest load, by the names that they have in the table."""
+    """What was asked: both materials, and the largest load with its nominal area."""
     pair, curve = assessment.question.pair, assessment.curve_as_asked
     assert pair is not None
     largest = assessment.largest
-    answers = assessment.answers
-    shown = {key: quantity(each, largest) for key, each in answers.items()}
-    leading = [f"{answers[key].name} {shown[key]}" for key in leading_keys(assessment)]
-    elastic = elastic_in_words(assessment)
+    force, pressure = (
+        quantity(assessment.answers[key], largest) for key in ("normal_force", "mean_pressure")
+    )
     joint = assessment.question.joint
     over = "the nominal area" if joint is None else f"a joint of {engineering(joint, 'm²')}"
     unsure = curve.converged[largest] and not curve.resolved[largest]
+    count = assessment.asked.size
+    which = f", the largest of {count} loads" if count > 1 else ""
     return sentence(
-        f"{pair.first.name} on {pair.second.name} under {shown['normal_force']}, "
-        f"{shown['mean_pressure']} over {over}: {', '.join(leading)}"
+        f"{pair.first.name} on {pair.second.name} under {force}, {pressure} over {over}{which}"
         + (f" ({UNRESOLVED})" if unsure else "")
-        + (f"; {elastic}" if elastic else "")
+    )
+
+
+def _headline(assessment: Assessment) -> Headline:
+    """The answers at the largest load, by the names that they have in the table."""
+    leading = [assessment.answers[key] for key in leading_keys(assessment)]
+    return Headline(
+        [KeyFigure.of(each.name, quantity(each, assessment.largest)) for each in leading],
+        [*map(sentence, assessment.warnings)],
+        sentence(elastic_in_words(assessment)),
     )
 
 
 def _overview(assessment: Assessment) -> Figure:
-    friction, falls = assessment.question.friction, has_falling_loads(assessment)
-    figure = new_figure(PAGE, 4.6)
-    panels = figure.subplots(2, 3 if friction is not None or falls else 2).ravel()
-    draw_heights(panels[0], assessment.body, "m")
-    draw_filled(panels[0], assessment)
-    remaining = list(panels[1:])
+    """Two panels abreast, of what is known."""
+    body, panels = assessment.body, [partial(_draw_body, assessment=assessment)]
     if assessment.roughness is not None:
-        draw_spectrum(remaining.pop(0), assessment.roughness, "m")
-    draw_stiffness(remaining.pop(0), assessment)
-    if isinstance(assessment.body, Surface):
-        if assessment.theories or (friction is not None) != falls:  # with both there is no room
-            draw_area(remaining.pop(0), assessment)
-        if remaining:
-            draw_last_contact(remaining.pop(0), assessment.body, assessment)
-    if falls and remaining:
-        draw_force(remaining.pop(0), assessment)
-    if friction is not None and remaining:
-        draw_partial_slip(remaining.pop(0), assessment.partial_slip)
-    for empty in remaining:
+        panels.append(partial(draw_spectrum, found=assessment.roughness, unit="m"))
+    panels.append(partial(draw_stiffness, assessment=assessment))
+    if isinstance(body, Surface):
+        panels.append(partial(draw_area, assessment=assessment))
+        panels.append(partial(draw_last_contact, surface=body, assessment=assessment))
+    if has_falling_loads(assessment):
+        panels.append(partial(draw_force, assessment=assessment))
+    if assessment.question.friction is not None:
+        panels.append(partial(draw_partial_slip, slip=assessment.partial_slip))
+    rows = -(-len(panels) // 2)
+    figure = new_figure(PAGE, min(_PANEL * rows, _PANELS))
+    axes = figure.subplots(rows, 2, squeeze=False).ravel()
+    for draw, each in zip(panels, axes, strict=False):
+        draw(each)
+    for empty in axes[len(panels) :]:
         empty.set_axis_off()
     return figure
+
+
+def _draw_body(axes: Axes, assessment: Assessment) -> None:
+    """Heights, with the points that were filled."""
+    draw_heights(axes, assessment.body, "m")
+    draw_filled(axes, assessment)
 
 
 def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> list[Section]:
     pair = assessment.question.pair
     assert pair is not None
-    settings = "; ".join(f"{key} = {_shown(value)}" for key, value in assessment.settings.items())
-    table_of = partial(answer_table, assessment, with_elastic=True)
+    settings = "; ".join(
+        f"{key} = {_shown(value)}"
+        for key, value in assessment.settings.items()
+        if key.removeprefix("body_") not in STEPS  # they are told with the surface
+    )
     legend = [f"A star after a load: {UNRESOLVED}."] if star_is_shown(assessment) else []
+    notes = [*map(sentence, assessment.notes)]
     return [
         Section(
             "Answers",
-            [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."],
-            notes=[*legend, *map(sentence, assessment.remarks)],
-            tables=[
-                Table(header, rows, numbers=range(1, len(header)))
-                for header, rows in map(table_of, _abreast(assessment))
+            [
+                f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}.",
+                *legend,
             ],
+            tables=_answers(assessment),
         ),
+        *([Section("Notes", notes=notes)] if notes else []),
         Section(
             "Surface",
             [_surface(assessment)],
             pictures=[Picture(overview, "Overview", _caption(assessment))],
         ),
         Section("Formulas and sources", tables=[Table(*formula_table(assessment))]),
-        Section(
-            "Assumptions",
-            assumptions_of(assessment),
-        ),
+        Section("Assumptions", assumptions_of(assessment)),
         Section("How to repeat it", [how_to_repeat, settings]),
     ]
+
+
+def _answers(assessment: Assessment) -> list[Table]:
+    """All answers, a few loads beside each other; of many loads the leading ones first."""
+    count = assessment.asked.size
+    loads = [slice(i, i + _ABREAST) for i in range(0, count, _ABREAST)]
+    found = [answer_table(assessment, each, with_elastic=True) for each in loads]
+    if count > _ABREAST:
+        found.insert(0, load_table(assessment, keys_at_many_loads(assessment)))
+    return [Table(header, rows, numbers=range(1, len(header))) for header, rows in found]
 
 
 def assumptions_of(assessment: Assessment) -> list[str]:
@@ -169,11 +200,6 @@ def assumptions_of(assessment: Assessment) -> list[str]:
     of_theories = [f"{theory.name}: {theory.validity}." for theory in assessment.theories]
     joint = assessment.question.joint is not None
     return [*(ASSUMPTIONS_OF_JOINT if joint else ASSUMPTIONS), *of_theories]
-
-
-def _abreast(assessment: Assessment) -> list[slice]:
-    """Loads that stand beside each other in a table."""
-    return [slice(i, i + _ABREAST) for i in range(0, assessment.asked.size, _ABREAST)]
 
 
 def _caption(assessment: Assessment) -> str:
@@ -188,17 +214,18 @@ def _caption(assessment: Assessment) -> str:
         "spectrum with the nearest self-affine law",
         f"stiffness over force ({'; '.join(marks)})",
     ]
-    if assessment.theories:
-        shown.append("and theories for the same spectrum")
-    if has_falling_loads(assessment):
-        shown.append("force over depth")
     if isinstance(assessment.body, Surface):
         red = " (red: at the hardness)" if yields else ""
         shown.append(
-            f"and the points in contact at the largest load{red}; their area is corrected for the "
-            "outline's steps, as in the table"
+            "contact area, corrected for the outline's steps as in the table, over force; the "
+            f"points in contact at the largest load{red}"
         )
-    return f"{', '.join(shown)}."
+    if has_falling_loads(assessment):
+        shown.append("force over depth")
+    if question.friction is not None:
+        shown.append("partial slip at the largest load")
+    with_theories = "; with theories for the same spectrum" if assessment.theories else ""
+    return f"{'; '.join(shown)}{with_theories}."
 
 
 def _shown(value: object) -> str:
@@ -213,9 +240,9 @@ def _surface(assessment: Assessment) -> str:
         sides = " x ".join(engineering(size, "m") for size in body.sizes)
         what = f"{body.shape[0]} x {body.shape[1]} points on {sides}"
     if len(assessment.topographies) == 1:
-        done = f"Preparation: {_preparation(body)}."
+        done = f"Preparation: {preparation_in_words(body)}."
     else:
-        first, second = (_preparation(part.body) for part in assessment.topographies)
+        first, second = (preparation_in_words(part.body) for part in assessment.topographies)
         done = f"Preparation of the first body: {first}; of the second: {second}."
         what += ", two bodies together" if isinstance(body, Surface) else ", the first of two"
     text = (
@@ -230,24 +257,8 @@ def _surface(assessment: Assessment) -> str:
     return text
 
 
-def _preparation(body: Body) -> str:
-    steps = (
-        "cropped",
-        "outliers_removed",
-        "detrended",
-        "low_pass",
-        "resampled",
-        "resampled_to",
-        "filled",
-    )
-    done = [
-        f"{name.replace('_', ' ')}: {body.settings[name]}"
-        for name in steps
-        if name in body.settings
-    ]
-    return ", ".join(done) or "none"
-
-
 def sentence(text: str) -> str:
-    """A remark as a sentence: with a capital and a full stop."""
+    """A remark as a sentence: with a capital and a full stop; nothing stays nothing."""
+    if not text:
+        return ""
     return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")

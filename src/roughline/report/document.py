@@ -1,4 +1,4 @@
-"""A report as two files: the page as HTML, and the same as PDF."""
+"""A report as two files: the page as HTML, and the same as PDF to be printed."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from datetime import date
 from pathlib import Path
 
 from roughline._version import __version__
-from roughline.report.page import Section, render
+from roughline.report.page import Headline, Section, render
 from roughline.report.pdf import write_pdf
 
 
 def write_document(
-    folder: Path, title: str, lead: str, sections: Sequence[Section], *, one_sheet: bool = True
+    folder: Path, title: str, lead: str, sections: Sequence[Section], headline: Headline
 ) -> list[Path]:
     """Write ``report.html`` and ``report.pdf``, with the date and version that made them.
 
@@ -20,10 +20,8 @@ def write_document(
     ----------
     folder : Path
         An existing folder.
-    title, lead, sections
+    title, lead, sections, headline
         As for :func:`roughline.report.page.render`.
-    one_sheet : bool, optional
-        As for :func:`roughline.report.pdf.write_pdf`.
 
     Returns
     -------
@@ -37,6 +35,6 @@ def write_document(
     """
     made = f"Computed on {date.today().isoformat()} with roughline {__version__}."
     page, sheets = folder / "report.html", folder / "report.pdf"
-    page.write_text(render(title, lead, sections, made), encoding="utf-8")
-    write_pdf(sheets, title, lead, sections, made, one_sheet=one_sheet)
+    page.write_text(render(title, lead, sections, made, headline), encoding="utf-8")
+    write_pdf(sheets, title, lead, sections, made, headline)
     return [page, sheets]

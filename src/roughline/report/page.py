@@ -50,14 +50,44 @@ class Section:
     pictures: Sequence[Picture] = field(default=())
 
 
-def render(title: str, lead: str, sections: Sequence[Section], made: str = "") -> str:
+@dataclass(frozen=True)
+class KeyFigure:
+    """A leading answer: what it is called, its value with its unit, and its interval."""
+
+    name: str
+    value: str
+    interval: str = ""
+
+    @classmethod
+    def of(cls, name: str, cell: str) -> KeyFigure:
+        """A cell of a table as a key figure."""
+        value, *interval = value_and_interval(cell)
+        return cls(name, value, " ".join(interval).strip("()"))
+
+
+@dataclass(frozen=True)
+class Headline:
+    """What a page begins with: grave warnings, the answers that lead, and a remark below them."""
+
+    figures: Sequence[KeyFigure]
+    warnings: Sequence[str] = ()
+    below: str = ""
+
+
+def render(
+    title: str,
+    lead: str,
+    sections: Sequence[Section],
+    made: str = "",
+    headline: Headline | None = None,
+) -> str:
     """Return the page as HTML; `made` says when and with which version it was made."""
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["verdict_class"] = _verdict_class
     environment.filters["value_and_interval"] = value_and_interval
     source = files("roughline.report").joinpath("page.html.jinja").read_text(encoding="utf-8")
     return environment.from_string(source).render(
-        title=title, lead=lead, sections=sections, made=made
+        title=title, lead=lead, sections=sections, made=made, headline=headline
     )
 
 

@@ -21,17 +21,20 @@ from roughline.units import prefix
 if TYPE_CHECKING:
     from roughline.assessment.part import PartAnswer, PartAssessment
 
-_ABREAST = 5  # maps of heights in a row
+_ABREAST = 4  # maps of heights in a row
 _LOG_FROM = 5.0  # largest over smallest from which on an axis is logarithmic
-_LONGEST = 14  # letters of a name under an axis
-_MOST_HEIGHTS = 20  # maps whose heights are drawn
+_LONGEST = 18  # letters of a name under an axis
+_MOST_NAMED = 12  # maps whose names fit under an axis
+
+MOST_HEIGHTS = 16
+"""Maps whose heights are drawn, so that the figure fits a sheet."""
 
 
 def answers_figure(part: PartAssessment) -> Figure:
     """Leading answers of each map with their intervals, their mean and the part's interval."""
     keys = [key for key in leading_keys_of(part) if key in part.answers]
     rows = math.ceil(len(keys) / 2)
-    figure = new_figure(PAGE, 2.3 * max(rows, 1))
+    figure = new_figure(PAGE, 2.4 * max(rows, 1))
     if not keys:
         return figure
     panels = np.atleast_1d(figure.subplots(rows, 2)).ravel()
@@ -44,16 +47,16 @@ def answers_figure(part: PartAssessment) -> Figure:
 
 def heights_figure(part: PartAssessment) -> Figure:
     """Heights of the maps, each about its mean, in the same colours; of scans, lines."""
-    bodies = [each.body for each in part.assessments[:_MOST_HEIGHTS]]
+    bodies = [each.body for each in part.assessments[:MOST_HEIGHTS]]
     rows = math.ceil(len(bodies) / _ABREAST)
-    figure = new_figure(PAGE, 1.8 * rows + 0.75)
+    figure = new_figure(PAGE, 1.85 * rows + 0.75)
     panels = np.atleast_1d(figure.subplots(rows, _ABREAST)).ravel()
     spread = 4 * max(body.rms_height for body in bodies)
     factor, unit = prefix(spread, "m", 3)
     shown = None
     for axes, body, name in zip(panels, bodies, part.names, strict=False):
-        axes.set_title(_short(name), fontsize=7)
-        axes.tick_params(labelsize=6)
+        axes.set_title(_short(name), fontsize=8)
+        axes.tick_params(labelsize=8)
         heights = (body.heights - body.heights.mean()) * factor
         if isinstance(body, Surface):
             size, sides = prefix(max(body.sizes), "m", 3)
@@ -70,15 +73,15 @@ def heights_figure(part: PartAssessment) -> Figure:
             size, sides = prefix(body.length, "m", 3)
             x = (np.arange(heights.size) + 0.5) * body.spacing * size
             axes.plot(x, heights, color="k", linewidth=0.5)
-        axes.set_xlabel(f"x [{sides}]", fontsize=6)
+        axes.set_xlabel(f"x [{sides}]", fontsize=8)
     for axes in panels[len(bodies) :]:
         axes.set_axis_off()
     if shown is not None:
         bar = figure.colorbar(
             shown, ax=panels, orientation="horizontal", shrink=0.5, aspect=40, extend="both"
         )
-        bar.set_label(f"height [{unit}]", fontsize=7)
-        bar.ax.tick_params(labelsize=6)
+        bar.set_label(f"height [{unit}]", fontsize=8)
+        bar.ax.tick_params(labelsize=8)
     return figure
 
 
@@ -104,9 +107,12 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
         axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if decades < 2 else (1.0,)))
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.yaxis.set_minor_formatter(NullFormatter())
-    axes.set_xticks(places, list(map(_short, part.names)), rotation=30, ha="right", fontsize=6)
+    if values.size <= _MOST_NAMED:
+        axes.set_xticks(places, list(map(_short, part.names)), rotation=30, ha="right", fontsize=8)
+    else:
+        axes.set_xlabel("number of the map")
     axes.set_xlim(0.5, values.size + 0.5)
-    axes.set_ylabel(answer.name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=7)
+    axes.set_ylabel(answer.name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=8)
 
 
 def _short(name: str) -> str:

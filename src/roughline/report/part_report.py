@@ -15,8 +15,8 @@ from roughline.report.contact_tables import (
     material_in_words,
 )
 from roughline.report.document import write_document
-from roughline.report.page import Picture, Section, Table
-from roughline.report.part_figures import answers_figure, heights_figure
+from roughline.report.page import Headline, KeyFigure, Picture, Section, Table
+from roughline.report.part_figures import MOST_HEIGHTS, answers_figure, heights_figure
 from roughline.report.part_tables import (
     each_map_table,
     elastic_of_part_in_words,
@@ -24,6 +24,7 @@ from roughline.report.part_tables import (
     leading_table,
     maps_table,
     mean_and_interval,
+    part_load_table,
     part_table,
     scatter_in_words,
     star_is_shown_of,
@@ -38,7 +39,7 @@ ASSUMPTION_OF_PART = (
     "places were chosen at random, and that quantities scatter by factors."
 )
 _LOADS_ABREAST = 2  # each has two columns
-_MAPS_ABREAST = 4
+_MAPS_ABREAST = 3
 
 
 def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) -> list[Path]:
@@ -64,7 +65,7 @@ def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) ->
     figures = _figures(part, folder)
     title, lead = f"Contact of a part, {_count(part)}", _lead(part)
     sections = _sections(part, figures[0], figures[2], how_to_repeat)
-    document = write_document(folder, title, lead, sections, one_sheet=False)
+    document = write_document(folder, title, lead, sections, _headline(part))
     return [*document, *figures, *written]
 
 
@@ -105,27 +106,33 @@ def _count(part: PartAssessment) -> str:
 
 
 def _lead(part: PartAssessment) -> str:
-    """Means, intervals and scatter of the leading answers at the largest load."""
+    """What was asked: both materials, and the largest load."""
     i = part.largest
     pair, joint = part.question.pair, part.question.joint
     assert pair is not None
     under = part.headings[i] + (
         "" if joint is None else f" on a joint of {engineering(joint, 'm²')}"
     )
-    leading = [part.answers[key] for key in leading_keys_of(part) if key in part.answers]
-    if not leading:
-        return sentence(
-            f"{pair.first.name} on {pair.second.name} under {under}: the maps have no common mean"
-        )
-    answers = ", ".join(f"{each.of_maps[0].name} {mean_and_interval(each, i)}" for each in leading)
-    scatter = scatter_in_words(leading[0], i)
-    elastic = elastic_of_part_in_words(part)
+    count = len(part.headings)
+    which = f", the largest of {count} loads" if count > 1 else ""
+    text = f"{pair.first.name} on {pair.second.name} under {under}{which}"
+    if not any(key in part.answers for key in leading_keys_of(part)):
+        return sentence(f"{text}: the maps have no common mean")
     unsure = any(not each.curve_as_asked.resolved[i] for each in part.assessments)
-    between = f"; places scatter by {scatter} in {leading[0].name}" if len(part.names) > 1 else ""
-    return sentence(
-        f"{pair.first.name} on {pair.second.name} under {under}: {answers}{between}"
-        + (f" ({UNRESOLVED})" if unsure else "")
-        + (f"; {elastic}" if elastic else "")
+    return sentence(text + (f" ({UNRESOLVED})" if unsure else ""))
+
+
+def _headline(part: PartAssessment) -> Headline:
+    """Means of the leading answers with their intervals, and how far places scatter."""
+    i = part.largest
+    leading = [part.answers[key] for key in leading_keys_of(part) if key in part.answers]
+    below = [elastic_of_part_in_words(part)]
+    if leading and len(part.names) > 1:
+        below.insert(0, f"places scatter by {scatter_in_words(leading[0], i)} in {leading[0].name}")
+    return Headline(
+        [KeyFigure.of(each.name, mean_and_interval(each, i)) for each in leading],
+        [*map(sentence, part.warnings)],
+        " ".join(map(sentence, filter(None, below))),
     )
 
 
@@ -135,11 +142,15 @@ def _sections(
     pair, first = part.question.pair, part.assessments[0]
     assert pair is not None
     legend = [f"A star: {UNRESOLVED}."] if star_is_shown_of(part) else []
+    notes = [*map(sentence, part.notes)]
     loads, maps = range(len(part.headings)), range(len(part.names))
     of_part = [
         part_table(part, loads[i : i + _LOADS_ABREAST], with_elastic=True)
         for i in loads[::_LOADS_ABREAST]
     ]
+    if len(loads) > _LOADS_ABREAST:
+        leading = [key for key in leading_keys_of(part) if key in part.answers]
+        of_part.insert(0, part_load_table(part, leading))
     of_maps = [
         each_map_table(part, load, maps[i : i + _MAPS_ABREAST])
         for load in loads
@@ -149,16 +160,19 @@ def _sections(
     return [
         Section(
             "The part",
-            [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."],
-            notes=[*legend, *map(sentence, part.remarks)],
+            [
+                f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}.",
+                *legend,
+            ],
             tables=[_with_numbers(*each) for each in of_part if part.answers],
         ),
+        *([Section("Notes", notes=notes)] if notes else []),
         Section(
             "The maps",
             tables=[_with_numbers(*maps_table(part)), _with_numbers(*leading_table(part))],
             pictures=[
                 Picture(answers, "Answers", _caption_of_answers(part)),
-                Picture(heights, "Heights", "Each map about its mean, in the same colours."),
+                Picture(heights, "Heights", _caption_of_heights(part)),
             ],
         ),
         Section(
@@ -183,3 +197,10 @@ def _with_numbers(header: list[str], rows: list[list[str]]) -> Table:
 def _caption_of_answers(part: PartAssessment) -> str:
     text = f"Answers at {part.headings[part.largest]} of each map, with its own interval"
     return f"{text}; red: their mean, and its interval over the places of the part."
+
+
+def _caption_of_heights(part: PartAssessment) -> str:
+    which = (
+        "Each map" if len(part.names) <= MOST_HEIGHTS else f"The first {MOST_HEIGHTS} maps, each"
+    )
+    return f"{which} about its mean, in the same colours."

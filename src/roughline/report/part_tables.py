@@ -57,18 +57,20 @@ def part_table(
 
 
 def part_load_table(part: PartAssessment, keys: Sequence[str]) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of mean, interval and scatter, with a row for each load."""
+    """Return header and rows of mean, interval and scatter, with a row for each load.
+
+    A single map has no scatter.
+    """
     headings = [starred(each) for each in part.assessments]
-    answers = [part.answers[key] for key in keys]
+    answers, several = [part.answers[key] for key in keys], len(part.names) > 1
     header = ["load"]
+    rows = [[max((each[i] for each in headings), key=len)] for i in range(len(part.headings))]
     for each in answers:
-        header += [f"{each.name} {each.symbol}", f"scatter of {each.symbol}"]
-    rows = []
-    for i in range(len(part.headings)):
-        row = [max((each[i] for each in headings), key=len)]
-        for each in answers:
-            row += [mean_and_interval(each, i), scatter_in_words(each, i)]
-        rows.append(row)
+        header.append(f"{each.name} {each.symbol}")
+        header += [f"scatter of {each.symbol}"] if several else []
+        for i, row in enumerate(rows):
+            row.append(mean_and_interval(each, i))
+            row += [scatter_in_words(each, i)] if several else []
     return header, rows
 
 

@@ -1,9 +1,9 @@
-"""A page of sections as PDF."""
+"""A page of sections as PDF, to be printed: on as many sheets as it takes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
@@ -14,13 +14,22 @@ from roughline.errors import StoreError
 from roughline.report.values import value_and_interval
 
 if TYPE_CHECKING:
-    from roughline.report.page import Section, Table
+    from roughline.report.page import Headline, KeyFigure, Section, Table
 
-_SIZE = 6.6  # of the text, so that a page holds it [points]
-_MARGIN = 36  # [points]
-_SCALES = (1.0, 0.9, 0.8, 0.75, 0.7, 0.65, 0.6, 0.55)  # of a sheet that has to hold more
-_PICTURE = 265  # height of a picture at most [points]
-_PADDING = 6  # left and right of a cell, as ReportLab has it [points]
+SIZE = 9.0
+"""Of the text and of tables; nothing is smaller. [points]"""
+
+_LARGE, _HEADING, _TITLE = 15.0, 11.5, 16.0  # of key figures, headings and the title [points]
+_LEADING = 1.3  # distance of lines over their size
+_MARGIN = 38.0  # so that figures, 7.2 inches wide, keep their size [points]
+_FOOT = 20.0  # of the footer above the edge of the sheet [points]
+_PICTURE = 600.0  # height of a picture at most [points]
+_ROOM = 140.0  # below which a section or a table begins on the next sheet [points]
+_PADDING = 4.0  # left and right of a cell [points]
+_NAMES = 0.2  # share of the width that the first column gets at least, if it needs it
+_WORD = 0.4  # share of the width from which on a word is broken
+_ABREAST = 3  # key figures beside each other
+_GRAVE = "#fbe9e7"  # behind warnings
 
 
 def write_pdf(
@@ -29,141 +38,254 @@ def write_pdf(
     lead: str,
     sections: Sequence[Section],
     made: str = "",
-    *,
-    one_sheet: bool = True,
+    headline: Headline | None = None,
 ) -> None:
-    """Write a page as PDF on A4: on one sheet, made smaller as long as it is legible, or on more.
+    """Write a page as PDF on sheets of A4, with their numbers at the foot.
+
+    Tables that are too wide go on below, with their first column; headers are repeated on every
+    sheet.
 
     Parameters
     ----------
     path : Path
         Replaced if it exists.
-    title, lead, sections, made
+    title, lead, sections, made, headline
         As for :func:`roughline.report.page.render`.
-    one_sheet : bool, optional
-        Whether the page is made to fit one sheet, if it is then still legible.
 
     Raises
     ------
     StoreError
         If the file cannot be written.
     """
-    from reportlab.lib.pagesizes import A4
-    from reportlab.pdfbase import pdfmetrics
-    from reportlab.pdfbase.ttfonts import TTFont
-    from reportlab.platypus import SimpleDocTemplate
+    _register_fonts()
 
-    folder = Path(get_data_path()) / "fonts" / "ttf"
-    for name, file in (("Sans", "DejaVuSans"), ("Sans-Bold", "DejaVuSans-Bold")):
-        pdfmetrics.registerFont(TTFont(name, folder / f"{file}.ttf"))
-    document = SimpleDocTemplate(
-        str(path),
-        pagesize=A4,
-        leftMargin=_MARGIN,
-        rightMargin=_MARGIN,
-        topMargin=_MARGIN,
-        bottomMargin=_MARGIN,
-        title=title,
-        author="roughline",
-        invariant=True,
-    )
-    room = (A4[0] - 2 * _MARGIN - 12, A4[1] - 2 * _MARGIN - 12)  # frames have a padding of 6
-    flow_of = partial(_flow, title, lead, sections, made)
-    flow = _on_one_sheet(flow_of, room) if one_sheet else []
-    flow = flow or flow_of(room[0])
+    def build(target: str | BytesIO, count: int) -> int:
+        """Write all sheets to a target, and return how many they are."""
+        document = _document(target, title)
+
+        def foot(canvas: Any, _: Any) -> None:
+            canvas.setFont("Sans", SIZE)
+            number = f"page {canvas.getPageNumber()} of {count}"
+            canvas.drawRightString(_MARGIN + document.width - 12, _FOOT, number)
+            canvas.drawString(_MARGIN, _FOOT, _shortened(title, 0.8 * document.width))
+
+        flow = _flow(title, lead, sections, made, headline, document.width - 12)
+        document.build(flow, onFirstPage=foot, onLaterPages=foot)
+        return int(document.page)
+
     try:
-        document.build(flow)
+        build(str(path), build(BytesIO(), 0))  # how many there are is known at the end only
     except OSError as error:
         raise StoreError(f"cannot write {path} ({error}): choose another folder") from error
 
 
-def _on_one_sheet(flow_of: Callable[[float], list[Any]], room: tuple[float, float]) -> list[Any]:
-    """What fits on a sheet, as large as it does; nothing if it could not be read.
+def _register_fonts() -> None:
+    """Make the fonts of the figures known to ReportLab."""
+    from reportlab.pdfbase import pdfmetrics
+    from reportlab.pdfbase.ttfonts import TTFont
 
-    A smaller scale makes the sheet wider as well, so that fewer lines are broken.
-    """
-    from reportlab.platypus import KeepInFrame
-
-    for scale in _SCALES:
-        width = room[0] / scale
-        high = sum(each.wrap(width, room[1])[1] for each in flow_of(width))
-        if high * scale <= room[1]:
-            return [KeepInFrame(*room, flow_of(width), mode="shrink")]
-    return []
+    folder = Path(get_data_path()) / "fonts" / "ttf"
+    for name, file in (("Sans", "DejaVuSans"), ("Sans-Bold", "DejaVuSans-Bold")):
+        pdfmetrics.registerFont(TTFont(name, folder / f"{file}.ttf"))
 
 
-def _flow(title: str, lead: str, sections: Sequence[Section], made: str, width: float) -> list[Any]:
-    """What stands on a sheet of some width, from the title down."""
-    from reportlab.lib.utils import ImageReader
-    from reportlab.platypus import Image, Paragraph, Spacer
+def _document(target: str | BytesIO, title: str) -> Any:
+    """Sheets of A4; their frames have a padding of 6 points."""
+    from reportlab.lib.pagesizes import A4
+    from reportlab.platypus import SimpleDocTemplate
 
-    text, heading = _style(_SIZE, bold=False), _style(1.25 * _SIZE, bold=True)
-    item = text.clone("item", leftIndent=1.5 * _SIZE, bulletIndent=0.4 * _SIZE)
-    top = _style(2 * _SIZE, bold=True)
-    flow: list[Any] = [Paragraph(escape(line), text) for line in (lead, made) if line]
-    flow.insert(0, Paragraph(escape(title), top))
+    return SimpleDocTemplate(
+        target,
+        pagesize=A4,
+        leftMargin=_MARGIN - 6,
+        rightMargin=_MARGIN - 6,
+        topMargin=_MARGIN,
+        bottomMargin=_MARGIN + 6,
+        title=title,
+        author="roughline",
+        invariant=True,
+    )
+
+
+def _flow(
+    title: str,
+    lead: str,
+    sections: Sequence[Section],
+    made: str,
+    headline: Headline | None,
+    width: float,
+) -> list[Any]:
+    """What stands on the sheets, from the title down."""
+    from reportlab.lib import colors
+    from reportlab.platypus import CondPageBreak, Paragraph, Spacer
+
+    text, small = _style(SIZE), _style(SIZE, textColor=colors.HexColor("#555555"))
+    heading = _style(_HEADING, bold=True, keepWithNext=1, spaceBefore=SIZE, spaceAfter=3)
+    item = _style(SIZE, leftIndent=12, bulletIndent=3, spaceAfter=2)
+    flow: list[Any] = [Paragraph(escape(title), _style(_TITLE, bold=True, spaceAfter=4))]
+    if headline is not None:
+        grave = _style(SIZE, backColor=colors.HexColor(_GRAVE), borderPadding=3, spaceAfter=7)
+        flow += [Spacer(1, 3)] if headline.warnings else []
+        flow += [Paragraph(f"Warning: {escape(each)}", grave) for each in headline.warnings]
+    flow += [Paragraph(escape(lead), _style(SIZE + 1, spaceAfter=4))] if lead else []
+    if headline is not None and headline.figures:
+        flow += [_key_figures(headline.figures, width), Spacer(1, 3)]
+        flow += [Paragraph(escape(headline.below), text)] if headline.below else []
+    flow += [Paragraph(escape(made), small)] if made else []
     for section in sections:
-        flow.append(Spacer(1, _SIZE * 0.5))
-        flow.append(Paragraph(escape(section.heading), heading))
-        flow += [Paragraph(escape(paragraph), text) for paragraph in section.paragraphs]
-        if section.note:
-            flow.append(Paragraph(f"<i>{escape(section.note)}</i>", text))
+        flow += [CondPageBreak(_ROOM), Paragraph(escape(section.heading), heading)]
+        spaced = text.clone("spaced", spaceAfter=3)
+        flow += [Paragraph(escape(paragraph), spaced) for paragraph in section.paragraphs]
+        flow += [Paragraph(escape(section.note), spaced)] if section.note else []
         flow += [Paragraph(escape(note), item, bulletText="•") for note in section.notes]
-        flow += [_table(table, width, text) for table in section.tables]
-        for picture in section.pictures:
-            wide, high = ImageReader(str(picture.path)).getSize()
-            share = min(1.0, _PICTURE * wide / (high * width))
-            flow.append(Image(str(picture.path), width * share, width * share * high / wide))
-            flow.append(Paragraph(escape(f"{picture.name}. {picture.caption}"), text))
+        for i, grid in enumerate(grid for each in section.tables for grid in _grids(each, width)):
+            flow += [CondPageBreak(_ROOM)] if i else []  # the first stays below its heading
+            flow += [Spacer(1, 5), grid]
+        flow += [
+            _picture(each.path, f"{each.name}. {each.caption}", width) for each in section.pictures
+        ]
     return flow
 
 
-def _style(size: float, bold: bool) -> Any:
+def _style(size: float, *, bold: bool = False, **others: Any) -> Any:
     from reportlab.lib.styles import ParagraphStyle
 
     font = "Sans-Bold" if bold else "Sans"
-    return ParagraphStyle(font + str(size), fontName=font, fontSize=size, leading=1.3 * size)
+    return ParagraphStyle(font, fontName=font, fontSize=size, leading=_LEADING * size, **others)
 
 
-def _table(table: Table, width: float, style: Any) -> Any:
+def _key_figures(figures: Sequence[KeyFigure], width: float) -> Any:
+    """The answers that lead, in large figures: name, value and interval."""
     from reportlab.lib import colors
     from reportlab.platypus import Paragraph
     from reportlab.platypus import Table as Grid
 
-    lines = [table.header, *table.rows]
-    rows = [
-        [
-            Paragraph(escape(_unbroken(cell) if i in table.numbers else cell), style)
-            for i, cell in enumerate(line)
+    text, large = _style(SIZE), _style(_LARGE, bold=True)
+    rows: list[list[Any]] = []
+    for i in range(0, len(figures), _ABREAST):
+        shown = figures[i : i + _ABREAST]
+        blank = [""] * (_ABREAST - len(shown))
+        values = [
+            [Paragraph(_unbroken(each.value), large), Paragraph(escape(each.interval), text)]
+            for each in shown
         ]
-        for line in lines
+        rows += [[Paragraph(escape(each.name), text) for each in shown] + blank, values + blank]
+    rules = [
+        ("VALIGN", (0, 0), (-1, -1), "TOP"),
+        ("LEFTPADDING", (0, 0), (-1, -1), 0),
+        ("TOPPADDING", (0, 0), (-1, -1), 2),
+        ("BOTTOMPADDING", (0, 0), (-1, -1), 2),
+        *(("LINEABOVE", (0, i), (-1, i), 0.6, colors.grey) for i in range(0, len(rows), 2)),
     ]
+    return Grid(rows, [width / _ABREAST] * _ABREAST, style=rules, hAlign="LEFT")
+
+
+def _picture(path: Path, caption: str, width: float) -> Any:
+    """A picture with its caption, on one sheet."""
+    from reportlab.lib.utils import ImageReader
+    from reportlab.platypus import Image, KeepTogether, Paragraph, Spacer
+
+    wide, high = ImageReader(str(path)).getSize()
+    share = min(1.0, _PICTURE * wide / (high * width))
+    image = Image(str(path), width * share, width * share * high / wide)
+    return KeepTogether([Spacer(1, 5), image, Paragraph(escape(caption), _style(SIZE))])
+
+
+def _grids(table: Table, width: float) -> Iterator[Any]:
+    """A table, or several of the same rows where its columns do not fit beside each other."""
+    from reportlab.lib import colors
+    from reportlab.platypus import Paragraph
+    from reportlab.platypus import Table as Grid
+
+    styles = {
+        (bold, right): _style(SIZE, bold=bold, alignment=2 if right else 0)
+        for bold in (False, True)
+        for right in (False, True)
+    }
     rules = [
         ("LINEBELOW", (0, 0), (-1, 0), 0.8, colors.black),
         ("LINEBELOW", (0, 1), (-1, -1), 0.2, colors.lightgrey),
-        ("TOPPADDING", (0, 0), (-1, -1), 0.6),
-        ("BOTTOMPADDING", (0, 0), (-1, -1), 0.9),
+        ("TOPPADDING", (0, 0), (-1, -1), 1),
+        ("BOTTOMPADDING", (0, 0), (-1, -1), 2),
+        ("LEFTPADDING", (0, 0), (-1, -1), _PADDING),
+        ("RIGHTPADDING", (0, 0), (-1, -1), _PADDING),
         ("VALIGN", (0, 0), (-1, -1), "TOP"),
     ]
-    return Grid(rows, _widths(lines, width, style), style=rules, repeatRows=1, hAlign="LEFT")
+    lines = [table.header, *table.rows]
+    for columns in _abreast(table, width):
+        rows = [
+            [
+                Paragraph(
+                    _unbroken(line[i]) if i in table.numbers and n else escape(line[i]),
+                    styles[n == 0, i in table.numbers],
+                )
+                for i in columns
+            ]
+            for n, line in enumerate(lines)
+        ]
+        widths = _widths(table, columns, width)
+        yield Grid(rows, widths, style=rules, repeatRows=1, hAlign="LEFT")
 
 
 def _unbroken(cell: str) -> str:
     """A number that is broken before its interval only."""
-    return " ".join(piece.replace(" ", "\u00a0") for piece in value_and_interval(cell))
+    pieces = value_and_interval(cell)
+    return " ".join(escape(piece.replace(" ", "\u00a0")) for piece in pieces)
 
 
-def _widths(lines: Sequence[Sequence[str]], width: float, style: Any) -> list[float]:
-    """Widths of columns: what each needs in one line, or a share of what narrow ones leave."""
+def _abreast(table: Table, width: float) -> list[list[int]]:
+    """Columns that fit beside each other, by their numbers, each time with the first."""
+    if not table.numbers:
+        return [[*range(len(table.header))]]
+    least = [_least(table, i, width) for i in range(len(table.header))]
+    least[0] = max(least[0], _NAMES * width)
+    groups = [[0]]
+    for i in range(1, len(table.header)):
+        if len(groups[-1]) > 1 and sum(least[j] for j in (*groups[-1], i)) > width:
+            groups.append([0])
+        groups[-1].append(i)
+    return groups
+
+
+def _widths(table: Table, columns: Sequence[int], width: float) -> list[float]:
+    """Widths of columns: what each needs in one line, or its part of what there is.
+
+    Each has room for its longest word, and what is left is shared as it is needed.
+    """
+    needed = [max(map(_length, _cells(table, i))) + 2 * _PADDING for i in columns]
+    if sum(needed) <= width:
+        return needed
+    least = [_least(table, i, width) for i in columns]
+    least[0] = max(least[0], min(needed[0], _NAMES * width))
+    wanted = [max(need - low, 0.0) for need, low in zip(needed, least, strict=True)]
+    part = min(1.0, max(width - sum(least), 0.0) / (sum(wanted) or 1.0))
+    return [low + part * want for low, want in zip(least, wanted, strict=True)]
+
+
+def _least(table: Table, column: int, width: float) -> float:
+    """Width that a column has at least: that of its longest word, or of its longest number."""
+    header, *cells = _cells(table, column)
+    if column in table.numbers:
+        pieces = [piece for cell in cells for piece in value_and_interval(cell)]
+    else:
+        pieces = [word for cell in cells for word in cell.split()]
+    pieces += header.split()
+    return min(max(map(_length, pieces), default=0.0) + 2 * _PADDING, _WORD * width)
+
+
+def _cells(table: Table, column: int) -> list[str]:
+    return [line[column] for line in (table.header, *table.rows)]
+
+
+def _length(text: str) -> float:
+    """Length of a text in bold, the widest that it may be set in. [points]"""
     from reportlab.pdfbase.pdfmetrics import stringWidth
 
-    needed = [
-        2 * _PADDING + max(stringWidth(cell, style.fontName, style.fontSize) for cell in column)
-        for column in zip(*lines, strict=True)
-    ]
-    given = dict.fromkeys(range(len(needed)), 0.0)
-    left = width
-    for place, i in enumerate(sorted(given, key=needed.__getitem__)):
-        given[i] = min(needed[i], left / (len(needed) - place))
-        left -= given[i]
-    return list(given.values())
+    return float(stringWidth(text, "Sans-Bold", SIZE)) + 0.5
+
+
+def _shortened(text: str, width: float) -> str:
+    """A text that fits into a line, its end left out if need be."""
+    while _length(text) > width:
+        text = f"{text[:-2]}…"
+    return text
