@@ -35,18 +35,23 @@ def loaded_by(*arguments):
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
-    """One surface as an array, as a file of our own, and as text that SurfaceTopography reads."""
+    """One surface as an array, as text, as a file of our own, and in an instrument's format."""
+    from SurfaceTopography import Topography
+    from SurfaceTopography.IO.X3P import write_x3p
+
     folder = tmp_path_factory.mktemp("start_up")
     spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6)
     surface = replace(spectrum.surface(32, 7), unit="m")
     np.save(folder / "map.npy", surface.heights * 1e6)
     np.savetxt(folder / "map.txt", surface.heights * 1e6)
     rl.write(surface, folder / "map.nc")
+    write_x3p(Topography(surface.heights, surface.sizes, unit="m"), folder / "map.x3p")
     return folder
 
 
-def test_to_describe_an_array_loads_no_other_library(files):
-    loaded = loaded_by("info", files / "map.npy", *SIDES)
+@pytest.mark.parametrize("name", ["map.npy", "map.txt"])
+def test_to_describe_an_array_or_text_loads_no_other_library(files, name):
+    loaded = loaded_by("info", files / name, *SIDES)
     assert not loaded & (TO_DRAW | TO_STORE | TO_READ | TO_SOLVE | TO_DESCRIBE)
 
 
@@ -68,7 +73,7 @@ def test_to_describe_what_an_instrument_measured_loads_its_reader_alone(files):
     reader = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", code], capture_output=True, text=True, check=True
     )
-    loaded = loaded_by("info", files / "map.txt", *SIDES)
+    loaded = loaded_by("info", files / "map.x3p")
     assert "SurfaceTopography" in loaded
     assert not (loaded - set(reader.stdout.split())) & (TO_DRAW | TO_STORE | TO_SOLVE | TO_DESCRIBE)
 

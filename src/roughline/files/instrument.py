@@ -7,6 +7,7 @@ import math
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from functools import partial
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -16,12 +17,16 @@ import numpy as np
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, RoughlineError
 from roughline.files.measurement import Measurement
+from roughline.files.text import READ_AS_TEXT, TEXT_SUFFIXES
 from roughline.topography.settings import MEASURED
 
+_WITHOUT_MARK = ("hgt", "nms")  # formats of SurfaceTopography that start like any other file
 _BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
 
 
-def read_instrument(path: Path, channel: int | str | None, name: str) -> Measurement:
+def read_instrument(
+    path: Path, channel: int | str | None, name: str, matrix: str | None = None
+) -> Measurement:
     """Read the heights of an instrument's file, and what it states of them.
 
     Parameters
@@ -30,6 +35,8 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
         As for :func:`roughline.read`.
     name : str
         What the file is called.
+    matrix : str, optional
+        The text of the file, if it is a matrix below lines that state units or sizes.
 
     Raises
     ------
@@ -40,9 +47,14 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
         warnings.simplefilter("ignore", ImportWarning)  # MPI is absent, and not needed
         from SurfaceTopography.Exceptions import ReadFileError  # here because it loads slowly
         from SurfaceTopography.IO import open_topography
+        from SurfaceTopography.IO.Text import AscReader
 
     try:
-        with _silence(), open_topography(str(path)) as reader:
+        opened = partial(open_topography, str(path))
+        if matrix is not None:
+            opened = partial(AscReader, StringIO(matrix))
+        with _silence(), opened() as reader:
+            _refuse_guessed_format(reader, path)
             chosen = _channel_of(reader, channel, name)
             refuse_beyond_memory(
                 _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
@@ -53,15 +65,25 @@ def read_instrument(path: Path, channel: int | str | None, name: str) -> Measure
     except (RoughlineError, MemoryError):
         raise
     except ReadFileError as error:
+        allowed = f"; {READ_AS_TEXT}" if path.suffix.lower() in TEXT_SUFFIXES else ""
         raise InputError(
-            f"{name} is damaged or of a type that is not known ({type(error).__name__}): "
-            "export it again, or to another format such as X3P, SDF, SUR or GWY"
+            f"{name} is damaged or of a type that is not known{allowed}: export it again, or to "
+            "another format such as X3P, SDF, SUR or GWY"
         ) from error
     except Exception as error:  # of a damaged file the readers raise errors of any type
         first_line = (str(error).strip() or "no reason given").splitlines()[0][:120]
         raise InputError(
             f"{name} cannot be read ({type(error).__name__}: {first_line}): export it again"
         ) from error
+
+
+def _refuse_guessed_format(reader: Any, path: Path) -> None:
+    """Refuse a format that any bytes have, unless the name of the file says that it is the one."""
+    from SurfaceTopography.Exceptions import CannotDetectFileFormat
+
+    extensions = [f".{each.lower()}" for each in reader.file_extensions() or ()]
+    if reader.format() in _WITHOUT_MARK and path.suffix.lower() not in extensions:
+        raise CannotDetectFileFormat("no format has a mark that is at the start of the file")
 
 
 @contextmanager
@@ -108,6 +130,12 @@ def _holds_heights(channel: Any) -> bool:
 def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
     unit = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
     stated = channel.physical_sizes is not None
+    unit_of_sides = channel.info.get("raw_metadata", {}).get("xunit") if stated else None
+    if unit_of_sides and not unit:
+        raise InputError(
+            f"{file} states its sizes in {unit_of_sides} and no unit of its heights: write one "
+            'above them, such as "Value units: um"'
+        )
     topography = reader.topography(
         channel_index=channel.index,
         # the reader requires a unit and sizes; where the file states none, any will do

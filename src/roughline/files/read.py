@@ -8,6 +8,7 @@ import numpy as np
 
 from roughline.errors import InputError
 from roughline.files.archives import refuse_bombs
+from roughline.files.heights_in_text import read_text
 from roughline.files.instrument import read_instrument
 from roughline.files.measurement import Measurement
 from roughline.files.netcdf import read_body_file
@@ -122,9 +123,11 @@ def measurement(
     if measured is None and path.suffix == ".npy":
         measured = _read_array(path, name)
     if measured is None:
+        measured = read_text(path, channel, name)
+    if measured is None:
         refuse_bombs(path, name)
         return read_instrument(path, channel, name)
-    if channel is not None:
+    if channel is not None and not measured.channels:
         raise InputError(f"{name} has one channel only; leave channel= out")
     return measured
 
