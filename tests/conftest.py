@@ -8,6 +8,7 @@ import pytest
 
 import roughline as rl
 from dask_processes import start_scheduler, start_worker
+from lab_in_browser import WANTED, chromium_of, launched
 from roughline import cli
 from validation import hold
 
@@ -15,10 +16,15 @@ _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
 
 def pytest_collection_modifyitems(items):
-    """Keep the tests of a file in one process, and those that share a cluster or a store too."""
+    """Keep the tests of a file in one process; mark what needs a browser.
+
+    Those that share a cluster or a store stay in one process too.
+    """
     for item in items:
         folder, file = item.path.parent.name, item.path.stem
         item.add_marker(pytest.mark.xdist_group(folder if folder == "campaign" else file))
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.browser)
 
 
 @pytest.fixture(scope="session")
@@ -27,6 +33,18 @@ def topographies() -> Path:
     if not _TOPOGRAPHIES.is_dir():
         pytest.skip("no measured files beside the repository")
     return _TOPOGRAPHIES
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """Return a headless Chromium."""
+    api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    with api.sync_playwright() as playwright:
+        if chromium_of(playwright) is None:
+            pytest.skip(WANTED)
+        started = launched(playwright)
+        yield started
+        started.close()
 
 
 @pytest.fixture

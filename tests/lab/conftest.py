@@ -1,15 +1,8 @@
-"""One lab and one browser for the tests that drive a page."""
+"""One lab for the tests that drive a page."""
 
 import pytest
 
-from lab_in_browser import WANTED, Pages, RunningLab, chromium_of, launched
-
-
-def pytest_collection_modifyitems(items):
-    """Mark what needs a browser."""
-    for item in items:
-        if "browser" in getattr(item, "fixturenames", ()):
-            item.add_marker(pytest.mark.browser)
+from lab_in_browser import Pages, RunningLab
 
 
 @pytest.fixture(scope="session")
@@ -20,18 +13,6 @@ def lab(tmp_path_factory):
     code, said = running.close()
     assert code == 0
     assert said == ""
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """Return a headless Chromium."""
-    api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
-    with api.sync_playwright() as playwright:
-        if chromium_of(playwright) is None:
-            pytest.skip(WANTED)
-        started = launched(playwright)
-        yield started
-        started.close()
 
 
 @pytest.fixture(scope="module")
