@@ -83,10 +83,20 @@ def test_residuals_tell_gap_on_contact_from_overlap_off_it():
     assert found.penetration == 0
     assert found.tension == found.excess == 0
     assert found.worst == found.gap
+    assert found.worst_is_of == "the gap within the contact"
     gap[0, 1] = -0.5
     found = residuals(ELASTIC, gap, nodes, pressure - 1.5, length_scale=0.1, load_error=9.0)
     assert found.penetration == pytest.approx(5.0)
-    assert found.load == found.worst == 9.0
+    assert found.load == found.worst == found.violation == 9.0
+    assert found.worst_is_of == "the force"
+
+
+def test_rounding_is_a_residual_and_is_named():
+    gap, pressure = np.zeros((1, 2)), np.ones(2)
+    found = residuals(ELASTIC, gap, np.arange(2), pressure, 1e-9, 0.0, approach=100.0)
+    assert found.violation == 0
+    assert found.worst == found.rounding == np.spacing(100.0) / 1e-9
+    assert found.worst_is_of == "the rounding of the depth"
 
 
 def test_a_pull_and_an_excess_are_compared_with_the_mean_pressure():
@@ -102,7 +112,9 @@ def test_the_stiffness_on_loading_is_that_of_the_elastic_nodes_and_on_unloading_
     x, y = np.indices((n, n)) - (n - 1) / 2
     half_space = HalfSpace(1.0)
     inverse = ApproximateInverse.of(half_space.operator((n, n), (1.0, 1.0)))
-    problem = Problem(half_space, inverse, (x**2 + y**2) / 20, 1.0, YieldingContact(hardness=0.1))
+    problem = Problem(
+        half_space, inverse, (x**2 + y**2) / 20, 1.0, 0.0, YieldingContact(hardness=0.1)
+    )
     load = Load(depth=1.0)
     contact = solve(problem, load, first_guess(problem, load)[0], method)
     assert 0 < contact.plastic.sum() < contact.nodes.size

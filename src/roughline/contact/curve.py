@@ -40,8 +40,8 @@ class Curve:
         Exact k = dF/dd on further loading: points at the hardness carry no additional load.
         [force / length]
     area_fraction : ndarray, shape (loads,), or None
-        Real over nominal contact area. None for a line: the contact area of the reduced model does
-        not predict that of the surface.
+        Real over nominal contact area: the share of the points whose pressure is above zero. None
+        for a line: the contact area of the reduced model does not predict that of the surface.
     area_fraction_corrected : ndarray, shape (loads,), or None
         The same, less the area that whole cells add along the outline of the contact
         (Yastrebov, Anciaux and Molinari 2017). Under a summit this is a few per cent. On a plateau,
@@ -52,7 +52,8 @@ class Curve:
         Whether at least ten springs or cells are in contact; with fewer, the grid decides the
         stiffness.
     residual : ndarray, shape (loads,)
-        Largest residual of the returned solution, each relative to its scale. [1]
+        Largest residual of the returned solution, each relative to its scale as :func:`press`
+        defines them; NaN where nothing was solved. [1]
     E_star : float
         Contact modulus. [pressure]
     rms_height : float
@@ -84,6 +85,9 @@ class Curve:
     work, dissipated_work : ndarray, shape (loads,), or None
         Work done by the load since first touch, less the work returned on unloading; and the
         part of it dissipated by the indentations, the hardness times their volume. [energy]
+    residual_of : sequence of str
+        What the largest residual of each load is of, such as "the gap within the contact". Empty
+        for a line.
     warnings : sequence of str
         What a user of the numbers must know; empty if there is nothing to say.
     fields : sequence of Fields
@@ -119,6 +123,7 @@ class Curve:
     indentation: Real | None = None
     work: Real | None = None
     dissipated_work: Real | None = None
+    residual_of: Sequence[str] = field(default=(), repr=False)
     warnings: Sequence[str] = ()
     fields: Sequence[Fields | None] = field(default=(), repr=False)
     surface: Surface | None = field(default=None, repr=False)

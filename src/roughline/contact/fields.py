@@ -23,7 +23,7 @@ class Fields:
     gap : ndarray, shape (nx, ny)
         Distance of the two bodies. [length]
     contact : ndarray of bool, shape (nx, ny)
-        Where they touch.
+        Where they touch: where the pressure is above zero.
     plastic : ndarray of bool, shape (nx, ny)
         Where the pressure is at the hardness.
     indentation : ndarray, shape (nx, ny)

@@ -113,7 +113,7 @@ def _results(
     unit = scaled.force if loads.control == "forces" else scaled.height
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
     with lent(half_space, surface.shape, scaled.spacing) as inverse:
-        problem = _problem(half_space, inverse, scaled, hardness)
+        problem = _problem(half_space, inverse, scaled, hardness, method)
         solved = solve_path(problem, path, method)
         del problem  # the path knows when the untouched bodies need no memory
         dents: Indentation | None = None
@@ -134,6 +134,7 @@ def _problem(
     inverse: ApproximateInverse,
     scaled: ScaledSurface,
     hardness: float | None,
+    method: Method,
 ) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
     conditions: ContactConditions = UnilateralContact()
@@ -144,6 +145,7 @@ def _problem(
         inverse,
         scaled.separation(),
         scaled.surface.rms_height / scaled.height,
+        method.resolution,
         conditions,
     )
 
@@ -182,6 +184,7 @@ def _curve(
             **as_body(surface.settings),
         },
         warnings=(*tilt_warnings(surface), *at_the_border),
+        residual_of=tuple(result.residual_of for result in results),
         surface=surface,
         dents=() if hardness is None else tuple(result.dents for result in results),
     )

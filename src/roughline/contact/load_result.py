@@ -18,7 +18,7 @@ from roughline.contact.quantity import OVER_LOADS
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
 from roughline.halfspace.outline import overstated_cells
-from roughline.halfspace.state import Contact
+from roughline.halfspace.state import Contact, Outcome
 from roughline.halfspace.tangent import Response
 
 
@@ -30,6 +30,8 @@ class LoadResult:
 
     Attributes
     ----------
+    residual_of : str
+        What the largest residual is of.
     border_share : float
         Share of the force that the border carries. [1]
     fields : Fields or None
@@ -40,6 +42,7 @@ class LoadResult:
 
     status: Status = Status.INTERRUPTED
     residual: float = math.nan
+    residual_of: str = ""
     convolutions: int = 0
     resolved: bool = False
     depth: float = math.nan
@@ -76,31 +79,29 @@ class LoadResult:
             The contact under the load, in the units of `scaled`.
         response : Response or None
             Its stiffness and its change with the load; None if the contact was not certified.
-        scaled : ScaledSurface
-            The untouched surface.
-        hardness : float or None
-            Largest pressure that a node bears. [pressure]
+        scaled, hardness : ScaledSurface, float or None
+            The untouched surface, and the largest pressure that a node bears. [pressure]
         periodic, with_fields : bool
             Whether the half-space is periodic, and whether the fields are kept.
         """
+        worst, of = contact.residuals.worst, contact.residuals.worst_is_of
+        if contact.outcome is Outcome.UNKNOWN_SURFACE:
+            return cls(Status.UNKNOWN_SURFACE)
         if response is None:
-            status = Status[contact.outcome.name]
-            return cls(status, contact.residuals.worst, contact.convolutions)
+            return cls(Status[contact.outcome.name], worst, of, contact.convolutions)
         convolutions = contact.convolutions + response.convolutions
         if not response.converged:
-            return cls(Status.NO_TANGENT, contact.residuals.worst, convolutions)
-        cells, nodes = int(np.count_nonzero(contact.pressure > 0)), contact.gap.size
-        most, overstated = overstated_cells(contact, scaled.spacing, periodic)
-        if hardness is not None:
-            borne = contact.force * scaled.force / (hardness * scaled.cell_area)
-            overstated = _of_yielding(overstated, max(cells - borne, 0.0), contact)
+            return cls(Status.NO_TANGENT, worst, of, convolutions)
+        cells, nodes = contact.nodes.size, contact.gap.size
+        most, overstated = _overstated(contact, scaled, hardness, periodic)
         dents = None if hardness is None else _dents(contact, scaled)
-        indented = dents.depth if dents is not None else np.zeros(1)
+        indented = np.zeros(1) if dents is None else dents.depth
         dissipated = (hardness or 0.0) * scaled.cell_area * float(indented.sum())
         k = scaled.force / scaled.height
         return cls(
             status=Status.CONVERGED,
-            residual=contact.residuals.worst,
+            residual=worst,
+            residual_of=of,
             convolutions=convolutions,
             resolved=cells >= RESOLVED_FROM,
             depth=contact.depth * scaled.height,
@@ -120,6 +121,28 @@ class LoadResult:
         )
 
 
+def columns(results: Sequence[LoadResult]) -> dict[str, Any]:
+    """Return each quantity of the results as an array over the loads, by its name."""
+    return {
+        each.name: np.array(
+            [getattr(result, each.name) for result in results], QUANTITIES[each.name].dtype
+        )
+        for each in dataclasses.fields(LoadResult)
+        if each.name in QUANTITIES and QUANTITIES[each.name].dims == OVER_LOADS
+    }
+
+
+def _overstated(
+    contact: Contact, scaled: ScaledSurface, hardness: float | None, periodic: bool
+) -> tuple[float, float]:
+    """Return by how many cells the outline overstates the area, at most and as estimated."""
+    most, overstated = overstated_cells(contact, scaled.spacing, periodic)
+    if hardness is not None:
+        borne = contact.force * scaled.force / (hardness * scaled.cell_area)
+        overstated = _of_yielding(overstated, max(contact.nodes.size - borne, 0.0), contact)
+    return most, overstated
+
+
 def _of_yielding(overstated: float, possible: float, contact: Contact) -> float:
     """Cells by which the count exceeds an area that bears at most the hardness, F / H or more.
 
@@ -130,17 +153,6 @@ def _of_yielding(overstated: float, possible: float, contact: Contact) -> float:
     if overstated < possible and not contact.plastic.any():
         return overstated
     return min(overstated, possible / 2)
-
-
-def columns(results: Sequence[LoadResult]) -> dict[str, Any]:
-    """Return each quantity of the results as an array over the loads, by its name."""
-    return {
-        each.name: np.array(
-            [getattr(result, each.name) for result in results], QUANTITIES[each.name].dtype
-        )
-        for each in dataclasses.fields(LoadResult)
-        if each.name in QUANTITIES and QUANTITIES[each.name].dims == OVER_LOADS
-    }
 
 
 def _elastic_energy(contact: Contact) -> float:
@@ -162,8 +174,10 @@ def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:
 
 def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) -> Fields:
     shape = contact.gap.shape
-    pressure, plastic = np.zeros(shape), np.zeros(shape, dtype=bool)
+    pressure = np.zeros(shape)
+    touching, plastic = np.zeros((2, *shape), dtype=bool)
     pressure.flat[contact.nodes] = contact.pressure * scaled.pressure
+    touching.flat[contact.nodes] = True
     plastic.flat[contact.nodes] = contact.plastic
     displacement = contact.gap - contact.separation
     displacement += contact.depth
@@ -175,7 +189,7 @@ def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) 
         pressure=pressure,
         displacement=displacement,
         gap=contact.gap * scaled.height,
-        contact=pressure > 0,
+        contact=touching,
         plastic=plastic,
         indentation=indentation,
     )

@@ -77,10 +77,14 @@ def press(
     grid_error : bool, optional
         Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
     rtol : float, optional
-        Bound on every residual of the returned solution: the gap within the contact and the
-        overlap outside it, relative to the rms height, or to the displacement by the load where
-        that is less; tension, and pressure above the hardness, relative to the mean contact
-        pressure; the error of the force, relative to the force.
+        Bound on every residual of the returned solution. Gaps within the contact, overlaps outside
+        it and the rounding of the depth are relative to the length l = min(h, u): the rms height h,
+        unless it is zero, and the largest displacement u of a point in contact, which is the depth
+        where nothing yields. Where u is less than 2 eps F / (rtol E* sqrt(A_0)), as under a flat
+        body on a periodic half-space, this takes its place; eps is the rounding of numbers,
+        2.2e-16, or 1.2e-7 in single precision. Tension, and pressure above the hardness, are
+        relative to the mean contact pressure, the error of the force to the force. A point is in
+        contact where its pressure is above zero.
     max_iterations : int, optional
         Largest number of convolutions to find the contact under one load. A few more certify it,
         and its stiffness takes further ones.
@@ -246,10 +250,13 @@ def _failure_message(curve: Curve) -> str:
     for status in Status:
         failed = np.flatnonzero(curve.status == status)
         if status is not Status.CONVERGED and failed.size:
-            worst = curve.residual[failed].max()
             which = ", ".join(map(str, failed[:5])) + (", ..." if failed.size > 5 else "")
-            parts.append(
-                f"{failed.size} of {curve.status.size} loads (number {which}) {status.reason}; "
-                f"worst residual {worst:.1e}"
-            )
-    return "; ".join(parts) + ": raise max_iterations or rtol, or take throw=False to keep the rest"
+            count = f"{failed.size} of {curve.status.size} loads (number {which})"
+            parts.append(f"{count} {status.reason}")
+            if status in (Status.STALLED, Status.MAX_ITERATIONS):
+                worst = failed[curve.residual[failed].argmax()]
+                residual, of = curve.residual[worst], curve.residual_of[worst]
+                parts[-1] += f"; worst residual {residual:.1e}, that of {of}"
+    limited = (curve.status == Status.MAX_ITERATIONS).any()
+    advice = "raise max_iterations or rtol" if limited else "raise rtol"
+    return "; ".join(parts) + f": {advice}, or take throw=False to keep the rest"

@@ -57,7 +57,7 @@ _DECLARED = (
         "area_fraction",
         "",
         "1",
-        "real over nominal contact area, cells that touch counted whole",
+        "real over nominal contact area, cells whose pressure is above zero counted whole",
         long_name="real contact area over nominal area, cells counted whole",
         column=6,
     ),

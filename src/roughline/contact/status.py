@@ -21,7 +21,7 @@ class Status(enum.IntEnum):
         """What it means, for messages."""
         return {
             Status.CONVERGED: "converged: all residuals are within the tolerance",
-            Status.STALLED: "stalled: the residuals stopped falling while above the tolerance",
+            Status.STALLED: "stalled: a residual no longer falls and is above the tolerance",
             Status.MAX_ITERATIONS: "max_iterations reached above the tolerance",
             Status.NO_TANGENT: "the stiffness equations did not converge",
             Status.INTERRUPTED: "not solved: interrupted before",

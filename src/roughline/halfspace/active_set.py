@@ -71,6 +71,10 @@ def search(problem: Problem, load: Load, start: ContactSet, method: Method) -> C
             convolutions += 1
         # 2. The end of the search.
         outcome = stopping.outcome(trial, exchange, spent=spent)
+        pulling = contact_set.pressure < 0
+        if outcome is Outcome.CONVERGED and pulling.any():  # by less than the tolerance
+            contact_set = contact_set.without(pulling)
+            continue
         if outcome is not None:
             return trial.contact(problem, outcome, convolutions)
         # 3. Conjugate gradients on the trial nodes.

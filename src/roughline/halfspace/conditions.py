@@ -23,18 +23,40 @@ class Residuals:
         Largest pull, and largest pressure above the hardness, over the mean contact pressure.
     load : float
         Error of the force, over the force; zero under depth control.
+    rounding : float
+        Spacing of floating-point numbers at the depth, over the length scale: smaller gaps are
+        lost in it.
     """
 
-    gap: float
-    penetration: float
-    tension: float
-    excess: float
-    load: float
+    gap: float = 0.0
+    penetration: float = 0.0
+    tension: float = 0.0
+    excess: float = 0.0
+    load: float = 0.0
+    rounding: float = 0.0
 
     @property
     def worst(self) -> float:
         """The largest of them."""
+        return max(self.violation, self.rounding)
+
+    @property
+    def violation(self) -> float:
+        """The largest of them but for the rounding."""
         return max(self.gap, self.penetration, self.tension, self.excess, self.load)
+
+    @property
+    def worst_is_of(self) -> str:
+        """What the largest of them is of, in words."""
+        named = {
+            "the gap within the contact": self.gap,
+            "the overlap outside the contact": self.penetration,
+            "tension": self.tension,
+            "pressure above the hardness": self.excess,
+            "the force": self.load,
+            "the rounding of the depth": self.rounding,
+        }
+        return max(named, key=lambda name: named[name])
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,6 +267,7 @@ def residuals(
     pressure: Real,
     length_scale: float,
     load_error: float,
+    approach: float = 0.0,
 ) -> Residuals:
     """Compute the residuals of a contact.
 
@@ -262,6 +285,8 @@ def residuals(
         Gaps are compared with this. [length]
     load_error : float
         Error of the force, over the force.
+    approach : float
+        From which gaps are counted; smaller ones are lost in its rounding. [length]
     """
     on_contact = gap.flat[nodes]
     # gaps on contact count as such whatever their sign, so they may stay in the minimum
@@ -276,4 +301,5 @@ def residuals(
         tension=pull / scale if pull else 0.0,
         excess=excess / scale if excess else 0.0,
         load=load_error,
+        rounding=float(np.spacing(abs(approach))) / length_scale,
     )

@@ -33,6 +33,9 @@ _SINGLE_ABOVE = 1e-4  # residuals below this are computed in the precision of th
 def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
     """Find the contact set and the pressures under one load.
 
+    The contact is that of the nodes under pressure. A node that touches but bears nothing is none
+    of them: it counts neither in the area nor in the stiffness.
+
     Parameters
     ----------
     problem : Problem
@@ -65,7 +68,8 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         spent.convolutions += 1
         worst_before, worst = worst, trial.residuals.worst
         if precision == method.certificate and trial.certified(method.rtol):
-            return trial.contact(problem, Outcome.CONVERGED, spent.convolutions)
+            contact = trial.contact(problem, Outcome.CONVERGED, spent.convolutions)
+            return contact.of_loaded_nodes()
         left = method.max_iterations - spent.total
         near = nearby(problem, trial)
         if near is None or left <= 1 or not worst < 0.5 * worst_before:
@@ -83,7 +87,8 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
     if left == 1:  # no more than a certificate
         rest = replace(rest, precision=method.certificate)
     contact = search(problem, load, contact_set, rest)
-    return replace(contact, convolutions=contact.convolutions + spent.convolutions)
+    spent.convolutions += contact.convolutions
+    return replace(contact, convolutions=spent.convolutions).of_loaded_nodes()
 
 
 @dataclass

@@ -218,6 +218,7 @@ def _looked_at(
         problem.inverse,
         problem.separation.flat[sites],
         problem.rms_height,
+        problem.resolution,
         problem.conditions,
         problem.touch,
         operator,

@@ -50,9 +50,7 @@ def overstated_cells(
        contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
        (2017).
     """
-    loaded = contact.pressure > 0
-    nodes, pressure = contact.nodes[loaded], contact.pressure[loaded]
-    plastic = contact.plastic[loaded]
+    nodes, pressure, plastic = contact.nodes, contact.pressure, contact.plastic
     touching = np.zeros(contact.gap.size, dtype=bool)
     touching[nodes] = True
     pairs, summits = 0, 0.0

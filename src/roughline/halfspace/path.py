@@ -254,7 +254,7 @@ def apart(problem: Problem, load: Load, outcome: Outcome) -> Contact:
         plastic=np.empty(0, dtype=bool),
         gap=np.asarray(problem.separation) - depth,
         separation=problem.separation,
-        residuals=Residuals(0.0, 0.0, 0.0, 0.0, 0.0),
+        residuals=Residuals(),
         outcome=outcome,
         convolutions=0,
     )

@@ -33,7 +33,7 @@ class StoppingRule:
         self.residuals: Precision = method.steps
         self.steps: Precision = method.steps
         self._method = method
-        self._worst_before = np.inf
+        self._error_before = np.inf
 
     def choose_precision(self, relaxation: Relaxation, length_scale: float) -> None:
         """Compute the next residuals in single precision only while errors are large."""
@@ -55,10 +55,10 @@ class StoppingRule:
         """
         if self.residuals != self._method.certificate:
             return None
-        worst = trial.residuals.worst
+        worst = trial.residuals.violation
         certified = worst <= self._method.rtol
-        if certified and np.spacing(abs(trial.approach)) > self._method.rtol * trial.length_scale:
-            return Outcome.STALLED  # rounding hides such gaps
+        if certified and trial.residuals.rounding > self._method.rtol:
+            return Outcome.STALLED
         # the stiffness depends on single nodes: go on while one overlaps more than those in contact
         if certified and (trial.residuals.penetration == 0 or exchange.to_tolerance):
             return Outcome.CONVERGED
@@ -66,9 +66,10 @@ class StoppingRule:
             return Outcome.STALLED
         if spent:
             return Outcome.CONVERGED if certified else Outcome.MAX_ITERATIONS
-        if not exchange.wrong and worst > 0.5 * self._worst_before:
+        error = worst * trial.length_scale  # which falls itself where pressures become even
+        if not exchange.wrong and error > 0.5 * self._error_before:
             if self.steps == self._method.certificate:
                 return Outcome.CONVERGED if certified else Outcome.STALLED
             self.steps = self._method.certificate
-        self._worst_before = worst
+        self._error_before = error
         return None

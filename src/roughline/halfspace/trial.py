@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -98,19 +99,17 @@ class Trial:
         overlap = np.maximum(-gap.flat[held], 0.0)
         gap.flat[held] += overlap
         force = cell_area * float(pressure.sum())
-        length_scale = _length_scale(problem, approach, displacement, pressure, elastic)
-        violated = residuals(conditions, gap, nodes, pressure, length_scale, load.error(force))
+        length_scale = _length_scale(problem, approach, displacement, pressure, force)
+        violated = residuals(
+            conditions, gap, nodes, pressure, length_scale, load.error(force), approach
+        )
         return cls(
             ContactSet(nodes, pressure), approach, force, gap, overlap, length_scale, violated
         )
 
     def certified(self, rtol: float) -> bool:
-        """Whether the residuals are within a tolerance, and no node overlaps that was left out.
-
-        Approaches of which rounding hides such gaps certify nothing.
-        """
-        resolved = np.spacing(abs(self.approach)) <= rtol * self.length_scale
-        return bool(resolved and self.residuals.worst <= rtol and not self.residuals.penetration)
+        """Whether the residuals are within a tolerance, and no node overlaps that was left out."""
+        return self.residuals.worst <= rtol and not self.residuals.penetration
 
     def contact(self, problem: Problem, outcome: Outcome, convolutions: int) -> Contact:
         """Return the trial as the contact with which a search ended."""
@@ -143,15 +142,18 @@ def _leave_gaps(problem: Problem, displacement: Real, approach: float) -> None:
 
 
 def _length_scale(
-    problem: Problem, approach: float, displacement: Real, pressure: Real, elastic: Mask
+    problem: Problem, approach: float, displacement: Real, pressure: Real, force: float
 ) -> float:
-    """Return the length with which gaps are compared: the least of those that the load moves."""
-    moved = abs(approach)
-    if not elastic.all():  # soft bodies spring by little of their approach
-        moved = min(moved, float(np.abs(displacement).max()))
-    # where a flat body bears evenly hardly anything moves: there a gap is compared with what the
-    # pressure of a node moves alone
-    moved = max(moved, problem.inverse.diagonal * float(pressure.mean()))
+    """Return the length with which gaps are compared, as :func:`roughline.press` defines it.
+
+    It is the least of the rms height and of what the load moves: the largest displacement on the
+    contact. Where a flat body bears evenly hardly anything moves. There a gap is compared with
+    what rounding leaves of displacements, over the tolerance.
+    """
+    moved = float(displacement.max()) if pressure.any() else abs(approach)
+    operator = problem.operator
+    length = math.sqrt(math.prod(operator.shape)) * math.sqrt(operator.cell_area)
+    moved = max(moved, problem.resolution * force / (problem.half_space.E_star * length))
     return min(problem.rms_height, moved) if problem.rms_height else moved
 
 
