@@ -17,7 +17,7 @@ import numpy as np
 from page import Page
 
 import roughline as rl
-from roughline.contact.estimates import expected_area_fraction
+from roughline.contact.estimates import bytes_at_a_point, expected_area_fraction
 from roughline.contact.loads import Loads
 
 SEVERAL = (0.03, 0.3, 3.0)
@@ -43,14 +43,9 @@ def estimated(surface, forces, hardness, *, periodic):
     """Return what is estimated for a press, the heights included. [bytes/point]"""
     loads = Loads("forces", np.array(forces))
     share = expected_area_fraction(surface, 1.0, loads, hardness, periodic=periodic)
-    told = rl.estimate(
-        surface.shape,
-        len(forces),
-        periodic=periodic,
-        yielding=hardness is not None,
-        area_fraction=share,
-    )
-    return told.memory / surface.heights.size + surface.heights.itemsize
+    several, yielding = len(forces) > 1, hardness is not None
+    held = bytes_at_a_point(surface.shape, periodic, share, yielding=yielding, several=several)
+    return round(held) + surface.heights.itemsize
 
 
 def cells(n, boundary, forces, pressure_over_hardness=None):
@@ -104,9 +99,10 @@ def main():
     page = Page("memory-table.md", "Memory, measured", "memory")
     page.say(
         "Bytes a point are those above the interpreter, the generation of the surface included; "
-        "the estimate is `rl.estimate` with the contact that the loads are expected to bring "
-        "about, and the 8 bytes of the heights. H = 0.8, a process for each row. Seconds are "
-        "those of a load, where other programs may have run beside.\n"
+        "the estimate is that of a press with the contact that the loads are expected to bring "
+        "about, and the 8 bytes of the heights; `rl.estimate` adds a margin, and the interpreter "
+        "with its libraries. H = 0.8, a process for each row. Seconds are those of a load, where "
+        "other programs may have run beside.\n"
     )
     measures = ("in contact", "bytes a point", "estimated", "", "peak", "a load", "residual")
     page.table("grid", "half-space", "F̄", *measures)

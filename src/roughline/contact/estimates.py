@@ -19,17 +19,20 @@ from roughline.contact.arguments import (
 from roughline.contact.loads import Loads
 from roughline.topography.body import Surface
 
-# Most memory that a path of loads held at any time beside the surface, as measured (see
-# docs/speed.md): on grids without contact; of the contact, for each of its nodes; and of the nodes
-# watched near it, which are many where there is both contact and gap. [bytes per point]
+# Most memory that a path of loads held at any time beside the surface, as measured
+# (docs/memory-table.md): on grids without contact; of the contact, for each of its nodes; and of
+# the nodes watched near it, which are many where there is both contact and gap. [bytes per point]
 _BYTES = {False: (51, 46, 29), True: (34, 34, 23)}  # free, periodic; small, medium, large grids
 _SIDES = 1448, 2896  # points along a side: more are medium, and large
 _BYTES_OF_CONTACT = 131
 _BYTES_OF_WATCHED = {False: 60, True: 111}
 _SEVERAL = 1.14  # times as much of the contact where several loads follow each other
-_BYTES_OF_FIELDS = 34  # of one load
+_BYTES_OF_FIELDS = {False: 26, True: 30}  # of one load, elastic and yielding
 _BYTES_OF_YIELD = 25
 _BYTES_OF_DENTS = 50  # for each node in contact
+_MARGIN = 1.15  # times as much, so that what is told covers what was measured
+_PROCESS_BYTES = 215_000_000  # of the interpreter and its libraries
+_BYTES_OF_HEIGHTS = 8
 # Largest share in contact where it is not known: that at saturation, free and periodic.
 _SATURATED = 0.2
 _FULL = 1.0
@@ -48,7 +51,8 @@ class Estimate:
     Attributes
     ----------
     memory : int
-        Largest memory used, in addition to the surface and the interpreter. [bytes]
+        Largest memory of the whole process: the interpreter and its libraries, the surface, and
+        what the loads take. [bytes]
     seconds : float
         Time on this machine, known to a factor of two or three. [s]
     """
@@ -57,7 +61,7 @@ class Estimate:
     seconds: float
 
     def __str__(self) -> str:
-        return f"about {self.memory / 1e9:.2g} GB and {_duration(self.seconds)}"
+        return f"about {gigabytes(self.memory)} and {_duration(self.seconds)}"
 
 
 def estimate(
@@ -113,7 +117,7 @@ def estimate(
     kept = kept_loads(fields, n_loads)
     if area_fraction is not None:
         area_fraction = checked_share("area_fraction", area_fraction)
-    memory = memory_for(
+    pressing = memory_for(
         shape,
         periodic,
         len(kept),
@@ -121,6 +125,7 @@ def estimate(
         several=n_loads > 1,
         area_fraction=area_fraction,
     )
+    memory = _PROCESS_BYTES + _BYTES_OF_HEIGHTS * shape[0] * shape[1] + pressing
     seconds = _SECONDS_AT_LEAST + _CONVOLUTIONS * _convolution_seconds(shape, periodic)
     return Estimate(memory, n_loads * seconds)
 
@@ -152,7 +157,7 @@ def memory_for(
     several: bool = True,
     area_fraction: float | None = None,
 ) -> int:
-    """Return the memory that pressing a surface takes in addition to the surface. [bytes]
+    """Return the memory that pressing a surface takes beside the surface, with a margin. [bytes]
 
     Parameters
     ----------
@@ -163,16 +168,23 @@ def memory_for(
     several : bool
         Whether there is more than one load.
     """
-    points = shape[0] * shape[1]
     share = area_fraction
     if share is None:
         share = _FULL if periodic else _SATURATED
-    size = sum(points > side**2 for side in _SIDES)
+    held = bytes_at_a_point(shape, periodic, share, yielding=yielding, several=several)
+    return shape[0] * shape[1] * round(_MARGIN * held + _BYTES_OF_FIELDS[yielding] * kept_fields)
+
+
+def bytes_at_a_point(
+    shape: tuple[int, int], periodic: bool, share: float, *, yielding: bool, several: bool
+) -> float:
+    """Return what a press with this share in contact holds, over the points, as it was measured."""
+    size = sum(shape[0] * shape[1] > side**2 for side in _SIDES)
     vectors = share * (_BYTES_OF_CONTACT + _BYTES_OF_WATCHED[periodic] * (1 - share))
-    total = _BYTES[periodic][size] + vectors * (_SEVERAL if several else 1.0)
+    held = _BYTES[periodic][size] + vectors * (_SEVERAL if several else 1.0)
     if yielding and several:  # the surface is kept as loads have left it
-        total += _BYTES_OF_YIELD + _BYTES_OF_DENTS * share
-    return points * round(total + _BYTES_OF_FIELDS * kept_fields)
+        held += _BYTES_OF_YIELD + _BYTES_OF_DENTS * share
+    return held
 
 
 def expected_area_fraction(
@@ -191,6 +203,12 @@ def expected_area_fraction(
     slope, pressure = surface.rms_slope, largest / surface.area
     share = math.erf(_SLOPE_FACTOR * pressure / (E_star * slope)) if slope else 1.0
     return share if hardness is None else max(share, min(pressure / hardness, 1.0))
+
+
+def gigabytes(memory: int) -> str:
+    """Return memory in words, to two digits."""
+    size = memory / 1e9
+    return f"{size:.0f} GB" if size >= 100 else f"{size:.2g} GB"
 
 
 def _duration(seconds: float) -> str:
