@@ -42,6 +42,10 @@ _PREFIXES = {
 _POWERS = {prefix: power for power, prefix in _PREFIXES.items()}
 _PREFIXED = re.compile(r"(?P<prefix>[afpnuµμmkMGTPE]?)(?P<unit>m|N|Pa|Hz)")
 _SIGNS = {"ohm": "Ω", "ohm m²": "Ω m²"}
+MOST_DIGITS = 4
+"""Significant digits of values that are shown."""
+
+_ROUNDING = 1e-9  # of a value: an end that is no further away is the value itself
 _EXACT = 15  # decimal digits that double precision always keeps
 
 _EXAMPLES = {
@@ -186,13 +190,13 @@ def load_in_newtons(text: str, area: float) -> float:
     )
 
 
-def engineering(value: float, unit: str, digits: int = 4) -> str:
+def engineering(value: float, unit: str, digits: int = MOST_DIGITS) -> str:
     """Write an SI value with a prefix, such as 1.234e-6 m as "1.234 µm"."""
     factor, prefixed = prefix(value, unit, digits)
     return f"{decimal(value * factor, digits)} {prefixed}"
 
 
-def prefix(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
+def prefix(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, str]:
     """Choose a prefix for an SI value that is written with a number of digits.
 
     Parameters
@@ -224,6 +228,31 @@ def prefix(value: float, unit: str, digits: int = 4) -> tuple[float, str]:
 
 def _within_prefixes(exponent: int) -> int:
     return min(max(exponent, min(_PREFIXES)), max(_PREFIXES))
+
+
+def supported_digits(
+    value: float, ends: tuple[float, float] | None, most: int = MOST_DIGITS
+) -> int:
+    """Return with how many significant digits a value is written: with those that are known.
+
+    The last digit is that of a third of the shorter side of its interval, so that rounding moves
+    the value by a sixth of that side at most, unless a single digit is left.
+
+    Parameters
+    ----------
+    value : float
+        The value.
+    ends : tuple of float, or None
+        Both ends of its interval; None where it is not known.
+    most : int, optional
+        Digits of a value that is known better, or whose interval is not known.
+    """
+    sides = [abs(value - end) for end in ends or () if math.isfinite(end)]
+    sides = [side for side in sides if side > _ROUNDING * abs(value)]
+    if not sides or not value or not math.isfinite(value):
+        return most
+    last = math.floor(math.log10(min(sides) / 3))
+    return min(max(math.floor(math.log10(abs(value))) - last + 1, 1), most)
 
 
 def decimal(value: float, digits: int) -> str:

@@ -9,9 +9,14 @@ import numpy as np
 from roughline.contact.quantity import unit_of
 from roughline.contact.status import Status
 from roughline.topography.notebook import html, in_words
+from roughline.units import supported_digits
 
 if TYPE_CHECKING:
+    from roughline.computing.arrays import Real
     from roughline.contact.curve import Curve
+
+_Column = tuple[str, "Real", "Real | None", "str | None"]
+"""Name, values, errors and unit."""
 
 _FIRST, _LAST = 12, 4  # loads of a long curve that are shown
 
@@ -31,20 +36,26 @@ def described(curve: Curve) -> str:
 def html_of_curve(curve: Curve) -> str:
     """Return what a notebook shows of a curve: a table of its loads."""
     units = {name: _unit(name, curve) for name in ("length", "force", "force/length", "pressure")}
-    columns = [
-        ("depth d", curve.depth, units["length"]),
-        ("force F", curve.force, units["force"]),
-        ("stiffness k", curve.stiffness, units["force/length"]),
+    columns: list[_Column] = [
+        ("depth d", curve.depth, None, units["length"]),
+        ("force F", curve.force, None, units["force"]),
+        ("stiffness k", curve.stiffness, curve.stiffness_error, units["force/length"]),
     ]
     if curve.hardness is not None and curve.unloading_stiffness is not None:
-        columns.append(("unloading stiffness", curve.unloading_stiffness, units["force/length"]))
+        k_u, error = curve.unloading_stiffness, curve.unloading_stiffness_error
+        columns.append(("unloading stiffness", k_u, error, units["force/length"]))
     if curve.area_fraction is not None:
-        columns.append(("raw area", curve.area_fraction, None))
+        columns.append(("raw area", curve.area_fraction, None, None))
     if curve.area_fraction_corrected is not None:
-        columns.append(("corrected area A/A_0", curve.area_fraction_corrected, None))
-    header = ["load", *(name for name, _, _ in columns), "remark"]
+        area, error = curve.area_fraction_corrected, curve.area_fraction_error
+        columns.append(("corrected area A/A_0", area, error, None))
+    header = ["load", *(name for name, *_ in columns), "remark"]
     rows = [
-        [str(i), *(_cell(values[i], unit) for _, values, unit in columns), _remark(curve, i)]
+        [
+            str(i),
+            *(_cell(i, values, errors, unit) for _, values, errors, unit in columns),
+            _remark(curve, i),
+        ]
         for i in _shown(curve.status.size)
     ]
     if len(rows) < curve.status.size:
@@ -60,8 +71,21 @@ def _unit(dimension: str, curve: Curve) -> str | None:
     return unit_of(dimension, "m") if curve.unit == "m" else None
 
 
-def _cell(value: float, unit: str | None) -> str:
-    return in_words(float(value), unit) if np.isfinite(value) else "–"
+def _cell(load: int, values: Real, errors: Real | None, unit: str | None) -> str:
+    """Write a value with the digits that its error supports."""
+    value = float(values[load])
+    if not np.isfinite(value):
+        return "infinite" if np.isinf(value) else "–"
+    return in_words(value, unit, digits_known(load, values, errors))
+
+
+def digits_known(load: int, values: Real, errors: Real | None) -> int:
+    """Return how many digits of a value its error by the grid supports."""
+    value = float(values[load])
+    if errors is None or not value > 0:
+        return supported_digits(value, None)
+    error = float(errors[load])
+    return supported_digits(value, (value / (1 + error / value), value + error))
 
 
 def _remark(curve: Curve, load: int) -> str:

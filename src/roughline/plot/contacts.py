@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
+from roughline.contact.notebook import digits_known
 from roughline.contact.status import Status
 from roughline.errors import InputError
 from roughline.plot.bodies import draw_map, extent, label_sides
@@ -124,7 +125,8 @@ def yield_key(fields: Fields) -> str:
 def _title(curve: Curve, load: int, fields: Fields) -> str:
     assert curve.area_fraction_corrected is not None
     force = in_words(float(curve.force[load]), "N" if curve.unit == "m" else None)
-    share = decimal(100 * float(curve.area_fraction_corrected[load]), 4)
+    digits = digits_known(load, curve.area_fraction_corrected, curve.area_fraction_error)
+    share = decimal(100 * float(curve.area_fraction_corrected[load]), digits)
     return f"corrected area {share}% at $F$ = {force}{yield_key(fields)}"
 
 

@@ -17,9 +17,10 @@ from roughline.plot.pixels import any_marked
 from roughline.plot.spectra import draw_spectrum
 from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.plot.units import in_unit
+from roughline.report.contact_tables import area_in_words
 from roughline.report.folder import make_folder
 from roughline.topography.body import Body, Surface
-from roughline.units import decimal, engineering
+from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
@@ -182,10 +183,9 @@ def draw_last_contact(axes: Axes, surface: Surface, assessment: Assessment) -> N
         if fields is None:
             continue
         draw_contact(axes, surface, fields, "m")
-        assert curve.area_fraction_corrected is not None
-        share = decimal(100 * curve.area_fraction_corrected[i], 4)
         force = engineering(curve.force[i] * assessment.scale, "N")
-        axes.set_title(f"corrected area {share}% at {force}{yield_key(fields)}", fontsize=8)
+        share = area_in_words(assessment, i)
+        axes.set_title(f"corrected area {share} at {force}{yield_key(fields)}", fontsize=8)
         return
     label_sides(axes, surface, "m")
 

@@ -10,7 +10,7 @@ import numpy as np
 from roughline.assessment.notes import change_in_words
 from roughline.contact.quantities import QUANTITIES
 from roughline.contact.status import Status
-from roughline.report.values import with_interval
+from roughline.report.values import value_and_interval, with_interval
 from roughline.units import engineering
 
 if TYPE_CHECKING:
@@ -194,6 +194,14 @@ def star_is_shown(assessment: Assessment) -> bool:
 def quantity(answer: Answer, i: int) -> str:
     """Write one value of an answer, with its interval where that is known."""
     return with_interval(float(answer.values[i]), _at(answer.ends, i), unit_shown(answer))
+
+
+def area_in_words(assessment: Assessment, load: int) -> str:
+    """Write the corrected area fraction under a load of the curve, with the digits known of it."""
+    share = assessment.curve.area_fraction_corrected
+    assert share is not None
+    written = with_interval(float(share[load]), _at(assessment.area_interval, load), "%")
+    return value_and_interval(written)[0]
 
 
 def unit_shown(answer: Answer) -> str:

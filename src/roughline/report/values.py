@@ -6,11 +6,12 @@ import re
 
 import numpy as np
 
-from roughline.units import decimal, prefix
+from roughline.units import MOST_DIGITS, decimal, prefix, supported_digits
 
 _NARROW = 0.1  # half width of an interval up to which it is written as ±
 _ONE_SIDED = 0.5  # shorter over longer half below which both ends are written
 _LEAST = 1e-4  # half width below which an interval says nothing
+_DIGITS_OF_ENDS = 2  # of both ends of an interval, at least
 _INTERVAL = re.compile(r" (?=[(±])")
 
 
@@ -18,8 +19,9 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     """Write a value, and its interval: as ± where that is narrow and even, else by both ends."""
     if not np.isfinite(value):
         return "not solved" if np.isnan(value) else "infinite"
-    factor, sign = scale_of(value, unit)
-    shown = f"{decimal(value * factor, 4)}{sign}"
+    digits = supported_digits(value, ends)
+    factor, sign = scale_of(value, unit, digits)
+    shown = f"{decimal(value * factor, digits)}{sign}"
     if ends is None or np.isnan(ends).any() or not value:
         return shown
     low, high = ends
@@ -27,17 +29,19 @@ def with_interval(value: float, ends: tuple[float, float] | None, unit: str) -> 
     one_sided = shorter < _ONE_SIDED * half_width and half_width > _LEAST
     if half_width < _NARROW and not one_sided:
         return f"{shown} ± {100 * max(half_width, _LEAST):.2g}%"
-    first, last = (decimal(end * factor, 3) if np.isfinite(end) else "infinite" for end in ends)
-    return f"{shown} ({first} to {last})"
+    least = max(digits, _DIGITS_OF_ENDS)
+    first, last = (decimal(end * factor, least) if np.isfinite(end) else "infinite" for end in ends)
+    percent = "%" if unit == "%" and np.isfinite(high) else ""
+    return f"{shown} ({first} to {last}{percent})"
 
 
-def scale_of(value: float, unit: str) -> tuple[float, str]:
-    """Factor of a value, and the unit or sign that is then written after it."""
+def scale_of(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, str]:
+    """Factor of a value of some digits, and the unit or sign that is then written after it."""
     if unit == "1":
         return 1.0, ""
     if unit == "%":
         return 100.0, "%"
-    factor, prefixed = prefix(value, unit)
+    factor, prefixed = prefix(value, unit, digits)
     return factor, f" {prefixed}"
 
 

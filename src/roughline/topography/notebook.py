@@ -10,22 +10,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughline.units import SI, decimal, engineering
+from roughline.units import MOST_DIGITS, SI, decimal, engineering
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
 
-_DIGITS = 4
 _WIDTH, _HEIGHT = 3.2, 1.6  # of a thumbnail [inch]
 _MOST_POINTS = 2000  # of a line in a thumbnail
 _MOST_PIXELS = 200  # of a surface in a thumbnail, along a side
 
 
-def in_words(value: float, unit: str | None) -> str:
+def in_words(value: float, unit: str | None, digits: int = MOST_DIGITS) -> str:
     """Write a value with its unit; SI units get a prefix, None gives the number alone."""
     if unit in SI:
-        return engineering(value, unit, _DIGITS)
-    return f"{decimal(value, _DIGITS)} {unit or ''}".strip()
+        return engineering(value, unit, digits)
+    return f"{decimal(value, digits)} {unit or ''}".strip()
 
 
 def described(body: Any) -> str:
@@ -47,7 +46,7 @@ def html_of_body(body: Any) -> str:
         ),
         ("rms height", in_words(body.rms_height, body.unit)),
         ("peak to valley", in_words(float(np.ptp(body.heights)), body.unit)),
-        ("rms slope", decimal(body.rms_slope, _DIGITS)),
+        ("rms slope", decimal(body.rms_slope, MOST_DIGITS)),
         ("unit of lengths", body.unit or "not stated"),
         ("trend removed", body.removed_trend),
     ]

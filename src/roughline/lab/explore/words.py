@@ -14,7 +14,7 @@ from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.engineering.intervals import Intervals
 from roughline.lab.explore.state import ExploreState
 from roughline.report.values import value_and_interval, with_interval
-from roughline.units import decimal, engineering
+from roughline.units import decimal, engineering, supported_digits
 
 _DIGITS = 3
 
@@ -57,7 +57,8 @@ def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> Item:
     return _item(
         "stiffness_3d",
         "k̄ (3D)",
-        decimal(float(pressed.stiffness_bar[0]), _DIGITS) + (" *" if unsure else ""),
+        decimal(float(pressed.stiffness_bar[0]), _digits(pressed.stiffness, ends))
+        + (" *" if unsure else ""),
         "Stiffness k / (1.1419 E* L) of the full model: the exact slope dF/dd over that of a "
         "square punch. The interval shows how far finer grids may change it."
         + (f" Fewer than {RESOLVED_FROM} cells touch: the grid decides." if unsure else ""),
@@ -68,11 +69,12 @@ def _stiffness(pressed: rl.Curve, intervals: Intervals | None) -> Item:
 def _area(pressed: rl.Curve, intervals: Intervals | None) -> Item:
     assert pressed.area_fraction_corrected is not None
     area = float(pressed.area_fraction_corrected[0])
-    written = with_interval(area, _first(intervals.area) if intervals else None, "%")
+    ends = _first(intervals.area) if intervals else None
+    written = with_interval(area, ends, "%")
     return _item(
         "area",
         "contact",
-        f"{decimal(100 * area, _DIGITS)}%",
+        f"{decimal(100 * area, supported_digits(area, ends, _DIGITS))}%",
         "Real contact area over the nominal one, corrected for the steps of its outline. The "
         "interval shows how much finer grids, with finer roughness, may change it.",
         *value_and_interval(written)[1:],
@@ -124,7 +126,7 @@ def _of_yield(pressed: rl.Curve, intervals: Intervals | None, surface: rl.Surfac
         _item(
             "unloading",
             "k̄_u (3D)",
-            decimal(float(unloading_bar(pressed)[0]), _DIGITS),
+            decimal(float(unloading_bar(pressed)[0]), _digits(pressed.unloading_stiffness, ends)),
             "Stiffness on unloading k_u / (1.1419 E* L): all of the contact springs back, while on "
             "loading the spots at the hardness bear no more. Ultrasound and currents depend on it.",
             with_interval(float(pressed.unloading_stiffness[0]), ends, "N/m"),
@@ -205,6 +207,11 @@ def _rows(pressed: rl.Curve, values: NDArray[np.float64]) -> list[list[str]]:
         elif not pressed.resolved[i] and pressed.force[i] > 0:
             row[1] += " *"
     return rows
+
+
+def _digits(stiffness: NDArray[np.float64], ends: tuple[float, float] | None) -> int:
+    """Digits that the interval of a stiffness at the first load supports."""
+    return supported_digits(float(stiffness[0]), ends, _DIGITS)
 
 
 def _first(ends: Any) -> tuple[float, float] | None:

@@ -13,6 +13,7 @@ from roughline.assessment.description import Description
 from roughline.engineering.intervals import Ends
 from roughline.files.measurement import Measurement
 from roughline.plot.pixels import any_marked, thinned
+from roughline.report.contact_tables import area_in_words
 from roughline.topography.body import Body, Surface
 from roughline.topography.preparation import outliers
 from roughline.units import decimal, engineering, metres_per, prefix
@@ -180,8 +181,6 @@ def contact_drawing(result: Assessment) -> Drawing:
         return Drawing({**body.header, "load": "", "fields": {}}, body.arrays)
     fields = result.curve.fields[shown]
     assert fields is not None
-    assert result.curve.area_fraction_corrected is not None
-    share = decimal(100 * float(result.curve.area_fraction_corrected[shown]), 4)
     force = engineering(float(result.curve.force[shown]) * result.scale, "N")
     marks = fields.contact.astype(np.uint8) + fields.plastic
     arrays: dict[str, NDArray[Any]] = {"area": any_marked(marks).T}
@@ -197,7 +196,7 @@ def contact_drawing(result: Assessment) -> Drawing:
         units[name] = {"unit": prefixed, "range": [0, largest or 1.0]}
     header = {
         **body.header,
-        "load": f"corrected area {share}% at {force}",
+        "load": f"corrected area {area_in_words(result, shown)} at {force}",
         "fields": units,
         "yields": result.curve.hardness is not None,
         "spots": _spots(fields.contact, surface, body.header["metres"]),
