@@ -24,5 +24,5 @@ for frequency in ("2 MHz", "5 MHz", "10 MHz"):
     axes.semilogx(pressure, reflection.values, "o-", label=frequency)
     axes.fill_between(pressure, reflection.low, reflection.high, alpha=0.15)
 
-axes.set(xlabel="mean pressure [MPa]", ylabel="reflection $|R|$", ylim=(0, 1))
+axes.set(xlabel="mean pressure [MPa]", ylabel="reflection $|r|$", ylim=(0, 1))
 axes.legend()

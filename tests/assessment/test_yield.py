@@ -363,7 +363,7 @@ def test_the_mean_of_elastic_bodies_stands_beside_that_of_a_part(surface):
     alike = [replace(surface, heights=surface.heights * (1 + 0.001 * i)) for i in range(3)]
     part = rl.assess(rl.Question(alike, "alumina hardness=0.1 GPa, glass", **asked))
     said = elastic_of_part_in_words(part)
-    assert said.startswith("if nothing yielded: ")
+    assert said.startswith("for comparison, if nothing yielded: ")
     assert "contact area fraction" in said
     rows = [row[0] for row in part_table(part, [0], with_elastic=True)[1]]
     assert rows[rows.index("contact area fraction A/A_0") + 1] == "if nothing yielded"

@@ -217,7 +217,7 @@ def test_the_interface_of_a_map_is_that_of_the_periodic_half_space(tmp_path, inv
     given = {name: each for name, each in found["answers"].items() if each["values"] is not None}
     assert given["k_i"]["values"] == pytest.approx(k_u, rel=1e-4)
     assert given["k"]["values"] == found["curve"]["stiffness"]  # of the piece, free
-    for symbol in ("k_i", "h_c", "|R|"):
+    for symbol in ("k_i", "h_c", "|r|"):
         low, high = (np.array(given[symbol][end]) for end in ("low", "high"))
         assert (low < given[symbol]["values"]).all()
         assert (given[symbol]["values"] < high).all()

@@ -104,7 +104,7 @@ def test_in_full_contact_the_interface_is_infinitely_stiff():
     assert np.isinf(found["h_c"].values).all()
     steel, copper = PAIR.first.impedance, PAIR.second.impedance
     bonded = abs(steel - copper) / (steel + copper)
-    assert found["|R|"].values[0] == pytest.approx(bonded)
+    assert found["|r|"].values[0] == pytest.approx(bonded)
     assert found["R"].values[0] == pytest.approx(
         PAIR.E_star * (1.6e-7 + 1.68e-8) / (2 * saturated), rel=1e-6
     )
@@ -156,7 +156,7 @@ def test_intervals_are_carried_on():
     assert own.low == pytest.approx(interface_stiffness(low, saturated))
     assert own.high == pytest.approx(interface_stiffness(high, saturated))
     assert ends("h_c") == pytest.approx(ends("k_i"))
-    reflection = found["|R|"]
+    reflection = found["|r|"]
     assert (reflection.low < reflection.values).all()
     assert (reflection.values < reflection.high).all()
     assert found["F"].low is None
@@ -287,7 +287,7 @@ def test_what_currents_heat_waves_and_shear_meet_is_the_unloading_stiffness():
     assert found["h_c"].values == pytest.approx(G / surface.area, rel=1e-12)
     assert found["k_t"].values == pytest.approx(PAIR.G_star / PAIR.E_star * k_u, rel=1e-12)
     waves = reflection(k_u / surface.area, 5e6, PAIR.both("impedance"))
-    assert found["|R|"].values == pytest.approx(waves, rel=1e-12)
+    assert found["|r|"].values == pytest.approx(waves, rel=1e-12)
     assert stiffness_of_the_piece(surface, curve).values == pytest.approx(
         interface_stiffness(k_u, saturated_stiffness(surface, PAIR.E_star)), rel=1e-12
     )
@@ -330,7 +330,7 @@ def test_bodies_just_apart_have_answers_that_can_be_written():
     for symbol in ("F", "k", "k_u", "k_i", "A", "p_c", "p_c/H", "A_p/A", "G", "h_c", "k_t"):
         assert last[symbol] == 0, symbol
     assert math.isinf(last["R"])
-    assert last["|R|"] == 1
+    assert last["|r|"] == 1
     assert last["d"] > 0
     assert last["w"] == found["w"].values[0]  # for good
 
@@ -340,7 +340,7 @@ def test_what_is_not_known_of_a_material_is_left_out():
     glass = MaterialPair(rl.material("glass"), rl.material("rigid"))
     curve = rl.press(surface, E_star=glass.E_star, forces=[1.0])
     found = by_symbol(answers(curve, surface.area, glass, frequency=1e6))
-    assert not {"R", "R_Holm", "G", "h_c", "|R|"} & found.keys()
+    assert not {"R", "R_Holm", "G", "h_c", "|r|"} & found.keys()
     assert found["p_c/H"].values[0] == pytest.approx(found["p_c"].values[0] / 5.5e9)
     assert all(each.formula for each in found.values())
 

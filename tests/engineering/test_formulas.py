@@ -86,7 +86,7 @@ def test_reflection_between_its_limits():
     assert stiff == pytest.approx((steel - water) / (steel + water))  # a bonded interface
     assert interface.reflection(1e-3, 5e6, (steel, water)) == pytest.approx(1.0)
     equal = interface.reflection(1e14, 5e6, (steel, steel))
-    # |R| = 1 / sqrt(1 + (2 K / (w z))²) for equal bodies (Kendall and Tabor 1971)
+    # |r| = 1 / sqrt(1 + (2 K / (w z))²) for equal bodies (Kendall and Tabor 1971)
     assert equal == pytest.approx(1 / math.hypot(1, 2e14 / (2 * math.pi * 5e6 * steel)))
     with pytest.raises(rl.InputError, match="frequency is 0"):
         interface.reflection(1.0, 0.0, (1.0, 1.0))

@@ -1,7 +1,13 @@
-"""Tables of an assessment: the loads that are wanted, and which of them carry a star."""
+"""Tables of an assessment: their loads, their stars, and the symbols of their formulas."""
+
+import re
+from dataclasses import replace
+
+import pytest
 
 import roughline as rl
-from roughline.report.contact_tables import answer_table, star_is_shown
+from roughline.report.contact_tables import answer_table, star_is_shown, symbol_table
+from roughline.report.json_output import of_assessment
 from roughline.report.terminal import print_assessment
 
 PAIR = ("steel", "copper")
@@ -20,3 +26,77 @@ def test_a_table_has_the_loads_that_are_wanted(rough):
     header, rows = answer_table(pressed, slice(1, 3))
     assert header == ["", "10 N", "20 N"]
     assert rows[0] == ["normal force F", "10 N", "20 N"]
+
+
+@pytest.fixture(params=["map", "generated", "line", "scan"])
+def body(request):
+    surface = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+    surface = replace(surface, unit="m")
+    if request.param in ("map", "generated"):
+        return surface.cropped((0, 24), (0, 24)) if request.param == "map" else surface
+    kind = "profile" if request.param == "scan" else "reduced"
+    return rl.Line(surface.heights[0], 1e-3, "m", kind=kind)
+
+
+@pytest.mark.parametrize("asked", [{}, {"elastic": True}, {"periodic": True}, {"joint_area": 1e-4}])
+def test_every_symbol_of_a_formula_stands_in_a_table_and_means_one_thing(body, asked):
+    if isinstance(body, rl.Line) and asked:
+        pytest.skip("a line has no yield, no borders and no joint")
+    pressed = rl.assess(rl.Question(body, PAIR, loads="10 N", frequency="5 MHz", **asked))
+    answers = [each.symbol for each in pressed.answers.values()]
+    assert len({*answers}) == len(answers)
+    _, rows = symbol_table(pressed)
+    names = [name for name, _, _ in rows]
+    assert len({*names}) == len(names)
+    assert not {*names} & {*answers}
+    assert all(
+        re.search(rf"(?<!\w){re.escape(each)}", " ".join(formulas_of(pressed))) for each in names
+    )
+    known = {*names, *(part.strip("|") for each in answers for part in each.split("/"))}
+    for formula in formulas_of(pressed):
+        for name in re.findall(r"[A-Za-z]+(?:_[A-Za-z0]+)?\d?\*?", formula):
+            is_word = name.isalpha() and (len(name) > 2 or name in WORDS)
+            if name in ("dF", "dd", "pi") or (is_word and name not in GREEK):
+                continue
+            assert name in known, (name, formula)
+
+
+GREEK = ("kappa", "sigma", "omega")
+WORDS = ("a", "at", "in", "no", "of", "on", "or", "s")
+
+
+def formulas_of(pressed):
+    return [each.formula for each in pressed.answers.values()]
+
+
+def test_of_a_joint_the_interface_comes_first_and_says_which_stiffness_it_is(rough):
+    pressed = rl.assess(rl.Question(rough, PAIR, loads="1 kN", joint_area="2 cm^2"))
+    _, rows = answer_table(pressed, slice(None))
+    names = [row[0] for row in rows]
+    stiffnesses = [name for name in names if "stiffness" in name]
+    assert stiffnesses == [
+        "interface stiffness on unloading k_i",
+        "interface stiffness on further loading k_load",
+        "stiffness per area k_i/A_0",
+        "tangential stiffness k_t",
+    ]
+    answers = pressed.answers
+    k_i, k_load = answers["interface_stiffness"].values, answers["contact_stiffness"].values
+    assert k_i > k_load
+    assert answers["stiffness_per_area"].values == pytest.approx(k_i / 2e-4)
+    assert answers["constriction_resistance"].formula.endswith("(2 k_i)")
+    elastic = rl.assess(rl.Question(rough, PAIR, loads="1 kN", joint_area="2 cm^2", elastic=True))
+    assert "contact_stiffness" not in elastic.answers  # equal to that on unloading
+    assert elastic.answers["interface_stiffness"].name == "interface stiffness"
+
+
+@pytest.mark.parametrize("joint", [None, "2 cm^2"])
+def test_json_and_the_curve_say_of_what_they_are(rough, joint):
+    pressed = rl.assess(rl.Question(rough, PAIR, loads="5 MPa", joint_area=joint))
+    told = of_assessment(pressed)
+    whose = "body" if joint is None else "map"
+    assert (told["curve"]["of"], told["intervals_of"]) == (whose, whose)
+    assert told["answers_of"] == ("body" if joint is None else "joint")
+    assert pressed.curve.to_dataset().attrs.get("curve_of") == (None if joint is None else "map")
+    force = pressed.answers["normal_force"].values
+    assert force == pytest.approx(pressed.curve_as_asked.force * pressed.scale)

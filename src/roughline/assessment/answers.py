@@ -14,6 +14,7 @@ from roughline.engineering.intervals import Intervals
 from roughline.engineering.joint import of_joint
 from roughline.engineering.limits import elastic_warnings
 from roughline.engineering.pair import MaterialPair
+from roughline.engineering.symbols import with_own_symbols
 from roughline.spectra.moments import Moments, moments
 from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.topography.body import Body, Surface
@@ -62,6 +63,7 @@ def with_answers(
         ]
     if question.joint is not None:
         given = of_joint(given, result.area, question.joint)
+    given = with_own_symbols(given)
     return replace(result, answers={each.key: each for each in given})
 
 

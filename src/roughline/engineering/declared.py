@@ -64,7 +64,7 @@ DECLARED = {
         "interface stiffness",
         "k_i",
         "N/m",
-        "1/k_i = 1/k_u - 1/k_s, k_s of the flat punch",
+        "1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch",
         growth=1,
     ),
     "contact_area": Declaration(
@@ -121,7 +121,7 @@ DECLARED = {
         "specific contact resistance",
         "rho_c",
         "ohm m²",
-        "R A_joint",
+        "R A_0, A_0 the nominal area of the joint",
         "of the interface alone; clean metal",
         "Barber 2003",
     ),
@@ -129,7 +129,7 @@ DECLARED = {
         "Holm's single-spot estimate",
         "R_Holm",
         "ohm",
-        "(rho1 + rho2) / (4 a), pi a² = F / H",
+        "(rho1 + rho2) / (4 a_H), pi a_H² = F / H",
         "for comparison: all of the load on one plastic spot; separate spots have less resistance, "
         "and elastic spots, which are smaller, have more",
         "Holm 1967",
@@ -180,9 +180,9 @@ DECLARED = {
     ),
     "reflection": Declaration(
         "reflection",
-        "|R|",
+        "|r|",
         "1",
-        "|z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|, K = k_i / A_0",
+        "|z1 - z2 + i omega z1 z2 / K| / |z1 + z2 + i omega z1 z2 / K|, K = k_i / A_0",
         "longitudinal plane waves much longer than the distances between contact spots; k_u, as "
         "their amplitude is small, so that all of the contact springs back",
         "Tattersall 1973",

@@ -265,7 +265,7 @@ def reflection(
 ) -> Real:
     """Modulus of the reflection coefficient of a longitudinal plane wave at normal incidence.
 
-    ``|R| = |z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|``, for waves much longer than
+    ``|r| = |z1 - z2 + i w z1 z2 / K| / |z1 + z2 + i w z1 z2 / K|``, for waves much longer than
     the distances between contact spots; w = 2 pi frequency.
 
     Parameters

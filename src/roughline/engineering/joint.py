@@ -10,13 +10,6 @@ from typing import Any
 from roughline.engineering.answer import Answer, answer
 from roughline.engineering.intervals import Ends
 
-_BY_STIFFNESS = (
-    "constriction_resistance",
-    "thermal_conductance",
-    "tangential_stiffness",
-)
-"""Keys of what follows from k_u, which is the stiffness k_i of a joint's interface."""
-
 
 def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]:
     """Return the answers of a joint, from those of a map of it under the same mean pressure.
@@ -33,15 +26,17 @@ def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]
     area, joint : float
         Nominal areas of both. [m²]
     """
-    answers = {each.key: each for each in given}
-    interface = _grown(answers["interface_stiffness"], joint / area)
-    left_out = "unloading_stiffness" if "unloading_stiffness" in answers else "contact_stiffness"
+    answers, ratio = {each.key: each for each in given}, joint / area
+    yields = "unloading_stiffness" in answers
+    interface = _interface(answers["interface_stiffness"], ratio, yields=yields)
     found = []
     for key, each in answers.items():
-        if key == "stiffness_per_area":
+        if key == "contact_stiffness":
+            found += [interface, *([_on_loading(each, ratio)] if yields else [])]
+        elif key == "stiffness_per_area":
             found.append(_per_area(interface, joint))
-        elif key != left_out:  # the interface's own, which is there already
-            found.append(_grown(each, joint / area))
+        elif key not in ("interface_stiffness", "unloading_stiffness"):
+            found.append(_grown(each, ratio))
         if key == "constriction_resistance":
             found.append(_specific(found[-1], joint))
     return found
@@ -55,10 +50,40 @@ def constriction_of_disc(joint: float, E_star: float) -> float:
     return 2 * E_star * math.sqrt(joint / math.pi)
 
 
+def _interface(each: Answer, ratio: float, *, yields: bool) -> Answer:
+    """Stiffness of the interface; where metals yield, it is that on unloading, and says so."""
+    return replace(
+        _grown(each, ratio),
+        name=f"{each.name} on unloading" if yields else each.name,
+        formula=_of_map("dF/dd on unloading"),
+    )
+
+
+def _on_loading(each: Answer, ratio: float) -> Answer:
+    """Stiffness of the interface on further loading, which the contact stiffness of a map is not.
+
+    It has a symbol of its own, as k is that of a free body.
+    """
+    return replace(
+        _grown(each, ratio),
+        name="interface stiffness on further loading",
+        symbol="k_load",
+        formula=_of_map("dF/dd on further loading"),
+        validity=f"of the interface alone; {each.validity}",
+    )
+
+
+def _of_map(slope: str) -> str:
+    return (
+        f"{slope} of the map in a periodic half-space at the same mean pressure, times A_0 over "
+        "the area of the map"
+    )
+
+
 def _per_area(interface: Answer, joint: float) -> Answer:
     """Stiffness of the interface over the area of the joint."""
     made = answer(
-        "stiffness_per_area", interface.rows / joint, symbol="k_i/A", formula="k_i / A_joint"
+        "stiffness_per_area", interface.rows / joint, symbol="k_i/A_0", formula="k_i / A_0"
     )
     return replace(made, shared=_times(interface.shared, 1 / joint))
 
@@ -73,15 +98,8 @@ def _grown(each: Answer, ratio: float) -> Answer:
     """An answer on an area that is so many times larger."""
     factor = ratio**each.growth
     differing: dict[str, Any] = {}
-    if each.key == "interface_stiffness":
-        differing["formula"] = (
-            "dF/dd of the map in a periodic half-space at the same mean pressure, times "
-            "A_joint / A_map"
-        )
-    elif each.key in _BY_STIFFNESS:
-        differing["validity"] = "; ".join(filter(None, [each.validity, "k_u is k_i of the joint"]))
-    elif each.key == "contact_stiffness":
-        differing["validity"] = "; ".join(["of the interface alone", each.validity])
+    if each.key == "mean_pressure":
+        differing["formula"] = f"{each.formula} of the joint"
     elif each.key == "depth":
         differing["validity"] = (
             "of the map, from the touch of its highest point; the joint has higher points"

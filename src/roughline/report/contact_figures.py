@@ -106,7 +106,9 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     """Stiffness over force with its interval, and theories; for the joint, if one is given."""
     curve, area = assessment.curve, assessment.area
     x_label, force = _force_axis(assessment)
-    symbol = "k_i" if assessment.question.joint and curve.hardness is None else "k"
+    symbol = "k"
+    if assessment.question.joint is not None:
+        symbol = "k_i" if curve.hardness is None else r"k_\mathrm{load}"
     name = f"stiffness ${symbol}$"
     y_label, stiffness = in_unit(name, curve.stiffness, "N/m", assessment.scale)
     draw_loads(axes, curve.force * force, curve.stiffness * stiffness, curve)

@@ -33,6 +33,7 @@ from roughline.report.contact_tables import (
     material_in_words,
     quantity,
     star_is_shown,
+    symbol_table,
 )
 from roughline.report.document import write_document
 from roughline.report.page import Headline, KeyFigure, Picture, Section, Table
@@ -53,7 +54,7 @@ ASSUMPTIONS = (
     "Heights as measured: the filter, the probe and the grid decide the finest waves, and with "
     "them the real contact area; stiffness and conductance depend on them less.",
     "Intervals, where given, hold the uncertainty due to the grid, to filled points and to the "
-    "scatter of the hardness, or to a line scan; those of k_i, h_c and |R| of a map hold what one "
+    "scatter of the hardness, or to a line scan; those of k_i, h_c and |r| of a map hold what one "
     "map does not show of the larger surface as well. They do not hold the scatter of other "
     "material data, nor, for all other answers, the scatter between places on the part.",
 )
@@ -179,7 +180,10 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
             [_surface(assessment)],
             pictures=[Picture(overview, "Overview", _caption(assessment))],
         ),
-        Section("Formulas and sources", tables=[Table(*formula_table(assessment))]),
+        Section(
+            "Formulas and sources",
+            tables=[Table(*formula_table(assessment)), Table(*symbol_table(assessment))],
+        ),
         Section("Assumptions", assumptions_of(assessment)),
         Section("How to repeat it", [how_to_repeat, settings]),
     ]

@@ -10,6 +10,7 @@ import numpy as np
 from roughline.assessment.notes import change_in_words
 from roughline.contact.quantities import QUANTITIES
 from roughline.contact.status import Status
+from roughline.engineering.symbols import symbols_of
 from roughline.report.values import value_and_interval, with_interval
 from roughline.units import engineering
 
@@ -169,6 +170,24 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     return header, rows
 
 
+def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of the symbols of the formulas that are no answers."""
+    question, pair = assessment.question, assessment.question.pair
+    assert pair is not None
+    rows = [
+        [each.symbol, each.meaning, "" if each.value is None else _number(each.value, each.unit)]
+        for each in symbols_of(
+            [each.formula for each in assessment.answers.values()],
+            pair,
+            E_star=assessment.curve.E_star,
+            hardness=assessment.curve.hardness or pair.hardness,
+            area=question.joint or assessment.area,
+            rms_height=assessment.body.rms_height,
+        )
+    ]
+    return ["symbol", "meaning", "value"], rows
+
+
 def keys_at_many_loads(assessment: Assessment) -> list[str]:
     """Keys of the answers that are shown where there are too many loads for all of them."""
     keys = [*leading_keys(assessment), *_AT_MANY_LOADS]
@@ -238,6 +257,10 @@ def _stiffness(values: Real, ends: Ends | None, i: int, scale: float) -> str:
     if ends is not None:
         ends = ends[0] * scale, ends[1] * scale
     return with_interval(scale * float(values[i]), _at(ends, i), _SI["stiffness"])
+
+
+def _number(value: float, unit: str) -> str:
+    return with_interval(value, None, unit)
 
 
 def _at(ends: Ends | None, i: int) -> tuple[float, float] | None:

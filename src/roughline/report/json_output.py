@@ -27,7 +27,9 @@ def to_json(content: Mapping[str, Any]) -> str:
 def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[str, Any]:
     """What pressing gave, in SI units, over the loads that were asked for, in their order.
 
-    Answers are listed by their symbols; the key of each is that of :attr:`Assessment.answers`.
+    Of a joint the answers are the joint's; the curve and its intervals are those of the map, under
+    the map's part of the load. Answers are listed by their symbols; the key of each is that of
+    :attr:`Assessment.answers`.
     """
     intervals = assessment.intervals_as_asked
     question, curve, slip = assessment.question, assessment.curve_as_asked, assessment.partial_slip
@@ -41,6 +43,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "joint_area": question.joint,
         "loads": assessment.headings,
         "curve": {
+            "of": "map" if question.joint is not None else "body",
             **{
                 quantity.name: getattr(curve, quantity.name)
                 for quantity in IN_JSON
@@ -48,9 +51,11 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
             },
             "status": [Status(value).name.lower() for value in curve.status],
         },
+        "intervals_of": "map" if question.joint is not None else "body",
         "stiffness_interval": intervals and intervals.stiffness,
         "unloading_stiffness_interval": intervals and intervals.unloading,
         "area_fraction_interval": intervals and intervals.area,
+        "answers_of": "joint" if question.joint is not None else "body",
         "answers": {
             each.symbol: {
                 "key": each.key,

@@ -13,6 +13,7 @@ from roughline.report.contact_tables import (
     UNRESOLVED,
     formula_table,
     material_in_words,
+    symbol_table,
 )
 from roughline.report.document import write_document
 from roughline.report.page import Headline, KeyFigure, Picture, Section, Table
@@ -183,7 +184,7 @@ def _sections(
             ],
             tables=[_with_numbers(*each) for each in of_maps],
         ),
-        Section("Formulas and sources", tables=[Table(*formulas)]),
+        Section("Formulas and sources", tables=[Table(*formulas), Table(*symbol_table(first))]),
         Section("Assumptions", [*assumptions_of(first), ASSUMPTION_OF_PART]),
         Section("How to repeat it", [how_to_repeat]),
     ]

@@ -1,0 +1,135 @@
+"""Symbols of the formulas: one meaning each, and each of them on the page that uses it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from roughline.engineering.answer import Answer
+from roughline.engineering.formulas import harmonic_conductivity
+from roughline.engineering.pair import MaterialPair
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """A symbol of a formula that is no answer.
+
+    Attributes
+    ----------
+    symbol, meaning : str
+        As formulas write it, and what it stands for.
+    unit : str
+        SI unit.
+    value : float or None
+        None where it is not one number. [unit]
+    """
+
+    symbol: str
+    meaning: str
+    unit: str = "1"
+    value: float | None = None
+
+
+def with_own_symbols(given: Sequence[Answer]) -> list[Answer]:
+    """Return answers whose formulas name stiffnesses by the symbols that these answers have.
+
+    Where nothing is known of yield, all of the contact springs back on further loading as well, and
+    k stands for k_u; of a joint, k_i does; of a periodic surface k_u, or k, stands for k_i.
+
+    Parameters
+    ----------
+    given : sequence of Answer
+        All that stand on one page.
+    """
+    symbols = {each.key: each.symbol for each in given}
+    loading = symbols.get("contact_stiffness", "k_i")
+    unloading = symbols.get("unloading_stiffness", loading)
+    if symbols["stiffness_per_area"].startswith("k_i"):  # the interface is all that a joint has
+        unloading = "k_i"
+    interface = symbols.get("interface_stiffness", unloading)
+    written = {"k_u": unloading, "k_i": interface}
+
+    def own(text: str) -> str:
+        return re.sub(r"\bk_[ui]\b", lambda found: written[found[0]], text)
+
+    return [replace(each, formula=own(each.formula), validity=own(each.validity)) for each in given]
+
+
+def symbols_of(
+    formulas: Sequence[str],
+    pair: MaterialPair,
+    *,
+    E_star: float,
+    hardness: float | None,
+    area: float,
+    rms_height: float,
+) -> list[Symbol]:
+    """Return the symbols of formulas that are no answers, with their values.
+
+    Parameters
+    ----------
+    formulas : sequence of str
+        Of the answers on one page.
+    pair : MaterialPair
+        The materials.
+    E_star : float
+        Contact modulus. [Pa]
+    hardness : float or None
+        Of the softer body. [Pa]
+    area : float
+        Nominal area, of the joint if there is one. [m²]
+    rms_height : float
+        Of the sum of both surfaces. [m]
+    """
+    known = [
+        Symbol("E*", "contact modulus", "Pa", E_star),
+        Symbol("A_0", "nominal area", "m²", area),
+        Symbol("H", "hardness of the softer body", "Pa", hardness),
+        *_of_bodies("rho", "electrical resistivity", "ohm m", pair.both("resistivity")),
+        *_of_bodies("kappa", "thermal conductivity", "W/(m K)", pair.both("conductivity")),
+        Symbol("kappa_s", "their harmonic mean", "W/(m K)", _harmonic(pair)),
+        Symbol("sigma", "rms height", "m", rms_height),
+        Symbol("m", "mean slope of a profile, the rms slope over sqrt(pi)"),
+        Symbol("G*", "tangential contact modulus", "Pa", pair.G_star),
+        *_of_bodies("G", "shear modulus", "Pa", _moduli(pair)),
+        *_of_bodies("nu", "Poisson's ratio", "1", (pair.first.nu, pair.second.nu)),
+        Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m"),
+        Symbol("a_H", "radius of Holm's single spot", "m"),
+        *_of_bodies("z", "acoustic impedance", "kg/(m² s)", pair.both("impedance")),
+        Symbol("omega", "angular frequency of the wave", "1/s"),
+        Symbol("K", "stiffness per area of the interface", "N/m³"),
+        Symbol("i", "imaginary unit"),
+    ]
+    used = {name for each in formulas for name in names_in(each)}
+    return [each for each in known if each.symbol in used]
+
+
+def names_in(formula: str) -> set[str]:
+    """Return the symbols that a formula names, words of the language left out."""
+    names = re.findall(r"[A-Za-z]+(?:_[A-Za-z0]+)?\d?\*?", formula)
+    return {name for name in names if not name.isalpha() or name in _LETTERS or name in _GREEK}
+
+
+_GREEK = {"rho", "kappa", "sigma", "omega", "nu"}
+_LETTERS = {*"AEFGHKRdikmpwz"}
+
+
+def _of_bodies(
+    letter: str, meaning: str, unit: str, values: tuple[float, float] | None
+) -> list[Symbol]:
+    """The symbols of a property of both bodies."""
+    which = ("first", "second")
+    return [
+        Symbol(f"{letter}{i + 1}", f"{meaning} of the {which[i]} body", unit, values and values[i])
+        for i in range(2)
+    ]
+
+
+def _harmonic(pair: MaterialPair) -> float | None:
+    conductivities = pair.both("conductivity")
+    return None if conductivities is None else harmonic_conductivity(conductivities)
+
+
+def _moduli(pair: MaterialPair) -> tuple[float, float]:
+    return pair.first.shear_modulus, pair.second.shear_modulus
