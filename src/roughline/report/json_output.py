@@ -56,22 +56,7 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
         "unloading_stiffness_interval": intervals and intervals.unloading,
         "area_fraction_interval": intervals and intervals.area,
         "answers_of": "joint" if question.joint is not None else "body",
-        "answers": {
-            each.symbol: {
-                "key": each.key,
-                "name": each.name,
-                "unit": each.unit,
-                "values": each.values,
-                "low": each.low,
-                "high": each.high,
-                "formula": each.formula,
-                "validity": each.validity,
-                "source": each.source,
-                "if_elastic": (elastic := assessment.elastic.get(each.key)) and elastic.values,
-                "hardness_scatter": assessment.hardness_scatter.get(each.key),
-            }
-            for each in assessment.answers.values()
-        },
+        "answers": _of_answers(assessment),
         "theories": {
             each.name: {
                 "pressure": each.pressure,
@@ -89,6 +74,26 @@ def of_assessment(assessment: Assessment, files: Sequence[Path] = ()) -> dict[st
     if question.friction is not None:
         content["partial_slip"] = None if slip is None else vars(slip)
     return content
+
+
+def _of_answers(assessment: Assessment) -> dict[str, Any]:
+    """The answers by their symbols."""
+    return {
+        each.symbol: {
+            "key": each.key,
+            "name": each.name,
+            "unit": each.unit,
+            "values": each.values,
+            "low": each.low,
+            "high": each.high,
+            "formula": each.formula,
+            "validity": each.validity,
+            "source": each.source,
+            "if_elastic": (elastic := assessment.elastic.get(each.key)) and elastic.values,
+            "hardness_scatter": assessment.hardness_scatter.get(each.key),
+        }
+        for each in assessment.answers.values()
+    }
 
 
 def of_description(description: Description, files: Sequence[Path] = ()) -> dict[str, Any]:
