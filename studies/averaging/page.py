@@ -85,7 +85,8 @@ def _known() -> Section:
             "Pohrt, Popov and Filippov 2012).",
             "Read off boundary elements: α = 0.2567 D_f (the founding paper, §7).",
             "Linear, α = 1, where many waves of the roll-off length fit on the surface (Persson "
-            "2007; Pastewka and others 2013).",
+            "2007; Pastewka and others 2013); α is about 0.9 over decades of such loads in [the "
+            "study of finite size](finite_size.md).",
         ],
     )
 
