@@ -66,8 +66,8 @@ def test_an_interrupt_keeps_what_is_done(tmp_path):
 INTERRUPTED = """
 import sys
 from dataclasses import replace
-from roughline.paper import study
-original = study.paper_plan
+from roughline.paper import plan as plans
+original = plans.paper_plan
 def slow_but_small(scale, seed):
     plan = original(scale, seed)
     sizes = {"lines": (2**14, 20), "lines-of-surfaces": (2**13, 20), "surfaces": (96, 8)}
@@ -76,7 +76,7 @@ def slow_but_small(scale, seed):
         for e in plan.ensembles
     )
     return replace(plan, ensembles=ensembles, gallery=replace(plan.gallery, n=48))
-study.paper_plan = slow_but_small
+plans.paper_plan = slow_but_small
 sys.argv = ["roughline", "paper", "--out", sys.argv[1]]
 from roughline.cli import main
 main()

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import xarray
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 
@@ -226,6 +227,40 @@ def test_a_power_law_is_drawn_over_its_window():
     assert drawn[:, 0] == pytest.approx(law.window)
     assert drawn[:, 1] == pytest.approx(law(np.array(law.window)))
     assert points(axes)[1] == pytest.approx(stiffness.mean(axis=0))
+
+
+def test_exponents_are_drawn_over_the_fractal_dimension_beside_the_paper_s_formulas():
+    force, dimensions = np.geomspace(1e-3, 1, 13), [2.2, 2.6]
+    factors = np.exp(np.random.default_rng(0).normal(0, 0.1, (2, 10, 1)))
+    stiffness = np.array([force**0.55, force**0.7])[:, np.newaxis] * factors
+    laws = {
+        dimension: rl.fit_power_law(force, values, (1e-3, 1e-1))
+        for dimension, values in zip(dimensions, stiffness, strict=True)
+    }
+    axes = rl.plot.exponents(laws)
+    marks, _, (bars,) = axes.containers[0]
+    assert marks.get_xydata() == pytest.approx(np.array([[2.2, 0.55], [2.6, 0.7]]))
+    ends = [sorted(segment[:, 1]) for segment in bars.get_segments()]
+    assert ends == [pytest.approx(laws[each].exponent_interval) for each in dimensions]
+    assert r"$1/(4 - D_f)$ $0.2567\,D_f$ power law, $\bar F$ = 0.001 to 0.1" in texts(axes)
+    stiffness[0, 0, 3] = np.nan  # a load that did not converge
+    ensemble = xarray.Dataset(
+        {"stiffness": (("fractal_dimension", "realisation", "force_bar"), stiffness)},
+        {"fractal_dimension": dimensions, "force_bar": force},
+        {"model": "reduced"},
+    )
+    assert rl.plot.exponents(ensemble, (1e-3, 1e-1), axes=axes) is axes
+    assert "lines, $" in texts(axes)
+    assert texts(axes).count("1/(4 - D_f)") == 1
+    again = axes.containers[1][0].get_ydata()
+    left = rl.fit_power_law(force, stiffness[0, 1:], (1e-3, 1e-1))
+    assert again == pytest.approx([left.exponent, 0.7])
+    with pytest.raises(rl.InputError, match="give a window, such as"):
+        rl.plot.exponents(ensemble)
+    with pytest.raises(rl.InputError, match="leave the window out"):
+        rl.plot.exponents(laws, (1e-3, 1e-1))
+    with pytest.raises(rl.InputError, match="there is no law to draw"):
+        rl.plot.exponents({})
 
 
 @pytest.mark.slow

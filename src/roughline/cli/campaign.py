@@ -8,7 +8,8 @@ from typing import Annotated
 
 import typer
 
-from roughline.cli.options import Json, Scheduler, SeedOption, Workers, interruptible, print_json
+from roughline.cli.options import Json, Scheduler, Workers, interruptible, print_json
+from roughline.cli.study import study_of
 
 app = typer.Typer(
     help="Ensembles of random bodies, on this machine or a Dask cluster.",
@@ -31,6 +32,8 @@ class ScaleChoice(StrEnum):
     full = "full"
 
 
+OWN = "A version of your own"
+
 StoreArgument = Annotated[
     Path, typer.Argument(help="A store (folder of results), or the plan that lies beside it.")
 ]
@@ -38,13 +41,76 @@ StoreArgument = Annotated[
 
 def paper(
     scale: Annotated[
-        ScaleChoice,
-        typer.Option(help="quick: minutes on two cores; full: the paper's sizes, days."),
-    ] = ScaleChoice.quick,
+        ScaleChoice | None,
+        typer.Option(
+            help="quick: minutes on two cores; full: the paper's sizes, hours [default: quick]."
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder for results and report.")] = Path(
         "roughline-paper"
     ),
-    seed: SeedOption = 2012,
+    fractal_dimensions: Annotated[
+        str | None,
+        typer.Option(
+            help='Of surfaces and lines, 2 to 3, such as "2.1, 2.5, 2.9".', rich_help_panel=OWN
+        ),
+    ] = None,
+    points: Annotated[
+        int | None,
+        typer.Option(
+            "-n", "--points", help="Points along a side of the surfaces.", rich_help_panel=OWN
+        ),
+    ] = None,
+    realisations: Annotated[
+        int | None,
+        typer.Option(help="Surfaces for each fractal dimension.", rich_help_panel=OWN),
+    ] = None,
+    line_points: Annotated[
+        int | None, typer.Option(help="Points of the lines.", rich_help_panel=OWN)
+    ] = None,
+    lines: Annotated[
+        int | None, typer.Option(help="Lines for each fractal dimension.", rich_help_panel=OWN)
+    ] = None,
+    force_bars: Annotated[
+        str | None,
+        typer.Option(
+            help="Loads F / (E* h L) of the surfaces and of the lines with their waves: "
+            '"0.01, 0.1, 1", or "0.001 to 10, 6 per decade".',
+            rich_help_panel=OWN,
+        ),
+    ] = None,
+    plan: Annotated[
+        Path | None,
+        typer.Option(
+            help="A plan of your own in TOML, with surfaces and lines, instead of the paper's.",
+            rich_help_panel=OWN,
+        ),
+    ] = None,
+    store: Annotated[
+        Path | None,
+        typer.Option(
+            help="Folder for the results of your plan [default: that of the plan's file, ending in "
+            ".zarr]; without a plan, a finished store to report on.",
+            rich_help_panel=OWN,
+        ),
+    ] = None,
+    window: Annotated[
+        str | None,
+        typer.Option(
+            help='Loads in which exponents of surfaces are fitted [default: "0.01, 0.1"].',
+            rich_help_panel=OWN,
+        ),
+    ] = None,
+    line_window: Annotated[
+        str | None,
+        typer.Option(
+            help='Loads in which exponents of lines are fitted [default: "0.0001, 0.01"].',
+            rich_help_panel=OWN,
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Root of all random seeds [default: 2012].")
+    ] = None,
     workers: Workers = None,
     scheduler: Scheduler = None,
     json: Json = False,
@@ -58,15 +124,21 @@ def paper(
     from roughline.report.progress import campaign_progress
     from roughline.report.terminal import announce
 
-    with interruptible(_kept(out)), campaign_progress() as progress:
+    of_paper = {
+        "scale": scale.value if scale else None,
+        "seed": seed,
+        "fractal-dimensions": fractal_dimensions,
+        "points": points,
+        "realisations": realisations,
+        "line-points": line_points,
+        "lines": lines,
+        "force-bars": force_bars,
+    }
+    windows = {"window": window, "line-window": line_window}
+    study = study_of(of_paper, windows, plan, store, out)
+    with interruptible(_kept(study.store)), campaign_progress() as progress:
         page = recompute(
-            scale.value,
-            out,
-            seed,
-            workers=workers,
-            scheduler=scheduler,
-            progress=progress,
-            announce=announce,
+            study, out, workers=workers, scheduler=scheduler, progress=progress, announce=announce
         )
     if json:
         print_json({"report": page})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,8 @@ from roughline.plot.style import (
     PAGE,
     SHADE,
     colours,
+    dimension_label,
+    label_decades,
     legend_dimensions,
     new_figure,
 )
@@ -51,15 +54,21 @@ def area_law_figure(full: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
 def _draw_area(axes: Axes, full: xarray.Dataset) -> None:
     axes.axvspan(*WINDOW_AREA, **SHADE)
     dimensions = full.fractal_dimension.values
-    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+    looks = zip(colours(dimensions.size), cycle(MARKERS), strict=False)
+    for dimension, (colour, marker) in zip(dimensions, looks, strict=False):
         one = full.sel(fractal_dimension=dimension)
         area, resolved = mean_area(one)
         force = one.force_bar.values
         axes.loglog(
-            force[resolved], area[resolved], color=colour, marker=marker, label=f"{dimension:.1f}"
+            force[resolved],
+            area[resolved],
+            color=colour,
+            marker=marker,
+            label=dimension_label(dimension),
         )
         axes.loglog(force, area, color=colour, linewidth=0.7, linestyle="--")
     axes.set(xlabel=FORCE_LABEL, ylabel="real contact area $A/A_0$")
+    label_decades(axes)
     legend_dimensions(axes, dimensions)
 
 
@@ -86,7 +95,8 @@ def _draw_kappa(axes: Axes, laws: list[DimensionLaws]) -> None:
     ):
         axes.axhline(kappa, color="0.3", linewidth=1, linestyle=style, label=f"{name} {kappa:.2f}")
     axes.set(xlabel="fractal dimension $D_f$", ylabel=r"$\kappa = A\,E^* \nabla h\,/\,F$")
-    axes.set_ylim(0, 1.45 * max(each.cells.kappa.high for each in laws))
+    highest = np.nanmax([bush_gibson_thomas.KAPPA, *(each.cells.kappa.high for each in laws)])
+    axes.set_ylim(0, 1.45 * highest)
     axes.legend(loc="upper left")
 
 
@@ -94,9 +104,10 @@ def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
     """Draw the raw stiffness of both models with the same waves, and their relative difference."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)
-    dimensions = full.fractal_dimension.values
+    dimensions = np.intersect1d(full.fractal_dimension, matched.fractal_dimension)
     force = full.force_bar.values
-    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+    looks = zip(colours(dimensions.size), cycle(MARKERS), strict=False)
+    for dimension, (colour, marker) in zip(dimensions, looks, strict=False):
         stiffness_1d, stiffness_3d = (
             data.sel(fractal_dimension=dimension).stiffness.values for data in (matched, full)
         )
@@ -108,7 +119,7 @@ def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
                 force[shown],
                 np.nanmean(stiffness_3d, axis=0)[shown],
                 linestyle="",
-                label=None if mark else f"{dimension:.1f}",
+                label=None if mark else dimension_label(dimension),
                 **look,
                 **mark,
             )
@@ -119,6 +130,7 @@ def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
         right.plot(force[resolved], difference[resolved], linewidth=1, **look)
     left.set(xlabel=FORCE_LABEL, ylabel=r"raw stiffness $k\,/\,(E^* L)$")
     left.annotate("lines 1D, marks 3D", (0.04, 0.92), xycoords="axes fraction", fontsize=7.5)
+    label_decades(left)
     legend_dimensions(left, dimensions)
     right.axvspan(*WINDOW_AGREEMENT, **SHADE)
     right.axhline(0, color="k", linewidth=0.7)
@@ -167,7 +179,7 @@ def _draw_ratios_to_finest(
             (coarse[name].values / fine[name].values)[resolved],
             color=colour,
             linestyle=style,
-            label=f"$D_f$ = {dimension:.1f}, {n}²",
+            label=f"$D_f$ = {dimension_label(dimension)}, {n}²",
         )
 
 

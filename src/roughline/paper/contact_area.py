@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.contact import scaling
+from roughline.paper.exponents import covers
 from roughline.paper.windows import WINDOW_AREA
 from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
@@ -62,6 +63,8 @@ def area_law(full: xarray.Dataset, name: str) -> AreaLaw:
     force = full.force_bar.values[inside]
     area = full[name].values[:, inside]
     finite = np.isfinite(area).all(axis=1)
+    if not covers(full.force_bar.values, WINDOW_AREA) or not finite.any():
+        return AreaLaw(NO_ESTIMATE, (np.nan, np.nan), NO_ESTIMATE)
     area, slope = area[finite], full.rms_slope.values[finite]
     scaled = area * slope[:, np.newaxis] / force
     same_weights = np.full(force.size, 1 / force.size)
@@ -83,6 +86,8 @@ def saturation(full: xarray.Dataset) -> IntervalEstimate:
     converged = np.isfinite(full.stiffness.values).all(axis=1)
     stiffness = full.stiffness.values[converged] / scaling.EXACT_PUNCH
     area = full.area_fraction.values[converged]
+    if not converged.any():
+        return NO_ESTIMATE
     mean = stiffness.mean(axis=0)
     above = int(np.searchsorted(mean, SATURATED))
     if above in (0, mean.size):

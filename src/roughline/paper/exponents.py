@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.errors import InputError
-from roughline.paper.windows import MEDIUM_FORCE, WINDOW_SAME_WAVES, Window
+from roughline.paper.windows import MEDIUM_FORCE, Window
 from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
 from roughline.statistics.power_law import PowerLaw, exponent_weights, fit_power_law
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import xarray
 
     from roughline.computing.arrays import Real
+    from roughline.statistics.averages import Averaging
 
 
 @dataclass(frozen=True)
@@ -57,8 +58,8 @@ def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Data
     for j, dimension in enumerate(dimensions):
         one = data.sel(fractal_dimension=dimension)
         for i, window in enumerate(windows):
-            stiffness, left_out = converged_stiffness(one, window)
-            law = fit_power_law(one.force_bar.values, stiffness, window)
+            left_out = converged_stiffness(one, window)[1] if is_fitted(one, window) else 0
+            law = law_of(one, window)
             fitted[:, i, j] = (law.exponent, *law.exponent_interval, law.prefactor, left_out)
     variables = {
         name: (("window", "fractal_dimension"), values)
@@ -95,6 +96,39 @@ def converged_stiffness(data: xarray.Dataset, window: Window) -> tuple[Real, int
     return stiffness[converged], int(np.count_nonzero(~converged))
 
 
+def covers(force_bar: Real, window: Window) -> bool:
+    """Whether loads reach both ends of a window, and three of them or more lie in it."""
+    inside = np.count_nonzero(inside_window(force_bar, window))
+    reached = inside_window(np.array(window), (float(force_bar[0]), float(force_bar[-1])))
+    return bool(inside >= 3 and reached.all())
+
+
+def is_fitted(data: xarray.Dataset, window: Window) -> bool:
+    """Whether the loads cover a window, in which a realisation converged throughout."""
+    inside = inside_window(data.force_bar.values, window)
+    converged = np.isfinite(data.stiffness.values[:, inside]).all(axis=1)
+    return covers(data.force_bar.values, window) and bool(converged.any())
+
+
+def law_of(
+    data: xarray.Dataset | None, window: Window, averaging: Averaging = "arithmetic"
+) -> PowerLaw:
+    """Return the power law of one fractal dimension; all NaN where there is nothing to fit."""
+    if data is None or not is_fitted(data, window):
+        none = (np.nan, np.nan)
+        return PowerLaw(np.nan, np.nan, none, none, window, 0, 0, 0.95, "nothing", averaging)
+    stiffness, _ = converged_stiffness(data, window)
+    return fit_power_law(data.force_bar.values, stiffness, window, averaging=averaging)
+
+
+def at_dimension(data: xarray.Dataset | None, dimension: float) -> xarray.Dataset | None:
+    """Return an ensemble at one fractal dimension; None where it does not have that one."""
+    if data is None:
+        return None
+    (found,) = np.nonzero(np.isclose(data.fractal_dimension.values, dimension, rtol=0, atol=1e-9))
+    return data.isel(fractal_dimension=int(found[0])) if found.size else None
+
+
 def exponent_estimate(law: PowerLaw) -> IntervalEstimate:
     """Return the exponent of a power law with its interval."""
     return IntervalEstimate(law.exponent, *law.exponent_interval)
@@ -105,11 +139,15 @@ def prefactor_estimate(law: PowerLaw) -> IntervalEstimate:
     return IntervalEstimate(law.prefactor, *law.prefactor_interval)
 
 
-def local_exponents(data: xarray.Dataset, window: Window) -> LocalExponents:
+def local_exponents(data: xarray.Dataset | None, window: Window) -> LocalExponents:
     """Compare the exponent at the lowest loads with those at medium loads and in a window."""
+    if data is None:
+        return LocalExponents(np.nan, NO_ESTIMATE, NO_ESTIMATE)
     force = data.force_bar.values
     resolved = (data.resolved.values == 1).all(axis=0)
     lowest = float(force[np.argmax(resolved)]) if resolved.any() else np.nan
+    if not lowest < MEDIUM_FORCE:
+        return LocalExponents(lowest, NO_ESTIMATE, NO_ESTIMATE)
     step = min(10.0, np.sqrt(MEDIUM_FORCE / lowest))
     lower_end, upper_end = (lowest, lowest * step), (MEDIUM_FORCE / step, MEDIUM_FORCE)
     half_decade = (lowest, lowest * np.sqrt(10))
@@ -125,27 +163,31 @@ def difference_between_windows(
 ) -> IntervalEstimate:
     """Return the exponent in one window less that in another, of the same realisations."""
     force = data.force_bar.values
-    weights = exponent_weights(force, first) - exponent_weights(force, second)
-    if not np.isfinite(weights).all():
-        return NO_ESTIMATE
     both = (min(first[0], second[0]), max(first[1], second[1]))
+    if not (covers(force, first) and covers(force, second) and is_fitted(data, both)):
+        return NO_ESTIMATE
+    weights = exponent_weights(force, first) - exponent_weights(force, second)
     stiffness, _ = converged_stiffness(data, both)
     return bootstrap.sum_of_log_means(stiffness, weights).interval_estimate()
 
 
-def difference_between_models(full: xarray.Dataset, matched: xarray.Dataset) -> IntervalEstimate:
+def difference_between_models(
+    full: xarray.Dataset, matched: xarray.Dataset | None, window: Window
+) -> IntervalEstimate:
     """Return the exponent of surfaces less that of lines with the same waves."""
-    weights = exponent_weights(full.force_bar.values, WINDOW_SAME_WAVES)
-    return surfaces_less_lines(full, matched, WINDOW_SAME_WAVES, weights)
+    weights = exponent_weights(full.force_bar.values, window)
+    return surfaces_less_lines(full, matched, window, weights)
 
 
 def surfaces_less_lines(
-    full: xarray.Dataset, matched: xarray.Dataset, window: Window, weights: Real
+    full: xarray.Dataset, matched: xarray.Dataset | None, window: Window, weights: Real
 ) -> IntervalEstimate:
     """Return a weighted sum over loads of the logarithm of the mean stiffness, 3D less 1D.
 
     The two ensembles are independent, so that they are resampled with two seeds.
     """
+    if matched is None or not (is_fitted(full, window) and is_fitted(matched, window)):
+        return NO_ESTIMATE
     surfaces, lines = (
         bootstrap.sum_of_log_means(converged_stiffness(data, window)[0], weights, rng=seed)
         for seed, data in enumerate((full, matched))

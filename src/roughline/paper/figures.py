@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,7 +10,6 @@ from matplotlib.figure import Figure
 
 from roughline.contact import scaling
 from roughline.paper.mean_curve import mean_curve
-from roughline.paper.windows import WINDOW_FULL, WINDOW_REDUCED, Window
 from roughline.plot.style import (
     COLUMN,
     FORCE_LABEL,
@@ -17,6 +17,8 @@ from roughline.plot.style import (
     PAGE,
     SHADE,
     colours,
+    dimension_label,
+    label_decades,
     legend_dimensions,
     new_figure,
 )
@@ -27,14 +29,15 @@ if TYPE_CHECKING:
 
     from roughline.computing.arrays import Mask, Real
     from roughline.paper.laws import DimensionLaws
+    from roughline.paper.windows import Window
 
 _INDENTED = 1  # which body of the gallery Figure 2 shows
 
 
 def figure_1(gallery: xarray.Dataset) -> Figure:
-    """Draw rough line, surface, real contact area and deflection for four fractal dimensions."""
-    figure = new_figure(PAGE, 7.0)
+    """Draw rough line, surface, real contact area and deflection for each fractal dimension."""
     rows = gallery.sizes["fractal_dimension"]
+    figure = new_figure(PAGE, 1.75 * rows)
     grid = figure.add_gridspec(rows, 4, width_ratios=[1.15, 1.25, 1, 1.2])
     image: Any = {"extent": (0, 1, 0, 1), "origin": "lower", "interpolation": "nearest"}
     deepest = float(gallery.displacement.max())
@@ -71,7 +74,7 @@ def figure_2(gallery: xarray.Dataset) -> Figure:
     """Draw the indented line: springs in contact, and the force as the area above the level."""
     figure = new_figure(COLUMN, 2.4)
     axes = figure.add_subplot()
-    body = gallery.isel(fractal_dimension=_INDENTED)
+    body = gallery.isel(fractal_dimension=min(_INDENTED, gallery.sizes["fractal_dimension"] - 1))
     heights = body.line_heights.values
     position = np.arange(heights.size) / heights.size
     level = heights.max() - float(body.line_depth)
@@ -101,20 +104,22 @@ def figure_2(gallery: xarray.Dataset) -> Figure:
     return figure
 
 
-def figure_3(reduced: xarray.Dataset, dimensions: Real) -> Figure:
-    """Draw the stiffness over force of the reduced model, k / (E* L)."""
-    chosen = reduced.sel(fractal_dimension=dimensions)
-    figure = _stiffness_figure(
-        chosen, 1.0, r"stiffness $\bar k_{1D} = k\,/\,(E^* L)$", WINDOW_REDUCED
-    )
+def figure_3(reduced: xarray.Dataset, dimensions: Real, window: Window) -> Figure:
+    """Draw the stiffness over force of the reduced model, k / (E* L).
+
+    Fractal dimensions are those of the surfaces, as far as the lines have them, or else all.
+    """
+    shared = np.isclose(reduced.fractal_dimension.values[:, np.newaxis], dimensions).any(axis=1)
+    chosen = reduced.isel(fractal_dimension=shared) if shared.any() else reduced
+    figure = _stiffness_figure(chosen, 1.0, r"stiffness $\bar k_{1D} = k\,/\,(E^* L)$", window)
     figure.axes[0].axhline(1, color="0.4", linewidth=0.8, linestyle=":")
     return figure
 
 
-def figure_4(full: xarray.Dataset) -> Figure:
+def figure_4(full: xarray.Dataset, window: Window) -> Figure:
     """Draw the stiffness over force of the full model, k / (1.1419 E* L)."""
     label = r"stiffness $\bar k_{3D} = k\,/\,(1.1419\,E^* \sqrt{A_0})$"
-    figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, WINDOW_FULL)
+    figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, window)
     exact = scaling.EXACT_PUNCH / scaling.PAPER_PUNCH
     figure.axes[0].set_ylim(top=1.6)
     figure.axes[0].axhline(exact, color="0.4", linewidth=0.8, linestyle=":")
@@ -128,7 +133,7 @@ def figure_4(full: xarray.Dataset) -> Figure:
     return figure
 
 
-def figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
+def figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws], window: Window) -> Figure:
     """Draw the exponent over fractal dimension: both models and the two predictions."""
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()
@@ -138,6 +143,8 @@ def figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
     axes.plot(fine, linear_exponent(fine), "k:", linewidth=1.2, label=r"$0.2567\,D_f$")
     for i, style in zip(range(exponents.sizes["window"]), ("-", "--", ":"), strict=True):
         one = exponents.isel(window=i)
+        if not np.isfinite(one.exponent).any():
+            continue
         span = (float(one.window_low), float(one.window_high))
         axes.fill_between(
             one.fractal_dimension, one.low, one.high, color=light, alpha=0.45, linewidth=0
@@ -159,10 +166,12 @@ def figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
         color=dark,
         capsize=2,
         linewidth=1,
-        label=f"3D, {_window_label(WINDOW_FULL)}",
+        label=f"3D, {_window_label(window)}",
     )
     axes.set(xlabel="fractal dimension $D_f$", ylabel=r"exponent $\alpha$")
-    axes.set(xlim=(1.97, 3.03), ylim=(0.4, 1.02))
+    lowest = np.nanmin([0.42, *low, *np.ravel(exponents.low)])
+    highest = np.nanmax([1.0, *high, *np.ravel(exponents.high)])
+    axes.set(xlim=(1.97, 3.03), ylim=(min(0.4, lowest - 0.02), max(1.02, highest + 0.02)))
     axes.legend(loc="upper left")
     return figure
 
@@ -173,7 +182,8 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
     axes = figure.add_subplot()
     axes.axvspan(*window, **SHADE)
     dimensions = data.fractal_dimension.values
-    for dimension, colour, marker in zip(dimensions, colours(6), MARKERS, strict=False):
+    looks = zip(colours(dimensions.size), cycle(MARKERS), strict=False)
+    for dimension, (colour, marker) in zip(dimensions, looks, strict=False):
         one = data.sel(fractal_dimension=dimension)
         curve = mean_curve(one, punch)
         force, mean, resolved = curve.force_bar, curve.mean, curve.resolved
@@ -185,10 +195,11 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
             color=colour,
             marker=marker,
             markevery=mark_spacing,
-            label=f"{dimension:.1f}",
+            label=dimension_label(dimension),
         )
         axes.loglog(force[~resolved], mean[~resolved], color=colour, linewidth=0.8, linestyle="--")
     axes.set(xlabel=FORCE_LABEL, ylabel=label)
+    label_decades(axes)
     legend_dimensions(axes, dimensions)
     return figure
 

@@ -13,22 +13,22 @@ from roughline.paper.exponents import (
     converged_stiffness,
     difference_between_models,
     difference_between_windows,
+    is_fitted,
+    law_of,
     local_exponents,
     surfaces_less_lines,
 )
-from roughline.paper.windows import (
-    OTHER_WINDOWS_REDUCED,
-    WINDOW_AGREEMENT,
-    WINDOW_FULL,
-    WINDOW_REDUCED,
-)
-from roughline.statistics.power_law import PowerLaw, fit_power_law
+from roughline.paper.windows import OTHER_WINDOWS_REDUCED, WINDOW_AGREEMENT
+from roughline.statistics.bootstrap import NO_ESTIMATE
 from roughline.statistics.window import inside_window
 
 if TYPE_CHECKING:
     import xarray
 
+    from roughline.computing.arrays import Indices
+    from roughline.paper.windows import Window, Windows
     from roughline.statistics.bootstrap import IntervalEstimate
+    from roughline.statistics.power_law import PowerLaw
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class DimensionLaws:
     fractal_dimension : float
         D_f.
     reduced, full : PowerLaw
-        k̄ over F̄ in the two models' windows; k̄ is raw, k / (E* L).
+        k̄ over F̄ in the two models' windows; k̄ is raw, k / (E* L). NaN where it is not known.
     reduced_elsewhere : tuple of PowerLaw
         The law of the reduced model in other windows.
     reduced_by_window : tuple of IntervalEstimate
@@ -79,44 +79,59 @@ class DimensionLaws:
 
 
 def dimension_laws(
-    reduced: xarray.Dataset, full: xarray.Dataset, matched: xarray.Dataset
+    reduced: xarray.Dataset | None,
+    full: xarray.Dataset,
+    matched: xarray.Dataset | None,
+    windows: Windows,
 ) -> DimensionLaws:
     """Evaluate the three ensembles of one fractal dimension.
 
     Parameters
     ----------
     reduced, full, matched : Dataset
-        Lines, surfaces, and lines with the waves of the surfaces, of this fractal dimension.
+        Lines, surfaces, and lines with the waves of the surfaces, of this fractal dimension. Where
+        there are no such lines, or loads do not cover a window, numbers are NaN.
+    windows : Windows
+        Where exponents are fitted.
     """
-    stiffness_1d, left_out_1d = converged_stiffness(reduced, WINDOW_REDUCED)
-    stiffness_3d, left_out_3d = converged_stiffness(full, WINDOW_FULL)
-    force_1d, force_3d = reduced.force_bar.values, full.force_bar.values
-    in_window = inside_window(force_3d, WINDOW_FULL)
+    in_window = inside_window(full.force_bar.values, windows.full)
     return DimensionLaws(
         fractal_dimension=float(full.fractal_dimension),
-        reduced=fit_power_law(force_1d, stiffness_1d, WINDOW_REDUCED),
-        full=fit_power_law(force_3d, stiffness_3d, WINDOW_FULL),
-        reduced_elsewhere=tuple(
-            fit_power_law(force_1d, stiffness_1d, window) for window in OTHER_WINDOWS_REDUCED
-        ),
+        reduced=law_of(reduced, windows.reduced),
+        full=law_of(full, windows.full),
+        reduced_elsewhere=tuple(law_of(reduced, window) for window in OTHER_WINDOWS_REDUCED),
         reduced_by_window=tuple(
-            difference_between_windows(reduced, WINDOW_REDUCED, window)
+            NO_ESTIMATE
+            if reduced is None
+            else difference_between_windows(reduced, windows.reduced, window)
             for window in OTHER_WINDOWS_REDUCED
         ),
-        reduced_local=local_exponents(reduced, WINDOW_REDUCED),
-        full_local=local_exponents(full, WINDOW_FULL),
-        models_apart=difference_between_models(full, matched),
+        reduced_local=local_exponents(reduced, windows.reduced),
+        full_local=local_exponents(full, windows.full),
+        models_apart=difference_between_models(full, matched, windows.full),
         agreement=_stiffness_ratio(full, matched),
         cells=area_law(full, "area_fraction"),
         corrected=area_law(full, "area_fraction_corrected"),
         saturation=saturation(full),
-        unresolved=1 - float(full.resolved.values[:, in_window].mean()),
-        left_out=left_out_1d + left_out_3d,
+        unresolved=1 - _share(full.resolved.values[:, in_window]),
+        left_out=_left_out(reduced, windows.reduced) + _left_out(full, windows.full),
     )
 
 
-def _stiffness_ratio(full: xarray.Dataset, matched: xarray.Dataset) -> IntervalEstimate:
+def _share(flags: Indices) -> float:
+    """Share of flags that are set; NaN where there is no flag."""
+    return float(flags.mean()) if flags.size else np.nan
+
+
+def _left_out(data: xarray.Dataset | None, window: Window) -> int:
+    """Count the realisations that a fit leaves out."""
+    return (
+        converged_stiffness(data, window)[1] if data is not None and is_fitted(data, window) else 0
+    )
+
+
+def _stiffness_ratio(full: xarray.Dataset, matched: xarray.Dataset | None) -> IntervalEstimate:
     """Stiffness of surfaces over that of lines with the same waves, geometric mean over loads."""
     inside = inside_window(full.force_bar.values, WINDOW_AGREEMENT)
-    weights = inside / np.count_nonzero(inside)
+    weights = inside / max(int(np.count_nonzero(inside)), 1)
     return surfaces_less_lines(full, matched, WINDOW_AGREEMENT, weights).exp()

@@ -54,7 +54,8 @@ def mean_curve(
     stiffness = one.stiffness.values / punch
     averaged = np.log(stiffness) if averaging == "geometric" else stiffness
     mean = np.nanmean(averaged, axis=0)
-    error = np.nanstd(averaged, axis=0, ddof=1) / np.sqrt(stiffness.shape[0])
+    freedom = max(stiffness.shape[0] - 1, 1)  # of a single realisation no error is known
+    error = np.nanstd(averaged, axis=0) / np.sqrt(freedom)
     low, high = mean - error, mean + error
     if averaging == "geometric":
         mean, low, high = np.exp([mean, low, high])

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.pictures import draw_pictures
+from roughline.paper.roles import departures
 from roughline.paper.sensitivity import sensitivities
 from roughline.paper.tables import (
     automatic_windows_table,
@@ -17,13 +18,7 @@ from roughline.paper.tables import (
     two_grids_table,
     write_data,
 )
-from roughline.paper.windows import (
-    WINDOW_AREA,
-    WINDOW_FULL,
-    WINDOW_REDUCED,
-    WINDOWS_FULL,
-    WINDOWS_REDUCED,
-)
+from roughline.paper.windows import WINDOW_AREA
 from roughline.report.page import Section, render
 
 if TYPE_CHECKING:
@@ -75,11 +70,12 @@ def compose(results: PaperResults, out: Path) -> tuple[str, str, list[Section]]:
 
 
 def _exponents_section(results: PaperResults) -> Section:
+    windows = results.windows
     return Section(
         "Exponents and constants",
         [
-            f"k̄ = ζ F̄^α with raw k̄ = k / (E* L); windows F̄ = {WINDOW_REDUCED[0]:g} to "
-            f"{WINDOW_REDUCED[1]:g} (1D) and {WINDOW_FULL[0]:g} to {WINDOW_FULL[1]:g} (3D). "
+            f"k̄ = ζ F̄^α with raw k̄ = k / (E* L); windows F̄ = {windows.reduced[0]:g} to "
+            f"{windows.reduced[1]:g} (1D) and {windows.full[0]:g} to {windows.full[1]:g} (3D). "
             "All loads of a window are weighted equally: exponents and prefactors are least "
             "squares of logarithms, ratios and κ are geometric means over the loads.",
             f"κ = A E* ∇h / F of eq. 4 from F̄ = {WINDOW_AREA[0]:.3g} to {WINDOW_AREA[1]:.3g}, "
@@ -108,8 +104,8 @@ def _completeness(results: PaperResults) -> str:
 def _sensitivity_section(results: PaperResults) -> Section:
     dimensions = results.full.fractal_dimension.values
     found = {
-        "1D": sensitivities(results.reduced, dimensions, WINDOWS_REDUCED),
-        "3D": sensitivities(results.full, dimensions, WINDOWS_FULL),
+        "1D": sensitivities(results.reduced, dimensions, results.windows.all_reduced),
+        "3D": sensitivities(results.full, dimensions, results.windows.all_full),
     }
     return Section(
         "How much α depends on the window and on the averaging",
@@ -122,7 +118,7 @@ def _sensitivity_section(results: PaperResults) -> Section:
             "with fewer than ten springs or cells in some realisation are not in it."
         ],
         tables=[
-            *(sensitivity_table(model, rows) for model, rows in found.items()),
+            *(sensitivity_table(model, rows) for model, rows in found.items() if rows),
             automatic_windows_table(found),
         ],
     )
@@ -140,7 +136,7 @@ def _other_grid_sections(results: PaperResults) -> list[Section]:
                 "95 % intervals, from resampled pairs; α of the mean in the window of the full "
                 "model."
             ],
-            tables=[two_grids_table(results.full, results.other_grid)],
+            tables=[two_grids_table(results.full, results.other_grid, results.windows.full)],
         )
     ]
 
@@ -155,6 +151,7 @@ def _methods_section(results: PaperResults) -> Section:
             "independent springs and are solved exactly. Spectra fall as q^(-2(H+1)) from "
             "2π/L to the grid (no roll-off), C_1D = π q C_2D; phases are random, moduli fixed; "
             "heights are scaled to rms 1 in both models.",
+            *_departures(results),
             *_hours(results),
         ],
         tables=[settings_table(results)],
@@ -163,6 +160,19 @@ def _methods_section(results: PaperResults) -> Section:
             "The numbers behind every figure are in the folder data, as NetCDF and CSV."
         ),
     )
+
+
+def _departures(results: PaperResults) -> list[str]:
+    """Say where the bodies are not as the paper's."""
+    bodies = {"surfaces": results.full, "lines": results.reduced}
+    words = {name: departures(data.attrs) for name, data in bodies.items()}
+    told = [f"the {name} are {', '.join(each)}" for name, each in words.items() if each]
+    if not told:
+        return []
+    return [
+        f"Other than in the paper, and as said above, {'; '.join(told)}: the claims are judged on "
+        "these bodies."
+    ]
 
 
 def _hours(results: PaperResults) -> list[str]:

@@ -7,6 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from roughline.paper import added_figures, figures
@@ -14,6 +15,8 @@ from roughline.plot.style import save, styled
 from roughline.report.page import Picture
 
 if TYPE_CHECKING:
+    import xarray
+
     from roughline.paper.results import PaperResults
 
 _OPEN_MARKS = (
@@ -21,10 +24,11 @@ _OPEN_MARKS = (
     "fewer than ten springs or cells are in contact, so that the grid decides. The shaded range "
     "is the window of the fit."
 )
+_COUNTS = ("no", "one", "two", "three", "four")
 _CAPTIONS = {
     "figure_1": (
         "Figure 1",
-        "Fractal surfaces of four fractal dimensions: rough line, topography, real contact area "
+        "Fractal surfaces of {bodies}: rough line, topography, real contact area "
         "and deflection of the half-space under the force F̄ = {force_bar:g}. Line and surface of "
         "a row are one realisation each, with random phases that all rows share.",
     ),
@@ -73,19 +77,28 @@ _CAPTIONS = {
 def draw_pictures(results: PaperResults, folder: Path) -> list[Picture]:
     """Draw every figure that the results allow, and write it to a folder as PNG and PDF."""
     folder.mkdir(parents=True, exist_ok=True)
-    force_bar = results.gallery.attrs["force_bar"] if results.gallery is not None else 0.0
+    told: dict[str, object] = {}
+    if (gallery := results.gallery) is not None:
+        count = gallery.sizes["fractal_dimension"]
+        told["force_bar"] = gallery.attrs["force_bar"]
+        told["bodies"] = f"{_COUNTS[count]} fractal dimension{'s' if count > 1 else ''}"
     pictures = []
     with styled():
         for file_name, draw in _drawings(results).items():
             png, _ = save(draw(), folder, file_name)
             name, caption = _CAPTIONS[file_name]
-            pictures.append(Picture(png, name, caption.format(force_bar=force_bar)))
+            pictures.append(Picture(png, name, caption.format(**told)))
     return pictures
+
+
+def _share_dimensions(one: xarray.Dataset, other: xarray.Dataset) -> bool:
+    return bool(np.intersect1d(one.fractal_dimension, other.fractal_dimension).size)
 
 
 def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
     """How each figure is drawn, by the name of its file and in the order of the page."""
     reduced, full, gallery, laws = results.reduced, results.full, results.gallery, results.laws
+    windows = results.windows
     drawings: dict[str, Callable[[], Figure]] = {}
     if gallery is not None:
         drawings |= {
@@ -93,12 +106,15 @@ def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
             "figure_2": partial(figures.figure_2, gallery),
         }
     drawings |= {
-        "figure_3": partial(figures.figure_3, reduced, full.fractal_dimension.values),
-        "figure_4": partial(figures.figure_4, full),
-        "figure_5": partial(figures.figure_5, results.exponents, laws),
+        "figure_3": partial(
+            figures.figure_3, reduced, full.fractal_dimension.values, windows.reduced
+        ),
+        "figure_4": partial(figures.figure_4, full, windows.full),
+        "figure_5": partial(figures.figure_5, results.exponents, laws, windows.full),
         "area_law": partial(added_figures.area_law_figure, full, laws),
-        "models_compared": partial(added_figures.both_models_figure, full, results.matched),
     }
+    if (matched := results.matched) is not None and _share_dimensions(full, matched):
+        drawings["models_compared"] = partial(added_figures.both_models_figure, full, matched)
     if results.grids:
         grids = results.grids | {int(full.attrs["n"]): full}
         drawings["grid_convergence"] = partial(added_figures.grid_convergence_figure, grids)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from dataclasses import replace
+from typing import Any, Literal
 
 from roughline.campaign.plan import Ensemble, Gallery, Plan, decades, evenly
 
@@ -70,3 +71,70 @@ def paper_plan(scale: StudyScale, seed: int = 2012) -> Plan:
         seed=seed,
     )
     return Plan(f"the paper, {scale} scale", (lines, matched, surfaces), gallery)
+
+
+def with_settings(
+    plan: Plan,
+    *,
+    fractal_dimensions: tuple[float, ...] | None = None,
+    points: int | None = None,
+    realisations: int | None = None,
+    line_points: int | None = None,
+    lines: int | None = None,
+    force_bars: tuple[float, ...] | None = None,
+) -> Plan:
+    """Return the paper's study with settings of one's own; what is not given stays.
+
+    Parameters
+    ----------
+    plan : Plan
+        What :func:`paper_plan` returned.
+    fractal_dimensions : tuple of float, optional
+        Of surfaces and lines.
+    points, line_points : int, optional
+        Points along a side of the surfaces, points of the lines.
+    realisations, lines : int, optional
+        Surfaces and lines for each fractal dimension.
+    force_bars : tuple of float, optional
+        Loads of the surfaces, and of the lines with their waves.
+
+    Raises
+    ------
+    InputError
+        If a value is outside its range.
+    """
+    every = {"fractal_dimensions": fractal_dimensions}
+    changes: dict[str, dict[str, Any]] = {
+        ENSEMBLE_REDUCED: {**every, "n": line_points, "realisations": lines},
+        ENSEMBLE_MATCHED: {**every, "realisations": lines, "force_bars": force_bars},
+        ENSEMBLE_FULL: {
+            **every,
+            "n": points,
+            "realisations": realisations,
+            "force_bars": force_bars,
+        },
+    }
+    if points is not None:
+        changes[ENSEMBLE_MATCHED] |= {"n": 256 * points, "cutoff_ratio": points / 2}
+    changed = {
+        each.name: replace(
+            each, **{key: value for key, value in changes[each.name].items() if value is not None}
+        )
+        for each in reversed(plan.ensembles)  # surfaces first: what is wrong is said of them
+    }
+    gallery = plan.gallery
+    if gallery is not None:
+        gallery = replace(
+            gallery,
+            fractal_dimensions=_shown(fractal_dimensions or gallery.fractal_dimensions),
+            n=gallery.n if points is None else points,
+        )
+    ensembles = tuple(changed[each.name] for each in plan.ensembles)
+    return replace(plan, ensembles=ensembles, gallery=gallery)
+
+
+def _shown(fractal_dimensions: tuple[float, ...]) -> tuple[float, ...]:
+    """Up to four of several fractal dimensions, as Figure 1 shows."""
+    rising = sorted(fractal_dimensions)
+    places = {round(i * (len(rising) - 1) / 3) for i in range(4)}
+    return tuple(rising[place] for place in sorted(places))

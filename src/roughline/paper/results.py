@@ -9,10 +9,12 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughline.paper.exponents import exponents_of
+from roughline.errors import StoreError
+from roughline.paper.exponents import at_dimension, exponents_of
 from roughline.paper.laws import DimensionLaws, dimension_laws
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
-from roughline.paper.windows import WINDOWS_REDUCED
+from roughline.paper.roles import Roles, roles_of
+from roughline.paper.windows import Windows
 
 if TYPE_CHECKING:
     import xarray
@@ -65,7 +67,7 @@ class PaperResults:
         The command that repeats the study.
     reduced, full : Dataset
         Lines and surfaces, over the fractal dimensions of the surfaces at least.
-    matched : Dataset
+    matched : Dataset or None
         Lines with the waves of the surfaces and no shorter ones, at the loads of the surfaces.
     exponents : Dataset
         The reduced model's exponent over all fractal dimensions, of
@@ -78,55 +80,91 @@ class PaperResults:
         The surfaces of `full` on another grid, with the waves that it carries.
     computing : Computing or None
         What the study took; None if it is not known.
+    windows : Windows
+        Where exponents are fitted.
     """
 
     name: str
     command: str
     reduced: xarray.Dataset
     full: xarray.Dataset
-    matched: xarray.Dataset
+    matched: xarray.Dataset | None
     exponents: xarray.Dataset
     gallery: xarray.Dataset | None = None
     grids: dict[int, xarray.Dataset] = field(default_factory=dict)
     other_grid: xarray.Dataset | None = None
     computing: Computing | None = None
+    windows: Windows = field(default_factory=Windows)
 
     @property
     def version(self) -> str:
         """Version of roughline that computed the bodies; "a and b" if they were several."""
         ensembles = (self.reduced, self.full, self.matched)
-        return " and ".join(sorted({each.attrs["roughline_version"] for each in ensembles}))
+        versions = {each.attrs["roughline_version"] for each in ensembles if each is not None}
+        return " and ".join(sorted(versions))
 
     @cached_property
     def laws(self) -> list[DimensionLaws]:
         """Laws of stiffness and contact area, for each fractal dimension of the surfaces."""
-        ensembles = (self.reduced, self.full, self.matched)
         return [
-            dimension_laws(*(data.sel(fractal_dimension=dimension) for data in ensembles))
+            dimension_laws(
+                at_dimension(self.reduced, dimension),
+                self.full.sel(fractal_dimension=dimension),
+                at_dimension(self.matched, dimension),
+                self.windows,
+            )
             for dimension in self.full.fractal_dimension.values
         ]
 
 
-def results_of_store(store: Store, name: str, command: str) -> PaperResults:
-    """Read the results of a store whose plan is the paper's.
+def results_of_store(
+    store: Store, name: str, command: str, windows: Windows | None = None
+) -> PaperResults:
+    """Read the results of a store that has surfaces and lines.
 
     Parameters
     ----------
     store : Store
-        A finished store.
+        A finished store, of the paper's plan or of another one.
     name, command : str
         As in :class:`PaperResults`.
+    windows : Windows, optional
+        Where exponents are fitted, as far as the loads reach; default: the paper's.
+
+    Raises
+    ------
+    InputError
+        If there are not both surfaces and lines.
+    StoreError
+        If cases are not done.
     """
-    lines = store.dataset(ENSEMBLE_REDUCED)
+    every = {each: store.dataset(each) for each in store.names}
+    roles = roles_of({each: data.attrs for each, data in every.items()})
+    _refuse_unfinished(store, roles)
+    lines, surfaces = every[roles.reduced], every[roles.full]
+    reached = (windows or Windows()).within(lines.force_bar.values, surfaces.force_bar.values)
     return PaperResults(
         name=name,
         command=command,
         reduced=lines,
-        full=store.dataset(ENSEMBLE_FULL),
-        matched=store.dataset(ENSEMBLE_MATCHED),
-        exponents=exponents_of(lines, WINDOWS_REDUCED),
-        gallery=store.gallery(),
+        full=surfaces,
+        matched=every[roles.matched] if roles.matched else None,
+        exponents=exponents_of(lines, reached.all_reduced),
+        gallery=store.gallery() if store.has_gallery else None,
+        other_grid=every[roles.other_grid] if roles.other_grid else None,
+        windows=reached,
     )
+
+
+def _refuse_unfinished(store: Store, roles: Roles) -> None:
+    """Refuse a store in which cases of a report are neither done nor recorded as failed."""
+    for name in roles.names:
+        done, failed, total = store.counts(name)
+        if done + failed < total:
+            raise StoreError(
+                f"{total - done - failed} of {total} cases of {name!r} in {store.path} are not "
+                "done: run its plan to the end, then report"
+            )
 
 
 def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:

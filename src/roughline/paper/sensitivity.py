@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.paper.averaging import exponent_of_means
-from roughline.paper.exponents import converged_stiffness
+from roughline.paper.exponents import at_dimension, is_fitted, law_of
+from roughline.statistics.bootstrap import NO_ESTIMATE
 from roughline.statistics.power_law import PowerLaw, fit_power_law
 from roughline.statistics.window import find_window
 
@@ -50,19 +51,18 @@ class Sensitivity:
 def sensitivity(data: xarray.Dataset, windows: tuple[Window, ...]) -> Sensitivity:
     """Fit one fractal dimension of an ensemble in several ways."""
     force = data.force_bar.values
-    converged = [(window, converged_stiffness(data, window)[0]) for window in windows]
     usable = (np.isfinite(data.stiffness.values) & (data.resolved.values == 1)).all(axis=0)
     stiffness = data.stiffness.values[:, usable]
-    automatic = find_window(force[usable], stiffness) if np.count_nonzero(usable) >= 5 else None
+    automatic = find_window(force[usable], stiffness) if _is_enough(stiffness) else None
     return Sensitivity(
         fractal_dimension=float(data.fractal_dimension),
-        arithmetic=tuple(fit_power_law(force, values, window) for window, values in converged),
-        geometric=tuple(
-            fit_power_law(force, values, window, averaging="geometric")
-            for window, values in converged
-        ),
+        arithmetic=tuple(law_of(data, window) for window in windows),
+        geometric=tuple(law_of(data, window, "geometric") for window in windows),
         at_level=tuple(
-            exponent_of_means(data, window, "level", "arithmetic") for window in windows
+            exponent_of_means(data, window, "level", "arithmetic")
+            if is_fitted(data, window)
+            else NO_ESTIMATE
+            for window in windows
         ),
         automatic=fit_power_law(force[usable], stiffness, automatic) if automatic else None,
         unresolved=int(np.count_nonzero(~usable)),
@@ -72,5 +72,11 @@ def sensitivity(data: xarray.Dataset, windows: tuple[Window, ...]) -> Sensitivit
 def sensitivities(
     data: xarray.Dataset, dimensions: Real, windows: tuple[Window, ...]
 ) -> list[Sensitivity]:
-    """Fit each of several fractal dimensions of an ensemble in several ways."""
-    return [sensitivity(data.sel(fractal_dimension=each), windows) for each in dimensions]
+    """Fit each of several fractal dimensions that an ensemble has in several ways."""
+    found = (at_dimension(data, float(each)) for each in dimensions)
+    return [sensitivity(one, windows) for one in found if one is not None]
+
+
+def _is_enough(stiffness: Real) -> bool:
+    """Whether two realisations and five loads are there, as the search for a window needs."""
+    return stiffness.shape[0] >= 2 and stiffness.shape[1] >= 5

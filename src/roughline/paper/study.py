@@ -1,8 +1,9 @@
-"""The paper's study, run from its plan to its page."""
+"""A study of both models, run from its plan to its page."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,34 +11,57 @@ from roughline.campaign.run import run
 from roughline.campaign.store import Store
 from roughline.errors import StoreError
 from roughline.paper.page import write_page
-from roughline.paper.plan import StudyScale, paper_plan
 from roughline.paper.results import results_of_store
+from roughline.paper.roles import roles_of
+from roughline.paper.windows import Windows
 
 if TYPE_CHECKING:
+    from roughline.campaign.plan import Plan
     from roughline.campaign.progress import EnsembleProgress
 
 
+@dataclass(frozen=True)
+class Study:
+    """The paper's study, or another one of both models.
+
+    Attributes
+    ----------
+    plan : Plan or None
+        What is computed; None for a store that is finished.
+    store : Path
+        Folder of its results. If it holds a part of the same study, only the rest is computed.
+    name : str
+        Which study this is, such as "at the quick scale"; the lead of the page ends with it.
+    command : str
+        The command that repeats it.
+    windows : Windows
+        Where exponents are fitted, as far as the loads reach.
+    """
+
+    plan: Plan | None
+    store: Path
+    name: str
+    command: str
+    windows: Windows = field(default_factory=Windows)
+
+
 def recompute(
-    scale: StudyScale,
+    study: Study,
     out: Path,
-    seed: int,
     *,
     workers: int | None = None,
     scheduler: str | None = None,
     progress: EnsembleProgress | None = None,
     announce: Callable[[str], None] | None = None,
 ) -> Path:
-    """Run the paper's study, or what is left of it, and write its report.
+    """Run a study, or what is left of it, and write its report.
 
     Parameters
     ----------
-    scale : {"quick", "full"}
-        Minutes, or the paper's sizes.
+    study : Study
+        What is computed.
     out : Path
-        Folder for results and report. If it holds a part of the same study, only the rest is
-        computed.
-    seed : int
-        Root of all seeds.
+        Folder for the report.
     workers, scheduler, progress, announce
         As for :func:`roughline.campaign.run`.
 
@@ -48,25 +72,24 @@ def recompute(
 
     Raises
     ------
+    InputError
+        If the study has not both surfaces and lines.
     StoreError
-        If the folder cannot be written, or holds another study.
+        If a folder cannot be written, holds another study, or is not finished.
     ClusterError
         If the cluster cannot be used.
     """
-    path = out / "results.zarr"
-    run(
-        paper_plan(scale, seed),
-        path,
-        workers=workers,
-        scheduler=scheduler,
-        progress=progress,
-        announce=announce,
-    )
-    results = results_of_store(
-        Store(path),
-        name=f"at the {scale} scale",
-        command=f"roughline paper --scale {scale} --seed {seed}",
-    )
+    if study.plan is not None:
+        roles_of({ensemble.name: ensemble.identity() for ensemble in study.plan.ensembles})
+        run(
+            study.plan,
+            study.store,
+            workers=workers,
+            scheduler=scheduler,
+            progress=progress,
+            announce=announce,
+        )
+    results = results_of_store(Store(study.store), study.name, study.command, study.windows)
     try:
         return write_page(results, out)
     except OSError as error:

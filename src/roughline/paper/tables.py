@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.campaign.export import mean_table, write_netcdf
-from roughline.paper.exponents import exponent_estimate, prefactor_estimate
+from roughline.paper.exponents import exponent_estimate, law_of, prefactor_estimate
 from roughline.paper.results import (
     ROW_FULL,
     ROW_MATCHED,
@@ -17,13 +17,13 @@ from roughline.paper.results import (
     PaperResults,
     row_of_grid,
 )
-from roughline.paper.windows import OTHER_WINDOWS_REDUCED, WINDOW_FULL
+from roughline.paper.windows import MEDIUM_FORCE, OTHER_WINDOWS_REDUCED
+from roughline.plot.style import dimension_label
 from roughline.report.page import Table
 from roughline.statistics.averages import relative_difference
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import (
     PowerLaw,
-    fit_power_law,
     linear_exponent,
     scaling_exponent,
 )
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from roughline.paper.claim import Claim
     from roughline.paper.laws import DimensionLaws
     from roughline.paper.sensitivity import Sensitivity
+    from roughline.paper.windows import Window
 
 _GRID_FORCES = (0.01, 0.1, 1.0)
 
@@ -51,13 +52,13 @@ def exponent_table(laws: list[DimensionLaws]) -> Table:
     )
     rows = [
         (
-            f"{each.fractal_dimension:.1f}",
+            dimension_label(each.fractal_dimension),
             f"{scaling_exponent(each.fractal_dimension):.3f}",
             f"{linear_exponent(each.fractal_dimension):.3f}",
             estimate_cell(exponent_estimate(each.reduced)),
-            *(f"{law.exponent:.3f}" for law in each.reduced_elsewhere),
+            *(_number_cell(law.exponent) for law in each.reduced_elsewhere),
             estimate_cell(exponent_estimate(each.full)),
-            f"{each.unresolved:.0%}",
+            "-" if np.isnan(each.unresolved) else f"{each.unresolved:.0%}",
         )
         for each in laws
     ]
@@ -82,9 +83,9 @@ def constant_table(laws: list[DimensionLaws]) -> Table:
         first, last = each.corrected.kappa_ends
         rows.append(
             (
-                f"{each.fractal_dimension:.1f}",
+                dimension_label(each.fractal_dimension),
                 *(estimate_cell(estimate) for estimate in estimates),
-                f"{first:.2f} to {last:.2f}",
+                "-" if np.isnan(first) else f"{first:.2f} to {last:.2f}",
             )
         )
     return Table(header, rows, numbers=range(len(header)))
@@ -99,7 +100,7 @@ def sensitivity_table(model: str, rows: list[Sensitivity]) -> Table:
     for row in rows:
         fits = zip(row.arithmetic, row.geometric, row.at_level, strict=True)
         found = [cell for fit in fits for cell in _fit_cells(*fit)]
-        cells.append([f"{row.fractal_dimension:.1f}", *found])
+        cells.append([dimension_label(row.fractal_dimension), *found])
     return Table(header, cells, numbers=range(len(header)))
 
 
@@ -109,19 +110,22 @@ def automatic_windows_table(rows: dict[str, list[Sensitivity]]) -> Table:
     for model in rows:
         header += [f"window {model}", "α there", "loads left out"]
     cells = []
-    for same in zip(*rows.values(), strict=True):
-        found = [
-            cell for each in same for cell in (*_automatic_cells(each.automatic), each.unresolved)
-        ]
-        cells.append([f"{same[0].fractal_dimension:.1f}", *map(str, found)])
+    for dimension in sorted(
+        {each.fractal_dimension for of_model in rows.values() for each in of_model}
+    ):
+        found: list[str] = []
+        for of_model in rows.values():
+            one = [each for each in of_model if np.isclose(each.fractal_dimension, dimension)]
+            found += [*_automatic_cells(one[0].automatic), str(one[0].unresolved)] if one else "---"
+        cells.append([dimension_label(dimension), *found])
     return Table(header, cells, numbers=range(len(header)))
 
 
 def _fit_cells(arithmetic: PowerLaw, geometric: PowerLaw, level: IntervalEstimate) -> list[str]:
     return [
         estimate_cell(exponent_estimate(arithmetic)),
-        f"{geometric.exponent:.3f}",
-        "-" if np.isnan(level.value) else estimate_cell(level),
+        _number_cell(geometric.exponent),
+        estimate_cell(level),
     ]
 
 
@@ -134,14 +138,17 @@ def _automatic_cells(law: PowerLaw | None) -> list[str]:
     ]
 
 
-def two_grids_table(full: xarray.Dataset, other: xarray.Dataset) -> Table:
+def two_grids_table(full: xarray.Dataset, other: xarray.Dataset, window: Window) -> Table:
     """Return ratios of the same surfaces on two grids, the finer over the coarser."""
     coarse, fine = sorted((full, other), key=lambda data: int(data.attrs["n"]))
     n, n_fine = (data.attrs["n"] for data in (coarse, fine))
     header = ["D_f", "surfaces"]
-    header += [f"k, {n_fine}² over {n}², F̄ = {force:g}" for force in _GRID_FORCES]
-    header += [f"α, {n}²", f"α, {n_fine}²", f"A, {n_fine}² over {n}², F̄ = 0.1"]
     shared = np.intersect1d(coarse.force_bar, fine.force_bar)
+    forces = [force for force in _GRID_FORCES if np.isclose(force, shared, rtol=1e-3).any()]
+    of_area = [force for force in forces if force == MEDIUM_FORCE]
+    header += [f"k, {n_fine}² over {n}², F̄ = {force:g}" for force in forces]
+    header += [f"α, {n}²", f"α, {n_fine}²"]
+    header += [f"A, {n_fine}² over {n}², F̄ = {force:g}" for force in of_area]
     rows = []
     for dimension in np.intersect1d(coarse.fractal_dimension, fine.fractal_dimension):
         count = min(coarse.sizes["realisation"], fine.sizes["realisation"])
@@ -149,16 +156,19 @@ def two_grids_table(full: xarray.Dataset, other: xarray.Dataset) -> Table:
             data.sel(fractal_dimension=dimension, force_bar=shared).isel(realisation=slice(count))
             for data in (fine, coarse)
         )
-        laws = [
-            fit_power_law(shared, data.stiffness.values, WINDOW_FULL) for data in (coarser, finer)
-        ]
+        laws = [law_of(data, window) for data in (coarser, finer)]
         rows.append(
             [
-                f"{dimension:.1f}",
+                dimension_label(dimension),
                 f"{count}",
-                *(_ratio_cell(finer.stiffness, coarser.stiffness, force) for force in _GRID_FORCES),
-                *(f"{law.exponent:.3f}" for law in laws),
-                _ratio_cell(finer.area_fraction_corrected, coarser.area_fraction_corrected, 0.1),
+                *(_ratio_cell(finer.stiffness, coarser.stiffness, force) for force in forces),
+                *(_number_cell(law.exponent) for law in laws),
+                *(
+                    _ratio_cell(
+                        finer.area_fraction_corrected, coarser.area_fraction_corrected, each
+                    )
+                    for each in of_area
+                ),
             ]
         )
     return Table(header, rows, numbers=range(len(header)))
@@ -174,20 +184,27 @@ def _ratio_cell(fine: xarray.DataArray, coarse: xarray.DataArray, force_bar: flo
 
 def estimate_cell(number: IntervalEstimate) -> str:
     """Write a number with its interval, as all tables of the study do."""
+    if np.isnan(number.low):
+        return _number_cell(number.value)
     return f"{number.value:.3f} ({number.low:.3f}-{number.high:.3f})"
+
+
+def _number_cell(value: float) -> str:
+    return "-" if np.isnan(value) else f"{value:.3f}"
 
 
 def settings_table(results: PaperResults) -> Table:
     """Return what was computed: an ensemble in each row."""
     ensembles = [
         (ROW_REDUCED, results.reduced),
-        (ROW_MATCHED, results.matched),
+        *([] if _has_no_own(results) else [(ROW_MATCHED, results.matched)]),
         (ROW_FULL, results.full),
         *([] if results.other_grid is None else [(ROW_OTHER_GRID, results.other_grid)]),
         *((row_of_grid(n), data) for n, data in sorted(results.grids.items())),
     ]
     rows = []
     for name, data in ensembles:
+        assert data is not None
         # the exponents may come from more fractal dimensions than the lines that are kept
         dimensions = (results.exponents if name == ROW_REDUCED else data).fractal_dimension.values
         n, forces = data.attrs["n"], data.force_bar.values
@@ -206,6 +223,11 @@ def settings_table(results: PaperResults) -> Table:
     return Table((*header, "One body, one core") if results.computing else header, rows)
 
 
+def _has_no_own(results: PaperResults) -> bool:
+    """Whether there are no lines that have the waves of the surfaces, or no others than these."""
+    return results.matched is None or results.matched is results.reduced
+
+
 def _time_cells(results: PaperResults, row: str) -> list[str]:
     """Computing time of a row of the settings; no cell at all where no times are known."""
     return [f"{results.computing.core_seconds[row]:.3g} s"] if results.computing else []
@@ -216,7 +238,9 @@ def write_data(folder: Path, results: PaperResults, claims: list[Claim]) -> None
     import pandas as pd  # here because it loads slowly
 
     folder.mkdir(parents=True, exist_ok=True)
-    ensembles = {"reduced": results.reduced, "matched": results.matched, "full": results.full}
+    ensembles = {"reduced": results.reduced, "full": results.full}
+    if results.matched is not None:
+        ensembles["matched"] = results.matched
     if results.other_grid is not None:
         ensembles["other_grid"] = results.other_grid
     ensembles |= {f"grid_{n}": data for n, data in results.grids.items()}

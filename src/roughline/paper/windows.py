@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Real
+
 Window = tuple[float, float]
 """Smallest and largest F̄, both included."""
 
@@ -20,6 +26,40 @@ OTHER_WINDOWS_REDUCED: tuple[Window, ...] = ((1e-3, 1e-1), (1e-2, 0.3))
 """Further ranges, which show how much the exponent of the reduced model depends on its window."""
 WINDOWS_REDUCED: tuple[Window, ...] = (WINDOW_REDUCED, *OTHER_WINDOWS_REDUCED)
 WINDOWS_FULL: tuple[Window, ...] = ((1e-3, 1e-2), WINDOW_FULL, (1e-2, 0.3))
+
+
+@dataclass(frozen=True)
+class Windows:
+    """The ranges of F̄ in which the exponents of a study are fitted.
+
+    Attributes
+    ----------
+    reduced, full : tuple of float
+        Range of each model; both models with the same waves are compared in that of the full one.
+    """
+
+    reduced: Window = WINDOW_REDUCED
+    full: Window = WINDOW_FULL
+
+    @property
+    def all_reduced(self) -> tuple[Window, ...]:
+        """The range of the reduced model, and further ones."""
+        return (self.reduced, *OTHER_WINDOWS_REDUCED)
+
+    @property
+    def all_full(self) -> tuple[Window, ...]:
+        """The range of the full model between a lower and a higher one."""
+        return (WINDOWS_FULL[0], self.full, WINDOWS_FULL[-1])
+
+    def within(self, reduced: Real, full: Real) -> Windows:
+        """Return the windows as far as the loads of both models reach."""
+        return Windows(_overlap(self.reduced, reduced), _overlap(self.full, full))
+
+
+def _overlap(window: Window, force_bar: Real) -> Window:
+    low, high = max(window[0], float(force_bar[0])), min(window[1], float(force_bar[-1]))
+    return (low, high) if low < high else window
+
 
 MEDIUM_FORCE = 0.1
 """Largest F̄ that counts as a medium force."""

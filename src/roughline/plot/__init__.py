@@ -13,6 +13,7 @@ returns them::
 from roughline.plot.bodies import topography
 from roughline.plot.contacts import contact, pressure
 from roughline.plot.curves import area, curve
+from roughline.plot.exponents import exponents
 from roughline.plot.models import comparison, difference, trust_map
 from roughline.plot.spectra import power_law, spectrum
 
@@ -22,6 +23,7 @@ __all__ = [
     "contact",
     "curve",
     "difference",
+    "exponents",
     "power_law",
     "pressure",
     "spectrum",

@@ -95,9 +95,14 @@ def label_decades(axes: Axes) -> None:
     axes.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(0, 0.4)))
 
 
+def dimension_label(dimension: float) -> str:
+    """Write a fractal dimension with one digit, or with as many as it has."""
+    return f"{dimension:.1f}" if abs(dimension - round(dimension, 1)) < 1e-9 else f"{dimension:.5g}"
+
+
 def legend_dimensions(axes: Axes, dimensions: NDArray[np.float64]) -> None:
     """Draw a legend of the fractal dimensions alone, in two columns."""
     handles, labels = axes.get_legend_handles_labels()
-    wanted = {f"{dimension:.1f}" for dimension in dimensions}
+    wanted = {dimension_label(dimension) for dimension in dimensions}
     kept = [(h, label) for h, label in zip(handles, labels, strict=True) if label in wanted]
     axes.legend(*zip(*kept, strict=True), title="$D_f$", loc="lower right", ncols=2)

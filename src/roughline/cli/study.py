@@ -1,0 +1,136 @@
+"""How the options of `roughline paper` are read: the paper's study, or a version of one's own."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from roughline.errors import InputError
+
+if TYPE_CHECKING:
+    from roughline.paper.study import Study
+    from roughline.paper.windows import Window, Windows
+
+_RANGE = re.compile(r"\s*(\S+)\s+to\s+(\S+)\s*,\s*(\d+)\s+per\s+decade\s*")
+
+
+def study_of(
+    of_paper: Mapping[str, Any],
+    windows: Mapping[str, str | None],
+    plan: Path | None,
+    store: Path | None,
+    out: Path,
+) -> Study:
+    """The study that the options describe.
+
+    Parameters
+    ----------
+    of_paper, windows : mapping
+        What was given for the paper's own study and for its windows, None where nothing was, by
+        names of options.
+    plan, store : Path or None
+        A plan of one's own, and its store.
+    out : Path
+        Folder for the report.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be read, or options contradict each other.
+    """
+    from roughline.campaign import read_plan
+    from roughline.paper.plan import paper_plan, with_settings
+    from roughline.paper.study import Study
+
+    given = {name: value for name, value in of_paper.items() if value is not None}
+    files = {"plan": plan, "store": store}
+    all_given = {**given, **files, **windows}
+    told = [f"--{name}={value}" for name, value in all_given.items() if value is not None]
+    command = shlex.join(["roughline", "paper", *told])
+    fitted = _windows(windows)
+    if plan is None and store is None:
+        plan_of_paper = paper_plan(given.get("scale", "quick"), given.get("seed", 2012))
+        return Study(
+            with_settings(plan_of_paper, **_settings(given)),
+            out / "results.zarr",
+            f"at the {given.get('scale', 'quick')} scale{_changed(given)}",
+            command,
+            fitted,
+        )
+    if given:
+        raise InputError(
+            f"--{next(iter(given))} is given beside --{'store' if plan is None else 'plan'}, which "
+            "says what is computed: leave one of the two out"
+        )
+    if plan is not None:
+        where = store or plan.with_suffix(".zarr")
+        return Study(read_plan(plan), where, f"from the plan {plan.name}", command, fitted)
+    assert store is not None
+    return Study(None, store, f"from the results in {store.name}", command, fitted)
+
+
+def _changed(given: Mapping[str, Any]) -> str:
+    """Say that a study has settings of its own."""
+    return ", with settings of its own" if set(given) - {"scale", "seed"} else ""
+
+
+def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
+    """Arguments of the paper's plan, from options."""
+    settings = {
+        name.replace("-", "_"): value
+        for name, value in given.items()
+        if name not in ("scale", "seed")
+    }
+    for name, read in (("fractal_dimensions", _numbers), ("force_bars", _forces)):
+        if name in settings:
+            settings[name] = read(settings[name], f"--{name.replace('_', '-')}")
+    return settings
+
+
+def _windows(given: Mapping[str, str | None]) -> Windows:
+    from roughline.paper.windows import Windows
+
+    names = {"window": "full", "line-window": "reduced"}
+    return Windows(
+        **{names[each]: _window(text, f"--{each}") for each, text in given.items() if text}
+    )
+
+
+def _numbers(text: str, flag: str, example: str = "2.1, 2.5, 2.9") -> tuple[float, ...]:
+    try:
+        return tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise InputError(
+            f'{flag} is "{text}"; numbers with commas between them are needed, such as "{example}"'
+        ) from None
+
+
+def _forces(text: str, flag: str) -> tuple[float, ...]:
+    """Loads one by one, or evenly spaced logarithms of them."""
+    from roughline.campaign.plan import decades
+
+    example = '0.01, 0.1, 1" or "0.001 to 10, 6 per decade'
+    found = _RANGE.fullmatch(text)
+    if found is None:
+        return _numbers(text, flag, example)
+    low, high = _numbers(f"{found[1]}, {found[2]}", flag, example)
+    count = int(found[3])
+    if not (0 < low < high < float("inf") and 1 <= count <= 1000):
+        raise InputError(
+            f'{flag} is "{text}"; two rising, positive loads and 1 to 1000 per decade are needed, '
+            f'such as "{example}"'
+        )
+    return decades(low, high, count)
+
+
+def _window(text: str, flag: str) -> Window:
+    numbers = _numbers(text, flag, "0.01, 0.1")
+    if len(numbers) != 2 or not 0 < numbers[0] < numbers[1] < float("inf"):
+        raise InputError(
+            f'{flag} is "{text}"; two rising, positive loads F / (E* h L) are needed, such as '
+            '"0.01, 0.1"'
+        )
+    return numbers[0], numbers[1]
