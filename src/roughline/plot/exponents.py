@@ -70,25 +70,12 @@ def exponents(
         name = "power law"
     if not found:
         raise InputError("there is no law to draw: give at least one")
-    dimensions = sorted(found)
     with drawing_on(axes) as drawn:
-        drawn_before = len(drawn.containers)
-        if not drawn_before:
+        if not drawn.containers:
             fine = np.linspace(2, 3, 101)
             drawn.plot(fine, scaling_exponent(fine), "k--", linewidth=1, label="$1/(4 - D_f)$")
             drawn.plot(fine, linear_exponent(fine), "k:", linewidth=1.2, label=r"$0.2567\,D_f$")
-        alpha = np.array([found[each].exponent for each in dimensions])
-        ends = np.array([found[each].exponent_interval for each in dimensions]).T
-        drawn.errorbar(
-            dimensions,
-            alpha,
-            yerr=np.abs(ends - alpha),
-            fmt=MARKERS[drawn_before % len(MARKERS)],
-            color=_COLOURS[drawn_before % len(_COLOURS)],
-            capsize=2,
-            linewidth=1,
-            label=label or f"{name}{_in_window(found.values())}",
-        )
+        _draw(drawn, found, label or f"{name}{_in_window(found.values())}")
         drawn.set(xlabel="fractal dimension $D_f$", ylabel=r"exponent $\alpha$", xlim=(1.97, 3.03))
         drawn.legend()
     return drawn
@@ -115,6 +102,23 @@ def _fitted(data: xarray.Dataset, window: tuple[float, float]) -> dict[float, Po
             )
         found[dimension] = fit_power_law(force, stiffness[converged], window)
     return found
+
+
+def _draw(axes: Axes, laws: Mapping[float, PowerLaw], label: str) -> None:
+    """Draw exponents with their intervals, unlike those that were drawn before."""
+    dimensions, number = sorted(laws), len(axes.containers)
+    alpha = np.array([laws[each].exponent for each in dimensions])
+    ends = np.array([laws[each].exponent_interval for each in dimensions]).T
+    axes.errorbar(
+        dimensions,
+        alpha,
+        yerr=np.abs(ends - alpha),
+        fmt=MARKERS[number % len(MARKERS)],
+        color=_COLOURS[number % len(_COLOURS)],
+        capsize=2,
+        linewidth=1,
+        label=label,
+    )
 
 
 def _in_window(laws: Iterable[PowerLaw]) -> str:
