@@ -7,7 +7,7 @@ import pytest
 import roughline as rl
 
 LOOKED_UP = (
-    *("press", "press_scan", "compare", "estimate", "theory", "assess"),
+    *("press", "press_scan", "compare", "estimate", "theory", "assess", "Question"),
     *("SelfAffine", "Surface", "Line", "read", "write", "prepared", "facing"),
     *("roughness", "isotropic_spectrum", "fit_self_affine", "fit_power_law", "average"),
     *("material", "contact_modulus"),

@@ -103,6 +103,15 @@ class Question:
         If the question does not fit together.
     UnitError
         If a text has no unit, or a wrong one.
+
+    Examples
+    --------
+    >>> import roughline as rl
+    >>> spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4)
+    >>> surface = spectrum.surface(64, rng=7)  # in metres
+    >>> question = rl.Question(surface, E_star="100 GPa", loads=["1 MPa", "2 MPa"])
+    >>> print(rl.assess(question).curve.stiffness.round(-5))
+    [ 6900000. 10900000.]
     """
 
     body: Body | str | Path | Iterable[Body | str | Path]
