@@ -9,6 +9,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from roughline.errors import UnitError
+from roughline.errors.checks import shown
 
 if TYPE_CHECKING:
     import pint
@@ -46,6 +47,7 @@ MOST_DIGITS = 4
 """Significant digits of values that are shown."""
 
 _ROUNDING = 1e-9  # of a value: an end that is no further away is the value itself
+_OTHER_LENGTHS = ("in", "inch", "Å", "angstrom")
 _EXACT = 15  # decimal digits that double precision always keeps
 
 _EXAMPLES = {
@@ -86,11 +88,11 @@ def in_si(text: str, unit: str, name: str) -> float:
     UnitError
         If there is no unit, or one of another dimension, or a decimal comma.
     """
-    example = _EXAMPLES.get(name, _EXAMPLES[unit])
+    example = example_of(unit, name)
     refuse_decimal_comma(text, name)
     parts = _NUMBER_AND_UNIT.fullmatch(text)
     if parts and not parts["unit"]:
-        raise UnitError(f'{name} is "{text}", without a unit; give one, such as "{example}"')
+        raise UnitError(f'is {shown(text)}, without a unit; give one, such as "{example}"', name)
     try:
         if not parts:
             raise ValueError("no number with a unit")
@@ -106,8 +108,9 @@ def in_si(text: str, unit: str, name: str) -> float:
     except Exception as error:  # of a senseless unit the parser raises errors of any type
         vickers = "; 1 HV is 10.6 MPa on the projected indent" if "HV" in text else ""
         raise UnitError(
-            f'{name} is "{text}", which is no quantity in {unit}; give one such as "{example}"'
-            f"{vickers}"
+            f'is {shown(text)}, which is no quantity in {unit}; give one such as "{example}"'
+            f"{vickers}",
+            name,
         ) from error
 
 
@@ -147,9 +150,21 @@ def refuse_decimal_comma(text: str, name: str) -> None:
     """
     if comma := _DECIMAL_COMMA.search(text):
         raise UnitError(
-            f'{name} is "{text}", with a comma in "{comma[0]}"; numbers take a decimal point, such '
-            "as 0.33, and no commas"
+            f'is {shown(text)}, with a comma in "{comma[0]}"; numbers take a decimal point, such '
+            "as 0.33, and no commas",
+            name,
         )
+
+
+def example_of(unit: str, name: str) -> str:
+    """Return a quantity in an SI unit as it may be typed."""
+    return _EXAMPLES.get(name, _EXAMPLES[unit])
+
+
+def is_unit_of_length(unit: str) -> bool:
+    """Whether a text is a metre with or without a prefix, an inch or an angstrom."""
+    prefixed = _PREFIXED.fullmatch(unit)
+    return unit in _OTHER_LENGTHS or (prefixed is not None and prefixed["unit"] == "m")
 
 
 def metres_per(unit: str) -> float:
@@ -160,7 +175,11 @@ def metres_per(unit: str) -> float:
     UnitError
         If it is not a unit of length.
     """
-    return in_si(f"1 {unit}", "m", "unit")
+    try:
+        return in_si(f"1 {unit}", "m", "unit")
+    except UnitError as error:
+        needed = 'a unit of length is needed, such as "um", "mm" or "m"'
+        raise UnitError(f"is {shown(unit)}; {needed}", "unit") from error
 
 
 def load_in_newtons(text: str, area: float) -> float:
@@ -178,15 +197,16 @@ def load_in_newtons(text: str, area: float) -> float:
     UnitError
         If it is neither a force nor a pressure.
     """
-    refuse_decimal_comma(text, "load")
+    refuse_decimal_comma(text, "loads")
     for unit, factor in (("N", 1.0), ("Pa", area)):
         try:
-            return factor * in_si(text, unit, "load")
+            return factor * in_si(text, unit, "loads")
         except UnitError:
             continue
     raise UnitError(
-        f'load is "{text}"; give a total force such as "10 N", or a mean pressure over the nominal '
-        'area such as "2 MPa"'
+        f'is {shown(text)}; give a total force such as "10 N", or a mean pressure over the nominal '
+        'area such as "2 MPa"',
+        "loads",
     )
 
 

@@ -69,10 +69,13 @@ def test_a_spectrum_has_the_cutoffs_of_its_plan():
     ("changes", "message"),
     [
         ({"realizations": 3}, "'realizations' is not known; did you mean 'realisations'?"),
-        ({"realizations": 3, "realisations": None}, "'realizations' is not known: was it meant?"),
+        (
+            {"realizations": 3, "realisations": None},
+            "'realizations' is not known; did you mean 'realisations'?",
+        ),
         ({"xyzzy": 3}, "'xyzzy' is not known; known are name, model,"),
         ({"points": None}, "has no 'points'"),
-        ({"points": "many"}, "points is 'many'; a whole number is needed"),
+        ({"points": "many"}, 'points is "many"; a whole number is needed'),
         ({"points": []}, "points is []; at least one whole number is needed"),
         ({"points": True}, "a whole number is needed"),
         ({"points": 2}, "2 points; allowed are 3 to"),
@@ -109,7 +112,7 @@ def test_what_cannot_be_is_said_in_one_line(changes, message):
     [
         ({"ensemble": []}, "the plan has no ensemble"),
         ({}, "the plan has no 'ensemble'"),
-        ({"ensembles": [ENSEMBLE]}, "'ensembles' is not known: was it meant?"),
+        ({"ensembles": [ENSEMBLE]}, "'ensembles' is not known; did you mean 'ensemble'?"),
         ({"ensemble": [ENSEMBLE, ENSEMBLE]}, "two ensembles are named 'lines'"),
         ({"ensemble": ENSEMBLE}, "a list of tables [[ensemble]] is needed"),
         ({"seed": -1, "ensemble": [ENSEMBLE]}, "seed is -1"),

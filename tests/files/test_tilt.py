@@ -31,7 +31,7 @@ def test_reading_removes_the_tilt_of_an_instrument_unless_told_not_to(tmp_path):
     assert "detrended" not in kept.settings
     level = rl.read(path, **as_given, trend="mean")
     assert level.heights == pytest.approx(heights - heights.mean(), abs=1e-18)
-    with pytest.raises(rl.InputError, match="trend is 'cubic'; one of none, mean, tilt"):
+    with pytest.raises(rl.InputError, match='trend is "cubic"; allowed are "none", "mean", "tilt"'):
         rl.read(path, **as_given, trend="cubic")
 
 

@@ -166,7 +166,7 @@ def test_a_line_and_a_spectrum_without_an_end_have_no_theory():
     with pytest.raises(rl.InputError, match=r"no upper end.*lattice\(n\)"):
         rl.theory("persson", endless, 1.0, 1.0)
     assert rl.theory("persson", endless.lattice(64), 1.0, 1.0).stiffness > 0
-    with pytest.raises(rl.InputError, match="body is 'profile'"):
+    with pytest.raises(rl.InputError, match='body is "profile"'):
         endless.lattice(64, "profile")
     with pytest.raises(rl.InputError, match="n is 2; a whole number"):
         endless.lattice(2)

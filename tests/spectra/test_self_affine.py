@@ -128,10 +128,16 @@ def test_the_spectrum_is_zero_outside_its_cutoffs():
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({"rms_height": 1.0}, "neither of hurst and fractal_dimension"),
-        ({"hurst": 0.5, "fractal_dimension": 2.5, "rms_height": 1.0}, "both of hurst"),
-        ({"hurst": 0.5}, "neither of rms_height and C_0"),
-        ({"hurst": 0.5, "rms_height": 1.0, "C_0": 1.0}, "both of rms_height"),
+        (
+            {"rms_height": 1.0},
+            "give exactly one of hurst= and fractal_dimension=; neither is given",
+        ),
+        (
+            {"hurst": 0.5, "fractal_dimension": 2.5, "rms_height": 1.0},
+            "fractal_dimension=; both are given",
+        ),
+        ({"hurst": 0.5}, "give exactly one of rms_height= and C_0=; neither is given"),
+        ({"hurst": 0.5, "rms_height": 1.0, "C_0": 1.0}, "C_0=; both are given"),
         ({"hurst": 1.2, "rms_height": 1.0}, "hurst is 1.2; allowed is 0 to 1"),
         ({"hurst": math.nan, "rms_height": 1.0}, "hurst is nan"),
         ({"fractal_dimension": 1.9, "rms_height": 1.0}, "fractal_dimension is 1.9; allowed is 2"),

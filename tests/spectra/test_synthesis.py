@@ -146,7 +146,7 @@ def test_the_longest_line_works():
         (10**6, 1, "fixed", "n is 1000000; a whole number of points from 3 to 32768"),
         (8, -1, "fixed", "rng is -1; a seed is a non-negative integer"),
         (8, "seven", "fixed", "rng is 'seven'"),
-        (8, 1, "uniform", "amplitudes is 'uniform'"),
+        (8, 1, "uniform", 'amplitudes is "uniform"'),
     ],
 )
 def test_impossible_bodies_are_refused(n, rng, amplitudes, message):

@@ -82,7 +82,7 @@ def test_few_realisations_are_judged_by_student():
     [
         (np.ones(3), {}, r"shape \(3,\)"),
         (np.ones((0, 3)), {}, "realisations, loads"),
-        (np.ones((3, 3)), {"averaging": "median"}, "averaging is 'median'"),
+        (np.ones((3, 3)), {"averaging": "median"}, 'averaging is "median"'),
         (np.ones((3, 3)), {"confidence": 95}, "confidence is 95"),
         (np.zeros((3, 3)), {"averaging": "geometric"}, "needs positive values"),
     ],

@@ -159,7 +159,7 @@ def test_units_are_neutral(name):
 
 
 def test_bad_questions_get_one_line():
-    with pytest.raises(rl.InputError, match="no theory is called 'hertz'; there are persson"):
+    with pytest.raises(rl.InputError, match='name is "hertz"; allowed are "persson"'):
         theory("hertz", SPECTRUM, 1.0, 1.0)
     with pytest.raises(rl.InputError, match="must be positive"):
         theory("persson", SPECTRUM, 1.0, [0.0, 1.0])

@@ -34,7 +34,7 @@ def test_too_many_missing_points_are_refused_with_numbers():
     everything = np.ma.MaskedArray(np.ones((3, 3)), True)
     with pytest.raises(rl.InputError, match="9 missing points of 9"):
         Missing(most=0.99).filled(everything, "a map")
-    with pytest.raises(rl.InputError, match="missing is 'spline'"):
+    with pytest.raises(rl.InputError, match='missing is "spline"'):
         Missing("spline")
     with pytest.raises(rl.InputError, match="most_missing is 1"):
         Missing(most=1.0)

@@ -141,10 +141,10 @@ def test_resampling_takes_means_or_splines():
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({"trend": "cubic"}, "trend is 'cubic'; one of none, mean, tilt"),
+        ({"trend": "cubic"}, 'trend is "cubic"; allowed are "none", "mean", "tilt"'),
         ({"low_pass": 0.0}, "low_pass is 0"),
         ({"low_pass": math.nan}, "low_pass is nan"),
-        ({"points": 1}, "points is 1; at least 2"),
+        ({"points": 1}, "points is 1; whole numbers of at least 2"),
         ({"crop": (0, 1)}, "crop has 2 lengths; give 4"),
         ({"crop": (0, 2e-3, 0, 1e-3)}, "crop from 0 to 0.002 is not within 0 to 0.001"),
         ({"crop": (5e-4, 1e-4, 0, 1e-3)}, "or not rising"),

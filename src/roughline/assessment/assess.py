@@ -38,6 +38,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.estimates import estimate, expected_area_fraction, memory_for
 from roughline.contact.loads import Loads
 from roughline.engineering.intervals import Intervals
+from roughline.errors.public import public
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
 
@@ -48,6 +49,7 @@ _LARGE = 2**20  # points from which on the cost is announced
 _MANY = 1000  # loads from which on the cost is announced
 
 
+@public
 def assess_body(
     question: Question,
     *,

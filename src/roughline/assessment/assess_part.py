@@ -24,6 +24,8 @@ from roughline.assessment.part_remarks import (
 )
 from roughline.assessment.question import Question
 from roughline.errors import InputError
+from roughline.errors.checks import refuse
+from roughline.errors.public import public
 
 MapProgress = Callable[[int, int], None]
 """Called with (maps done, maps in all)."""
@@ -38,6 +40,7 @@ class _Pressed:
     left: list[str] = field(default_factory=list)
 
 
+@public
 def assess(
     question: Question,
     *,
@@ -88,6 +91,7 @@ def assess(
     )
 
 
+@public
 def assess_part(
     questions: Sequence[Question],
     *,
@@ -248,6 +252,10 @@ def _under_unloading(answers: Mapping[str, PartAnswer], is_joint: bool) -> dict[
 
 def _refuse_unlike(questions: Sequence[Question]) -> None:
     """Refuse questions that differ in more than their map, and how it is read."""
+    if not isinstance(questions, Sequence) or not all(
+        isinstance(each, Question) for each in questions
+    ):
+        refuse("questions", questions, "a list of Questions, one of each map, is needed")
     if not questions:
         raise InputError("there is no map; give at least one, better five")
     for item in fields(Question):

@@ -11,6 +11,7 @@ from roughline.assessment.source import measured_body
 from roughline.comparison.models import Comparison, compare
 from roughline.comparison.trust import Difference, trust_map
 from roughline.errors import InputError
+from roughline.errors.checks import refuse
 from roughline.files.read import measurement
 from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.spectra.self_affine import SelfAffine
@@ -80,7 +81,7 @@ def compare_models(
         If the tolerance is not between 0 and 1, or the file holds a line.
     """
     if not 0 < tolerance < 1:
-        raise InputError(f"tolerance is {tolerance}; a share between 0 and 1 is needed")
+        refuse("tolerance", tolerance, "a share between 0 and 1 is needed")
     if isinstance(roughness, SelfAffine):
         body: SelfAffine | Surface = roughness
         what = (

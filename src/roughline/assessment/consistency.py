@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from roughline.errors import InputError
+from roughline.errors.checks import whole
 
 if TYPE_CHECKING:
     from roughline.assessment.question import Question
@@ -23,12 +22,8 @@ def refuse_inconsistent_loads(question: Question) -> None:
     given = (question.n_loads, question.loads or None, question.depths or None)
     if sum(each is not None for each in given) > 1:
         raise InputError("give one of loads=, depths= and n_loads=")
-    if question.n_loads is not None and (
-        not isinstance(question.n_loads, int | np.integer)
-        or isinstance(question.n_loads, bool)
-        or question.n_loads < 2
-    ):
-        raise InputError(f"n_loads is {question.n_loads!r}; a whole number of at least 2 is needed")
+    if question.n_loads is not None:
+        whole("n_loads", question.n_loads, 2, "a whole number of at least 2 is needed")
     if question.unload and (not question.loads or question.history):
         raise InputError(
             "unload=True takes off the largest of the loads (loads=); in a history, and for "

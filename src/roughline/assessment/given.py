@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -12,21 +11,28 @@ import numpy as np
 
 from roughline.engineering.materials import Material, material
 from roughline.errors import InputError
+from roughline.errors.checks import number, refuse, shown
 from roughline.topography.body import Body, Line, Surface
-from roughline.units import in_si, load_in_newtons, refuse_decimal_comma
+from roughline.units import example_of, in_si, load_in_newtons, refuse_decimal_comma
 
 MOST_FRICTION = 5.0
 """Largest coefficient of friction; that of rubber on dry glass is about 4."""
 
 
 def several(given: Any) -> tuple[Any, ...]:
-    """One value or several as a tuple."""
+    """One value or several as a tuple; None is none."""
+    if given is None:
+        return ()
     return (given,) if np.ndim(given) == 0 else tuple(given)
 
 
 def as_si(given: float | str, unit: str, name: str) -> float:
     """A number in an SI unit, or a text with a unit of its own, as a number in the SI unit."""
-    return in_si(given, unit, name) if isinstance(given, str) else float(given)
+    if isinstance(given, str):
+        return in_si(given, unit, name)
+    example = example_of(unit, name)
+    needed = f'a number in {unit}, or a text such as "{example}", is needed'
+    return number(name, given, needed)
 
 
 def checked_friction(given: Any) -> float:
@@ -37,12 +43,9 @@ def checked_friction(given: Any) -> float:
     InputError
         If it is no number, or none that two bodies have.
     """
-    is_number = isinstance(given, Real) and not isinstance(given, bool)
-    if not is_number or not 0 < given <= MOST_FRICTION:
-        raise InputError(
-            f"the coefficient of friction (friction=) is {given!r}; a number above 0 and up to "
-            f"{MOST_FRICTION:g} is needed, such as 0.3"
-        )
+    needed = f"a number above 0 and up to {MOST_FRICTION:g} is needed, such as 0.3"
+    if not 0 < number("friction", given, needed) <= MOST_FRICTION:
+        refuse("friction", given, needed)
     return float(given)
 
 
@@ -59,11 +62,9 @@ def body_or_path(given: Any, name: str) -> Body | Path:
     if isinstance(given, str | Path):
         return Path(given)
     if not isinstance(given, Surface | Line):
-        raise InputError(
-            f"{name} is a {type(given).__name__}; give a Surface or a Line in metres, or a file"
-        )
+        refuse(name, given, "give a Surface or a Line in metres, or a file")
     if given.unit not in (None, "m"):
-        raise InputError(f'{name} is in "{given.unit}"; give it in metres, as rl.read does')
+        raise InputError(f'is in "{given.unit}"; give it in metres, as rl.read does', name)
     return replace(given, unit="m")
 
 
@@ -73,7 +74,7 @@ def bodies_or_paths(given: Any, name: str) -> Body | Path | tuple[Body | Path, .
         return body_or_path(given, name)
     found = tuple(body_or_path(each, name) for each in given)
     if not found:
-        raise InputError(f"{name} holds no map; give at least one, better five")
+        raise InputError("holds no map; give at least one, better five", name)
     paths = [each.resolve() for each in found if isinstance(each, Path)]
     for i, path in enumerate(paths):
         if path in paths[:i]:
@@ -87,10 +88,23 @@ def pair_of(given: Any) -> tuple[Material, Material]:
     if isinstance(given, str):
         refuse_decimal_comma(given, "materials")
         parts = [part.strip() for part in given.split(",")]
-    if len(parts) != 2:
-        raise InputError(
-            f'materials is "{given}"; give two with a comma between, such as "steel,copper", or '
-            '"steel,rigid"'
+    if not isinstance(parts, Sequence) or len(parts) != 2:
+        refuse(
+            "materials",
+            given,
+            'give two with a comma between, such as "steel,copper", or "steel,rigid"',
         )
-    first, second = (each if isinstance(each, Material) else material(each) for each in parts)
+    first, second = (_material_of(each) for each in parts)
     return first, second
+
+
+def _material_of(given: Any) -> Material:
+    """A material, from itself or from its description."""
+    if isinstance(given, Material):
+        return given
+    if not isinstance(given, str):
+        refuse("materials", given, 'a Material or a text such as "steel" is needed for each body')
+    try:
+        return material(given)
+    except InputError as error:
+        raise type(error)(f"{shown(given)} cannot be used: {error}", "materials") from error

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from roughline.assessment.given import as_si
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.errors import InputError
+from roughline.errors.checks import refuse
 from roughline.units import engineering
 
 if TYPE_CHECKING:
@@ -53,9 +54,7 @@ def checked_hardness(given: float | str | None, *, elastic: bool) -> float | Non
         return None
     hardness = as_si(given, "Pa", "hardness")
     if not hardness > 0:
-        raise InputError(
-            f'hardness is "{given}"; a positive pressure is needed, or elastic=True for no yield'
-        )
+        refuse("hardness", given, "a positive pressure is needed, or elastic=True for no yield")
     if elastic:
         raise InputError("hardness= and elastic=True contradict each other; give one of them")
     return hardness

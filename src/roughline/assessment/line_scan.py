@@ -13,6 +13,7 @@ from roughline.comparison.trust import trust_map
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
+from roughline.errors.public import public
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.profile import profile_spectrum
 from roughline.spectra.scan_bins import ScanBins
@@ -43,6 +44,7 @@ class PressedScan:
     high: Real
 
 
+@public
 def press_scan(
     scan: Line, *, E_star: float, forces: ArrayLike, against: Line | None = None, rng: int = 0
 ) -> PressedScan:

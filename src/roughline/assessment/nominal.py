@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from roughline.assessment.given import as_si
-from roughline.errors import InputError
+from roughline.errors.checks import refuse
 from roughline.topography.body import Body, Surface
 
 
@@ -22,7 +22,7 @@ def area_of_joint(given: float | str) -> float:
     InputError
         If it is not positive, or no area.
     """
-    area = as_si(given, "m^2", "joint area")
+    area = as_si(given, "m^2", "joint_area")
     if not 0 < area < math.inf:
-        raise InputError(f'joint area is "{given}"; give a positive one (joint_area=)')
+        refuse("joint_area", given, "a positive, finite area is needed")
     return area

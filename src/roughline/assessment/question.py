@@ -25,8 +25,10 @@ from roughline.assessment.hardness import checked_hardness
 from roughline.assessment.misfit import refuse_misfit
 from roughline.assessment.nominal import area_of_joint
 from roughline.assessment.reading import Reading
-from roughline.engineering.pair import MaterialPair
+from roughline.engineering.pair import MaterialPair, contact_modulus
 from roughline.errors import InputError
+from roughline.errors.checks import number, refuse
+from roughline.errors.public import public
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import Preparation
 from roughline.units import engineering, load_in_newtons
@@ -37,6 +39,7 @@ UNLOADING = (0.75, 0.5, 0.25, 0.1, 0.0)
 """Loads over the largest one, on the way back to none."""
 
 
+@public
 @dataclass(frozen=True)
 class Question:
     """What is asked of one rough body against a smooth or a rough one.
@@ -165,7 +168,7 @@ class Question:
             from roughline.theories.theory import refuse_unknown  # here because it loads slowly
 
             for theory in self.theories:
-                refuse_unknown(theory)
+                refuse_unknown(theory, "theories")
         for body in (*self.bodies, self.against):
             if isinstance(body, Surface | Line):
                 refuse_misfit(self, body)
@@ -259,23 +262,26 @@ class Question:
         """
         scale = self.scale(area)
         forces = [
-            load_in_newtons(load, area * scale) if isinstance(load, str) else float(load)
+            load_in_newtons(load, area * scale)
+            if isinstance(load, str)
+            else number("loads", load, 'a force in N, or a text such as "2 MPa", is needed')
             for load in several(self.loads)
         ]
         for i, (load, force) in enumerate(zip(several(self.loads), forces, strict=True)):
             if not (0 < force < math.inf or (force == 0 and self.history and i)):
                 to_unload = ", and zero only to unload after others" if self.history else ""
-                raise InputError(f'load is "{load}"; give positive ones{to_unload}')
+                refuse("loads", load, f"give positive ones{to_unload}")
         forces += [share * max(forces) for share in self._unloading]
         return [force / scale for force in forces]
 
     def heights(self) -> list[float]:
         """Depths, in their order. [m]"""
-        return [as_si(depth, "m", "depth") for depth in several(self.depths)]
+        return [as_si(depth, "m", "depths") for depth in several(self.depths)]
 
     def _check_materials(self) -> None:
         if self.materials is not None:
             object.__setattr__(self, "materials", pair_of(self.materials))
+            contact_modulus(*self.materials)  # refuses two rigid bodies
         elif self.frequency is not None or self.friction is not None:
             raise InputError("reflection and partial slip need two materials (materials=)")
         if (self.E_star is None) == (self.materials is None):
@@ -283,15 +289,14 @@ class Question:
                 "give either a contact modulus (E_star=) or two materials (materials=)"
             )
         if self.E_star is not None:
-            object.__setattr__(self, "E_star", as_si(self.E_star, "Pa", "modulus"))
-        if not 0 < self.modulus < math.inf:  # two rigid bodies are refused by the modulus itself
-            raise InputError(
-                f"E_star is {self.modulus!r}; a positive, finite contact modulus is needed"
-            )
+            modulus = as_si(self.E_star, "Pa", "E_star")
+            if not 0 < modulus < math.inf:
+                refuse("E_star", self.E_star, "a positive, finite contact modulus is needed")
+            object.__setattr__(self, "E_star", modulus)
         if self.frequency is not None:
             hertz = as_si(self.frequency, "Hz", "frequency")
             if not 0 < hertz < math.inf:
-                raise InputError(f'frequency is "{self.frequency}"; a positive one is needed')
+                refuse("frequency", self.frequency, "a positive, finite one is needed")
             object.__setattr__(self, "frequency", hertz)
         if self.friction is not None:
             object.__setattr__(self, "friction", checked_friction(self.friction))

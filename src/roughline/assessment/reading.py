@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from roughline.errors.public import public
 from roughline.files.scale import Sizes
 from roughline.topography.missing import Filling, Missing
+from roughline.units import metres_per
 
 
+@public
 @dataclass(frozen=True)
 class Reading:
     """How a file is read.
@@ -29,3 +32,5 @@ class Reading:
 
     def __post_init__(self) -> None:
         Missing(self.missing, self.most_missing)  # refuses what cannot be
+        if self.unit is not None:
+            metres_per(self.unit)

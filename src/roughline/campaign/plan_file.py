@@ -9,17 +9,20 @@ from __future__ import annotations
 import difflib
 import math
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
 
 from roughline.campaign.plan import Ensemble, Plan, decades, evenly
 from roughline.errors import InputError
+from roughline.errors.checks import refuse, shown
+from roughline.errors.public import public
 
 _MOST_VALUES = 10_000  # of one range; more values are a typing error
 
 
+@public
 def read_plan(path: str | Path) -> Plan:
     """Read a plan from a TOML file.
 
@@ -49,6 +52,7 @@ def read_plan(path: str | Path) -> Plan:
         raise InputError(f"{path}: {error}") from error
 
 
+@public
 def plan_from(content: dict[str, Any], default_name: str = "campaign") -> Plan:
     """Make a plan of the content of a TOML file.
 
@@ -64,22 +68,30 @@ def plan_from(content: dict[str, Any], default_name: str = "campaign") -> Plan:
     InputError
         As for :func:`read_plan`.
     """
-    top = _Table(content, "the plan")
+    if not isinstance(content, Mapping):
+        refuse("content", content, "a dict as tomllib reads it is needed; a file: read_plan(path)")
+    top = _Table(content, "the plan", _PLAN_KEYS)
     name = top.take("name", _text, default_name)
     seed = top.take("seed", _whole, 0)
     tables = top.take("ensemble", _tables)
-    top.refuse_what_is_left()
     ensembles = [
         ensemble
         for number, table in enumerate(tables, 1)
-        for ensemble in _ensembles(_Table(table, f"ensemble {number}"), seed)
+        for ensemble in _ensembles(_table_of_ensemble(table, number), seed)
     ]
     return Plan(name, tuple(ensembles))
 
 
+def _table_of_ensemble(table: dict[str, Any], number: int) -> _Table:
+    """The table of an ensemble, called by its name, or by its number where it has none."""
+    name = table.get("name")
+    return _Table(
+        table, f"ensemble {name!r}" if isinstance(name, str) else f"ensemble {number}", _KEYS
+    )
+
+
 def _ensembles(table: _Table, seed: int) -> Iterable[Ensemble]:
     name = table.take("name", _text)
-    table.place = f"ensemble {name!r}"
     model = table.take("model", _text)
     dimensions = table.take("fractal_dimensions", _numbers)
     points = table.take("points", _wholes)
@@ -89,7 +101,6 @@ def _ensembles(table: _Table, seed: int) -> Iterable[Ensemble]:
     cutoff = table.take("cutoff_ratio", _number, None)
     boundary = table.take("boundary", _text, "none" if model == "reduced" else "free")
     hardnesses = table.take("hardness_bar", _numbers, (math.inf,))
-    table.refuse_what_is_left()
     for n, roll_off, hardness in product(points, roll_offs, hardnesses):
         parts = [name]
         parts += [f"n{n}"] if len(points) > 1 else []
@@ -112,38 +123,63 @@ def _ensembles(table: _Table, seed: int) -> Iterable[Ensemble]:
 
 
 _NEEDED: Any = object()
+_PLAN_KEYS = ("name", "seed", "ensemble")
+_KEYS = (
+    "name",
+    "model",
+    "fractal_dimensions",
+    "points",
+    "roll_off_ratios",
+    "realisations",
+    "force_bars",
+    "cutoff_ratio",
+    "boundary",
+    "hardness_bar",
+)
+"""Keys of an ensemble."""
+
+_MEANT = {
+    "hurst": ("fractal_dimensions,", "which are 3 - H"),
+    "H": ("fractal_dimensions,", "which are 3 - H"),
+    "n": ("points",),
+    "surfaces": ("realisations",),
+    "hardness": ("hardness_bar,", "H / (E* times the rms slope)"),
+    "forces": ("force_bars,", "F / (E* h L)"),
+    "loads": ("force_bars,", "F / (E* h L)"),
+    "periodic": ("boundary", '= "periodic"'),
+}
+"""Keys that others may be meant by, and how."""
 
 
 class _Table:
-    """A table of the file; keys are taken from it one by one, and none may be left."""
+    """A table of the file, of which all keys are known; they are taken from it one by one."""
 
-    def __init__(self, content: dict[str, Any], place: str) -> None:
+    def __init__(self, content: Mapping[str, Any], place: str, known: Sequence[str]) -> None:
         self.place = place
-        self._left = dict(content)
-        self._known: list[str] = []
+        self._content = content
+        for key in content:
+            if key not in known:
+                raise InputError(f"{place}: {key!r} is not known; {_hint(key, known)}")
 
     def take(self, key: str, kind: Callable[[Any], Any], default: Any = _NEEDED) -> Any:
         """Take a key's value, of the right kind, or its default."""
-        self._known.append(key)
-        if key not in self._left:
+        if key not in self._content:
             if default is _NEEDED:
-                # a misspelt key is the likelier mistake: it is named first
-                near = difflib.get_close_matches(key, self._left, 1)
-                hint = f"; {near[0]!r} is not known: was it meant?" if near else ""
-                raise InputError(f"{self.place} has no {key!r}{hint}")
+                raise InputError(f"{self.place} has no {key!r}, which is needed")
             return default
-        value = self._left.pop(key)
+        value = self._content[key]
         try:
             return kind(value)
         except _WrongKindError as error:
-            raise InputError(f"{self.place}: {key} is {value!r}; {error} is needed") from None
+            raise InputError(f"{self.place}: {key} is {shown(value)}; {error} is needed") from None
 
-    def refuse_what_is_left(self) -> None:
-        """Raise if keys were not taken."""
-        for key in self._left:
-            near = difflib.get_close_matches(key, self._known, 1)
-            hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(self._known)}"
-            raise InputError(f"{self.place}: {key!r} is not known; {hint}")
+
+def _hint(key: str, known: Sequence[str]) -> str:
+    """What may be meant by an unknown key."""
+    if key in _MEANT and _MEANT[key][0].rstrip(",") in known:
+        return f"give {' '.join(_MEANT[key])}"
+    near = difflib.get_close_matches(key, known, 1)
+    return f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
 
 
 class _WrongKindError(Exception):

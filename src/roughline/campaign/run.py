@@ -18,8 +18,10 @@ from roughline.campaign.progress import EnsembleProgress, Summary
 from roughline.campaign.writer import writing
 from roughline.computing.cores import available_cores, processor_name
 from roughline.errors import InputError
+from roughline.errors.public import public
 
 
+@public
 def run(
     plan: Plan,
     store: str | Path,

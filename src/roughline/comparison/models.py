@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from roughline.comparison.single_surface import difference_of_one, scatter_of_surfaces
 from roughline.comparison.trust import Difference
 from roughline.contact.press import press
-from roughline.errors import InputError
+from roughline.errors.checks import refuse_other_seeds, whole
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.averages import Average, average, relative_difference
@@ -24,6 +24,7 @@ from roughline.topography.preparation import tilt_warnings
 if TYPE_CHECKING:
     from roughline.computing.arrays import Mask, Real
 from roughline.computing.summary import summary
+from roughline.errors.public import public
 
 COMPARED_LINES = 200
 """Number of lines that are pressed beside the surfaces."""
@@ -31,6 +32,7 @@ _SPRINGS_PER_WAVE = 128  # springs under the shortest wave, so fine that their s
 _LEAST_SPRINGS = 2**16
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """The two models on the same roughness, at the same dimensionless forces.
@@ -98,6 +100,7 @@ class Comparison:
         return float(self.force_bar[first]), float(self.force_bar[end - 1])
 
 
+@public
 def compare(
     body: SelfAffine | Surface,
     *,
@@ -148,10 +151,10 @@ def compare(
     """
     forces = np.geomspace(1e-3, 3, 15) if force_bars is None else np.asarray(force_bars, float)
     report = progress or (lambda done, total: None)
+    refuse_other_seeds(rng)
     if isinstance(body, Surface):
         return _compare_surface(body, forces, rng, report)
-    if surfaces < 2:
-        raise InputError(f"surfaces is {surfaces}; an interval needs at least 2")
+    whole("surfaces", surfaces, 2, "an interval needs at least 2")
     return _compare_spectrum(_on_grid(body, n), n, surfaces, forces, rng, report)
 
 

@@ -24,6 +24,7 @@ from roughline.statistics.verdict import Verdict, verdict
 if TYPE_CHECKING:
     from roughline.computing.arrays import Mask, Real
 from roughline.computing.summary import summary
+from roughline.errors.public import public
 
 COLUMNS = (
     "roll_off_ratio",
@@ -71,6 +72,7 @@ class Difference:
         return verdict(self.low, self.high, -tolerance, tolerance)
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class TrustMap:
     """The difference of the two models over roll-off, fractal dimension and load.
@@ -154,6 +156,7 @@ class TrustMap:
         return Difference(value, low, high, scatter, resolved > 1 - 1e-9)
 
 
+@public
 @cache
 def trust_map() -> TrustMap:
     """Return the map that comes with the package."""

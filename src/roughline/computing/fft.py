@@ -17,12 +17,14 @@ import numpy as np
 from roughline.computing.arrays import Complex, ComplexFloats, Real, Single
 from roughline.computing.cores import available_cores
 from roughline.errors import InputError
+from roughline.errors.public import public
 
 _threads = available_cores()
 
 _LINES_AT_A_TIME = 64  # so many columns fit into a core's cache
 
 
+@public
 def set_threads(count: int) -> None:
     """Use `count` threads for the work of this process from now on.
 

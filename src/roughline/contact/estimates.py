@@ -17,6 +17,7 @@ from roughline.contact.arguments import (
     kept_loads,
 )
 from roughline.contact.loads import Loads
+from roughline.errors.public import public_names
 from roughline.topography.body import Surface
 
 # Most memory that a path of loads held at any time beside the surface, as measured
@@ -64,6 +65,7 @@ class Estimate:
         return f"about {gigabytes(self.memory)} and {_duration(self.seconds)}"
 
 
+@public_names
 def estimate(
     shape: tuple[int, int],
     n_loads: int,

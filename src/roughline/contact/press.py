@@ -26,9 +26,11 @@ from roughline.contact.loads import GivenLoads, Loads, surface_loads
 from roughline.contact.reduced import press_line
 from roughline.contact.status import Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
+from roughline.errors.public import public_names
 from roughline.topography.body import Body, Line, Surface
 
 
+@public_names
 def press(
     body: Body,
     *,

@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields, replace
 from importlib import resources
 
 from roughline.errors import InputError, UnitError
+from roughline.errors.public import public
 from roughline.units import in_si, refuse_decimal_comma
 
 _UNITS = {
@@ -26,6 +27,7 @@ TABLE_FACTOR = 1.5
 _SETTING = re.compile(r"(\w+)\s*=\s*([^=;]+?)\s*(?=;|\s\w+\s*=|$)")
 
 
+@public
 @dataclass(frozen=True)
 class Material:
     """An isotropic bulk material at room temperature.
@@ -113,6 +115,7 @@ def materials() -> dict[str, Material]:
     return dict(_table())
 
 
+@public
 def material(description: str) -> Material:
     """Return a material from its name, its values, or a name with other values.
 

@@ -8,6 +8,7 @@ from operator import itemgetter
 
 from roughline.engineering.materials import Material
 from roughline.errors import InputError
+from roughline.errors.public import public
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +84,7 @@ class MaterialPair:
         return None if first is None or second is None else (first, second)
 
 
+@public
 def contact_modulus(first: Material, second: Material) -> float:
     """Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [Pa]
 

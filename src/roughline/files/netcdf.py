@@ -10,6 +10,7 @@ import numpy as np
 
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, StoreError
+from roughline.errors.public import public
 from roughline.files.measurement import Measurement
 from roughline.topography.body import Body, Surface
 from roughline.topography.settings import AS_RECORDED
@@ -17,6 +18,7 @@ from roughline.topography.settings import AS_RECORDED
 _FORMAT = "roughline body 1"
 
 
+@public
 def write(body: Body, path: str | Path) -> None:
     """Write a surface or a line, settings included, to NetCDF; :func:`roughline.read` takes it.
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.files.archives import refuse_bombs
 from roughline.files.heights_in_text import read_text
 from roughline.files.instrument import read_instrument
@@ -23,6 +24,7 @@ from roughline.units import engineering
 _RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
 
 
+@public
 def read(
     path: str | Path,
     unit: str | None = None,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.axes import Axes
 
+from roughline.errors.public import public
 from roughline.plot.pixels import thinned
 from roughline.plot.style import drawing_on
 from roughline.plot.units import in_unit
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from roughline.topography.body import Body
 
 
+@public
 def topography(body: Body, axes: Axes | None = None) -> Axes:
     """Draw the heights of a body about their mean.
 

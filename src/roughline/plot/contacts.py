@@ -11,6 +11,7 @@ from matplotlib.colors import ListedColormap
 from roughline.contact.notebook import digits_known
 from roughline.contact.status import Status
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.plot.bodies import draw_map, extent, label_sides
 from roughline.plot.style import drawing_on
 from roughline.plot.units import in_unit
@@ -26,6 +27,7 @@ _GAP_ELASTIC_PLASTIC = ListedColormap(["white", "black", "tab:red"])
 _TITLE = 8  # font size [pt]
 
 
+@public
 def contact(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     """Draw the real contact area at one load: black, and red where points are at the hardness.
 
@@ -58,6 +60,7 @@ def contact(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     return drawn
 
 
+@public
 def pressure(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     """Draw the pressure at one load; white where the bodies do not touch.
 

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
 from roughline.contact.quantity import OVER_LOADS
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.plot.contacts import say
 from roughline.plot.style import FORCE_LABEL, OPEN, drawing_on, label_decades
 from roughline.plot.units import in_unit
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 _ELASTIC, _AFTER_A_LARGER = "k", "tab:blue"
 
 
+@public
 def curve(curve: Curve, x: str = "force", y: str = "stiffness", axes: Axes | None = None) -> Axes:
     """Draw one quantity of a curve over another.
 
@@ -58,6 +60,7 @@ def curve(curve: Curve, x: str = "force", y: str = "stiffness", axes: Axes | Non
     return drawn
 
 
+@public
 def area(curve: Curve, axes: Axes | None = None) -> Axes:
     """Draw the real contact area over the force, corrected for the steps of its outline.
 

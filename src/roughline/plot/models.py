@@ -12,6 +12,7 @@ from matplotlib.ticker import PercentFormatter
 
 from roughline.comparison.trust import trust_map as published_map
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.plot.style import FORCE_LABEL, OPEN, SHADE, colours, drawing_on
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ TRUST_LEVELS = (-0.3, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4)
 """Differences at which the colour of the trust map changes."""
 
 
+@public
 def comparison(compared: Comparison, axes: Axes | None = None) -> Axes:
     """Draw the stiffness of both models over the force.
 
@@ -55,6 +57,7 @@ def comparison(compared: Comparison, axes: Axes | None = None) -> Axes:
     return drawn
 
 
+@public
 def difference(compared: Comparison, tolerance: float = 0.1, axes: Axes | None = None) -> Axes:
     """Draw the relative difference of the stiffness of the full model from the reduced one's.
 
@@ -88,6 +91,7 @@ def difference(compared: Comparison, tolerance: float = 0.1, axes: Axes | None =
     return drawn
 
 
+@public
 def trust_map(
     roll_off_ratio: float = 1.0, trust: TrustMap | None = None, axes: Axes | None = None
 ) -> Axes:

@@ -8,6 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
+from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.plot.contacts import say
 from roughline.plot.curves import name_of
 from roughline.plot.style import SHADE, drawing_on, label_decades
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 _MOST_ROUNDING = 1e4  # how far above that of rounding a spectrum is still rounding
 
 
+@public
 def spectrum(described: Body | Roughness, axes: Axes | None = None) -> Axes:
     """Draw the spectrum of a topography, with the self-affine law that is nearest to it.
 
@@ -52,6 +55,7 @@ def spectrum(described: Body | Roughness, axes: Axes | None = None) -> Axes:
     return drawn
 
 
+@public
 def power_law(
     force_bar: ArrayLike,
     stiffness_bar: ArrayLike,
@@ -91,6 +95,11 @@ def power_law(
     labels = [name_of(name) for name in (x, y)]
     force = np.asarray(force_bar, dtype=np.float64)
     stiffness = np.atleast_2d(np.asarray(stiffness_bar, dtype=np.float64))
+    if force.ndim != 1 or stiffness.ndim != 2 or stiffness.shape[1] != force.size:
+        raise InputError(
+            f"force_bar has shape {force.shape} and stiffness_bar {np.shape(stiffness_bar)}; "
+            "(loads,) and (loads,) or (realisations, loads) are needed"
+        )
     with drawing_on(axes) as drawn:
         drawn.axvspan(*law.window, **SHADE)
         if stiffness.shape[0] > 1:

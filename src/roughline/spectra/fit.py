@@ -11,6 +11,7 @@ from scipy import special
 from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.likely_laws import Interval, LikelyLaws
 from roughline.spectra.map_rings import MapRings
@@ -118,6 +119,7 @@ class SelfAffineFit:
         return np.where((q < self.q_low * (1 - 1e-9)) | (q > end * (1 + 1e-9)), np.nan, law)
 
 
+@public
 def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffineFit:
     """Fit a self-affine law with roll-off and cutoff by maximum likelihood.
 

@@ -11,6 +11,7 @@ from roughline.computing import fft
 from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.spectra import synthesis
 from roughline.spectra.leakage import RING_HALF_WIDTH
 from roughline.topography.body import Line, Surface
@@ -93,6 +94,7 @@ class IsotropicSpectrum:
         return Line(heights, self.length, settings=settings)
 
 
+@public
 def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     """Estimate the spectrum of a surface, averaged over all directions.
 

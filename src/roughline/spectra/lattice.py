@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
+from roughline.errors.public import public
 from roughline.spectra.band import Band
 
 BodyName = Literal["surface", "line"]
@@ -25,6 +26,7 @@ BodyName = Literal["surface", "line"]
 _BLOCK = 2**20  # wavevectors summed at a time
 
 
+@public
 @dataclass(frozen=True)
 class ScaledSpectrum(ABC):
     """Isotropic spectrum with its height.
@@ -87,6 +89,7 @@ class ScaledSpectrum(ABC):
         return self.C_0 * self.band.cut(np.abs(np.asarray(q, dtype=np.float64)))
 
 
+@public
 @dataclass(frozen=True)
 class ContinuumSpectrum(ScaledSpectrum):
     """A spectrum whose moments are integrals: that of a surface much larger than its waves."""
@@ -105,6 +108,7 @@ class ContinuumSpectrum(ScaledSpectrum):
         return self.C_0 * self.band.moment(order)
 
 
+@public
 @dataclass(frozen=True)
 class LatticeSpectrum(ScaledSpectrum):
     """The spectrum of a periodic body of n points: that of its heights, to rounding.

@@ -13,6 +13,8 @@ from scipy import fft
 from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
+from roughline.errors.checks import refuse, several
+from roughline.errors.public import public
 from roughline.spectra.leakage import LONG_WAVES, LONGER, scan_leakage
 from roughline.topography.body import Line
 
@@ -118,6 +120,7 @@ def cuts_of_surface(edges: Real) -> Cuts:
     return Cuts(ends, q, np.concatenate(matrix), leakage.kept @ long + short)
 
 
+@public
 def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
     """Estimate the spectrum of straight cuts.
 
@@ -134,7 +137,9 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
     InputError
         If a line is not a profile, is flat, or has fewer than 64 points, or if they differ in size.
     """
-    cuts = [lines] if isinstance(lines, Line) else list(lines)
+    cuts = [lines] if isinstance(lines, Line) else several(lines)
+    if not cuts or not all(isinstance(cut, Line) for cut in cuts):
+        refuse("lines", lines, 'a Line of kind "profile", or a list of them, is needed')
     first = cuts[0]
     for cut in cuts:
         if cut.kind != "profile":

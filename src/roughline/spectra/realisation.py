@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.computing.memory import refuse_beyond_memory
-from roughline.errors import InputError
+from roughline.errors.checks import is_whole, one_of, refuse
 from roughline.spectra import synthesis
 from roughline.spectra.band import Band
 from roughline.spectra.lattice import BodyName
@@ -29,8 +29,7 @@ def refuse_unknown_body(body: str) -> None:
     InputError
         If it is neither.
     """
-    if body not in _LARGEST:
-        raise InputError(f'body is {body!r}; allowed are "surface" and "line"')
+    one_of("body", body, _LARGEST)
 
 
 def refuse_points(n: int, body: BodyName) -> None:
@@ -41,10 +40,8 @@ def refuse_points(n: int, body: BodyName) -> None:
     InputError
         If it is not whole, below 3, or too large.
     """
-    if not isinstance(n, int | np.integer) or not 3 <= n <= _LARGEST[body]:
-        raise InputError(
-            f"n is {n!r}; a whole number of points from 3 to {_LARGEST[body]} is needed"
-        )
+    if not is_whole(n) or not 3 <= n <= _LARGEST[body]:
+        refuse("n", n, f"a whole number of points from 3 to {_LARGEST[body]} is needed")
 
 
 def realisation(
@@ -81,8 +78,7 @@ def realisation(
         refuse_beyond_memory(
             _BYTES_PER_POINT * n**2, f"a surface of {n} x {n} points", "take a smaller n"
         )
-    if amplitudes not in ("fixed", "gaussian"):
-        raise InputError(f'amplitudes is {amplitudes!r}; allowed are "fixed" and "gaussian"')
+    one_of("amplitudes", amplitudes, ("fixed", "gaussian"))
     for_phases, for_amplitudes = synthesis.generators(rng)
     seed = synthesis.described(rng, for_phases)
     C_0 = magnitude if normalisation == "C_0" else 1.0

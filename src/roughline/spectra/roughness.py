@@ -10,6 +10,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.spectra.fit import SelfAffineFit, fit_self_affine
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
 from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
@@ -79,6 +80,7 @@ class Roughness:
         return q, replace(fit.spectrum().continuum, C_0=fit.C_0).C_profile(q)
 
 
+@public
 def roughness(body: Body) -> Roughness:
     """Describe a topography.
 

@@ -15,6 +15,8 @@ from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.errors.checks import between, positive, refuse, whole
+from roughline.errors.public import public
 from roughline.spectra import synthesis
 from roughline.spectra.band import Band
 from roughline.spectra.difference import are_close, sum_over_integral, warn_of_difference
@@ -30,7 +32,8 @@ from roughline.topography.body import Line, Surface
 from roughline.topography.settings import Settings
 
 
-@dataclass(frozen=True, init=False)
+@public
+@dataclass(frozen=True, init=False, repr=False)
 class SelfAffine:
     """Isotropic self-affine spectrum with optional roll-off and cutoff (the paper's eq. 3).
 
@@ -101,39 +104,50 @@ class SelfAffine:
         q_high: float | None = None,
     ) -> None:
         if (hurst is None) == (fractal_dimension is None):
-            given = "neither" if hurst is None else "both"
-            raise InputError(f"{given} of hurst and fractal_dimension given; give exactly one")
+            given = "neither is" if hurst is None else "both are"
+            raise InputError(f"give exactly one of hurst= and fractal_dimension=; {given} given")
         if (rms_height is None) == (C_0 is None):
-            given = "neither" if C_0 is None else "both"
-            raise InputError(f"{given} of rms_height and C_0 given; give exactly one")
+            given = "neither is" if C_0 is None else "both are"
+            raise InputError(f"give exactly one of rms_height= and C_0=; {given} given")
         if hurst is None:
             assert fractal_dimension is not None
-            if not 2 <= fractal_dimension <= 3:
-                raise InputError(f"fractal_dimension is {fractal_dimension}; allowed is 2 to 3")
+            between("fractal_dimension", fractal_dimension, 2, 3, "allowed is 2 to 3")
             hurst = round(3 - fractal_dimension, 12)  # 3 - 2.2 means 0.8 to the last bit
-        if not 0 <= hurst <= 1:
-            raise InputError(f"hurst is {hurst}; allowed is 0 to 1")
-        _check_positive("length", length)
+        between("hurst", hurst, 0, 1, "allowed is 0 to 1")
+        positive("length", length)
         q_low = 2 * math.pi / length
         q_roll = q_low if q_roll is None else q_roll
         q_high = math.inf if q_high is None else q_high
         if not q_low * (1 - 1e-12) <= q_roll < math.inf:
-            raise InputError(f"q_roll is {q_roll}; at least q_low = 2 pi / length = {q_low:g}")
+            refuse("q_roll", q_roll, f"at least q_low, 2 pi / length = {q_low:g}, is needed")
         if not q_roll < q_high:
-            raise InputError(f"q_high is {q_high}; more than q_roll = {q_roll:g} is needed")
+            refuse("q_high", q_high, f"more than q_roll, {q_roll:g}, is needed")
         if rms_height is not None:
-            _check_positive("rms_height", rms_height)
+            positive("rms_height", rms_height)
             object.__setattr__(self, "normalisation", "rms_height")
             object.__setattr__(self, "magnitude", float(rms_height))
         else:
             assert C_0 is not None
-            _check_positive("C_0", C_0)
+            positive("C_0", C_0)
             object.__setattr__(self, "normalisation", "C_0")
             object.__setattr__(self, "magnitude", float(C_0))
         object.__setattr__(self, "hurst", float(hurst))
         object.__setattr__(self, "length", float(length))
         object.__setattr__(self, "q_roll", float(q_roll))
         object.__setattr__(self, "q_high", float(q_high))
+
+    def __repr__(self) -> str:
+        """Write the call that makes this spectrum again."""
+        given: dict[str, float] = {
+            "hurst": self.hurst,
+            "length": self.length,
+            self.normalisation: self.magnitude,
+        }
+        if self.q_roll != self.q_low:
+            given["q_roll"] = self.q_roll
+        if self.q_high != math.inf:
+            given["q_high"] = self.q_high
+        return f"SelfAffine({', '.join(f'{name}={value!r}' for name, value in given.items())})"
 
     @property
     def _band(self) -> Band:
@@ -212,6 +226,7 @@ class SelfAffine:
 
     def moment(self, order: int) -> float:
         """<h²>, <(grad h)²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
+        whole("order", order, 0, "0, 2 or 4 is needed, or another whole number from 0 on")
         factor = self._over_bodies("surface") / sum_over_integral(self._band, order, "surface")
         return self._continuum_for("moment", factor).moment(order)
 
@@ -299,8 +314,3 @@ class SelfAffine:
             **made,
         }
         return heights, settings
-
-
-def _check_positive(name: str, value: float) -> None:
-    if not 0 < value < math.inf:
-        raise InputError(f"{name} is {value}; a positive, finite number is needed")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
+from roughline.errors.checks import one_of, refuse, refuse_other_seeds
+from roughline.errors.public import public
 from roughline.statistics import bootstrap
 
 Averaging = Literal["arithmetic", "geometric"]
@@ -50,6 +52,7 @@ class Average:
     __repr__ = summary
 
 
+@public
 def average(
     values: ArrayLike,
     averaging: Averaging = "arithmetic",
@@ -82,7 +85,7 @@ def average(
     >>> print(mean.mean.round(3), mean.low.round(2), mean.high.round(2))
     [1.05  2.075] [0.84 1.8 ] [1.26 2.35]
     """
-    table = _checked_table(values, averaging, confidence)
+    table = _checked_table(values, averaging, confidence, rng)
     averaged = np.log(table) if averaging == "geometric" else table
     count = np.count_nonzero(np.isfinite(table), axis=0)
     resampled = bootstrap.means(averaged, rng)
@@ -92,6 +95,7 @@ def average(
     return Average(mean, low, high, scatter, resampled.error, count, averaging, confidence)
 
 
+@public
 def relative_difference(
     values: ArrayLike,
     reference: ArrayLike,
@@ -125,8 +129,8 @@ def relative_difference(
     InputError
         If the shapes do not fit, or a value is not positive.
     """
-    first = _checked_table(values, "arithmetic", confidence)
-    second = _checked_table(reference, "arithmetic", confidence)
+    first = _checked_table(values, "arithmetic", confidence, rng)
+    second = _checked_table(reference, "arithmetic", confidence, rng)
     if first.shape[1] != second.shape[1] or (paired and first.shape != second.shape):
         raise InputError(
             f"values have shape {first.shape}, the reference {second.shape}; the same loads are "
@@ -159,14 +163,25 @@ def _log_ratio_of_pairs(
     return float(ratio.value), float(low), float(high)
 
 
-def _checked_table(values: ArrayLike, averaging: str, confidence: float) -> Real:
+def refuse_other_settings(averaging: str, confidence: float, rng: int = 0) -> None:
+    """Refuse an average, a level of confidence or a seed that there is not.
+
+    Raises
+    ------
+    InputError
+        With what is allowed.
+    """
+    one_of("averaging", averaging, get_args(Averaging))
+    if not 0 < confidence < 1:
+        refuse("confidence", confidence, "a level between 0 and 1 is needed")
+    refuse_other_seeds(rng)
+
+
+def _checked_table(values: ArrayLike, averaging: str, confidence: float, rng: int) -> Real:
     table = np.asarray(values, dtype=np.float64)
     if table.ndim != 2 or not table.size:
         raise InputError(f"values have shape {table.shape}; (realisations, loads) is needed")
-    if averaging not in ("arithmetic", "geometric"):
-        raise InputError(f'averaging is {averaging!r}; allowed are "arithmetic" and "geometric"')
-    if not 0 < confidence < 1:
-        raise InputError(f"confidence is {confidence}; a level between 0 and 1 is needed")
+    refuse_other_settings(averaging, confidence, rng)
     if averaging == "geometric" and (table <= 0).any():
         raise InputError("a geometric mean needs positive values; some are zero or negative")
     return table

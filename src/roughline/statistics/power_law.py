@@ -11,14 +11,17 @@ from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.errors.checks import refuse, rising_pair
+from roughline.errors.public import public
 from roughline.statistics import bootstrap
-from roughline.statistics.averages import Averaging
+from roughline.statistics.averages import Averaging, refuse_other_settings
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.window import inside_window
 
 Value = TypeVar("Value", float, Real)
 
 
+@public
 @dataclass(frozen=True)
 class PowerLaw:
     """A fitted power law ``stiffness_bar = prefactor * force_bar**exponent``.
@@ -60,6 +63,7 @@ class PowerLaw:
         return self.prefactor * force_bar**self.exponent
 
 
+@public
 def fit_power_law(
     force_bar: ArrayLike,
     stiffness_bar: ArrayLike,
@@ -109,7 +113,8 @@ def fit_power_law(
     >>> print(round(low, 2), round(high, 2))
     0.49 0.54
     """
-    force, stiffness = _loads_in_window(force_bar, stiffness_bar, window, confidence)
+    refuse_other_settings(averaging, confidence, rng)
+    force, stiffness = _loads_in_window(force_bar, stiffness_bar, window)
     several = stiffness.shape[0] > 1
     slope, offset = (
         _resampled_line(force, stiffness, confidence, rng, averaging)
@@ -161,7 +166,7 @@ def linear_exponent(fractal_dimension: Value) -> Value:
 
 
 def _loads_in_window(
-    force_bar: ArrayLike, stiffness_bar: ArrayLike, window: tuple[float, float], confidence: float
+    force_bar: ArrayLike, stiffness_bar: ArrayLike, window: tuple[float, float]
 ) -> tuple[Real, Real]:
     """Forces and stiffness, shape (realisations, loads), inside the window."""
     force = np.asarray(force_bar, dtype=np.float64)
@@ -171,11 +176,10 @@ def _loads_in_window(
             f"force_bar has shape {force.shape} and stiffness_bar {np.shape(stiffness_bar)}; "
             "(loads,) and (loads,) or (realisations, loads) are needed"
         )
-    low, high = window
-    if not 0 < low < high:
-        raise InputError(f"window is {window}; two rising, positive force_bar are needed")
-    if not 0 < confidence < 1:
-        raise InputError(f"confidence is {confidence}; a level between 0 and 1 is needed")
+    needed = "two rising, positive force_bar are needed"
+    low, high = rising_pair("window", window, needed)
+    if not low > 0:
+        refuse("window", window, needed)
     inside = inside_window(force, window)
     if np.count_nonzero(inside) < 3:
         raise InputError(

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
-from roughline.statistics.averages import Averaging
+from roughline.errors.public import public
+from roughline.statistics.averages import Averaging, refuse_other_settings
 
 
 def inside_window(force_bar: Real, window: tuple[float, float]) -> Mask:
@@ -17,6 +18,7 @@ def inside_window(force_bar: Real, window: tuple[float, float]) -> Mask:
     return (force_bar >= window[0] * (1 - 1e-9)) & (force_bar <= window[1] * (1 + 1e-9))
 
 
+@public
 def find_window(
     force_bar: ArrayLike,
     stiffness_bar: ArrayLike,
@@ -49,6 +51,7 @@ def find_window(
     InputError
         If the shapes do not fit, or a value is not positive and finite.
     """
+    refuse_other_settings(averaging, confidence)
     force = np.asarray(force_bar, dtype=np.float64)
     stiffness = np.asarray(stiffness_bar, dtype=np.float64)
     if stiffness.ndim != 2 or stiffness.shape[0] < 2 or stiffness.shape[1:] != force.shape:
@@ -56,6 +59,8 @@ def find_window(
             f"force_bar has shape {force.shape} and stiffness_bar {stiffness.shape}; (loads,) and "
             "(realisations, loads) with two realisations or more are needed"
         )
+    if not ((force > 0).all() and (np.diff(force) > 0).all() and np.isfinite(force).all()):
+        raise InputError("must be positive, finite and rising: sort the loads", "force_bar")
     if not (np.isfinite(stiffness) & (stiffness > 0)).all():
         raise InputError("stiffness_bar must be positive and finite: leave other loads out")
     from scipy.special import stdtrit  # here because it loads slowly

@@ -8,12 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.errors.checks import one_of, positive, refuse
+from roughline.errors.public import public
 from roughline.spectra.moments import SurfaceOrSpectrum
 from roughline.spectra.self_affine import SelfAffine
 from roughline.theories.bush_gibson_thomas import bush_gibson_thomas
@@ -29,6 +32,7 @@ THEORIES: dict[str, Callable[[SurfaceOrSpectrum, float, Real], TheoryCurve]] = {
 """Every theory, by its name."""
 
 
+@public
 def theory(
     name: str,
     roughness: SurfaceOrSpectrum,
@@ -65,6 +69,9 @@ def theory(
     [0.0036 0.0356] [0.19  1.887]
     """
     refuse_unknown(name)
+    if not isinstance(roughness, get_args(SurfaceOrSpectrum)):
+        refuse("roughness", roughness, "a Surface or a spectrum is needed")
+    positive("E_star", E_star, "a positive, finite contact modulus is needed")
     pressures = np.atleast_1d(np.asarray(pressure, dtype=np.float64))
     if not ((pressures > 0) & np.isfinite(pressures)).all():
         raise InputError(f"pressures must be positive and finite; {pressures.min()} is among them")
@@ -78,13 +85,12 @@ def theory(
     return curve
 
 
-def refuse_unknown(name: str) -> None:
-    """Refuse a name that no theory has.
+def refuse_unknown(name: str, argument: str = "name") -> None:
+    """Refuse a name, the value of an argument, that no theory has.
 
     Raises
     ------
     InputError
         With the names that there are.
     """
-    if name not in THEORIES:
-        raise InputError(f"no theory is called {name!r}; there are {', '.join(THEORIES)}")
+    one_of(argument, name, THEORIES)

@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.errors.checks import is_whole, one_of, refuse, rising_pair
+from roughline.errors.public import public
 from roughline.topography.crop import settings_of_piece
 from roughline.topography.heights import (
     checked_heights,
     checked_length,
     checked_sides,
+    checked_unit,
     rms,
     rms_deviation,
 )
@@ -23,11 +26,12 @@ from roughline.topography.settings import (
     AS_RECORDED,
     Settings,
     checked_cut_out,
+    checked_settings,
     checked_trend,
     read_only,
 )
 from roughline.topography.surfacetopography import fields_of_topography
-from roughline.topography.trend import Trend, without_trend
+from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
@@ -35,6 +39,7 @@ if TYPE_CHECKING:
 _NOT_GIVEN = (math.nan, math.nan)  # sizes
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class Surface:
     """Heights of a rough surface on a rectangle.
@@ -98,7 +103,7 @@ class Surface:
                 f"the surface has {heights.shape[0]} x {heights.shape[1]} points; at least 1 x 2 "
                 "are needed: give more points"
             )
-        is_cut_out = checked_cut_out(self.is_cut_out, self.settings)
+        is_cut_out = checked_cut_out(self.is_cut_out, checked_settings(self.settings))
         _freeze(self, heights=heights, sizes=checked_sides(self.sizes), is_cut_out=is_cut_out)
 
     @property
@@ -161,11 +166,11 @@ class Surface:
         InputError
             If they are not within the grid, or not in rising order.
         """
-        for name, (first, end), n in (("x", x, self.shape[0]), ("y", y, self.shape[1])):
-            if not 0 <= first < end <= n:
-                raise InputError(
-                    f"{name} is ({first}, {end}); give 0 <= first < end <= {n}, the points there"
-                )
+        for name, given, n in (("x", x, self.shape[0]), ("y", y, self.shape[1])):
+            needed = f"give (first, end) with 0 <= first < end <= {n}, the points there"
+            first, end = rising_pair(name, given, needed)
+            if first < 0 or end > n or not all(map(is_whole, given)):
+                refuse(name, given, needed)
         (dx, dy), heights = self.spacing, self.heights[slice(*x), slice(*y)]
         return replace(
             self,
@@ -198,6 +203,7 @@ class Surface:
         return with_heights(self, self.heights * factor, height_factor=factor)
 
 
+@public
 @dataclass(frozen=True, eq=False)
 class Line:
     """Heights of a rough line.
@@ -250,8 +256,8 @@ class Line:
         heights = checked_heights(self.heights, dimensions=1)
         if heights.size < 2:
             raise InputError(f"the line has {heights.size} points; at least 2 are needed")
-        if self.kind not in ("reduced", "profile"):
-            raise InputError(f'kind is {self.kind!r}; a line is "reduced" or a "profile"')
+        one_of("kind", self.kind, ("reduced", "profile"))
+        checked_settings(self.settings)
         _freeze(self, heights=heights, length=checked_length(self.length))
 
     @property
@@ -295,6 +301,7 @@ def with_heights(body: BodyType, heights: Real, **settings: Any) -> BodyType:
 
 
 def _detrended(body: BodyType, trend: Trend) -> BodyType:
+    refuse_unknown_trend(trend)
     return replace(
         body,
         heights=without_trend(body.heights, trend),
@@ -312,4 +319,5 @@ def _set(body: Body, **fields: Any) -> None:
 def _freeze(body: Body, **fields: Any) -> None:
     """Set checked fields at birth; the settings become read-only."""
     removed_trend = checked_trend(body.removed_trend, body.settings)
+    checked_unit(body.unit)
     _set(body, **fields, removed_trend=removed_trend, settings=read_only(body.settings))

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.errors.checks import refuse
+from roughline.units import is_unit_of_length
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
@@ -66,6 +68,24 @@ def checked_heights(heights: Any, dimensions: int) -> Real:
     return array
 
 
+def checked_unit(unit: str | None) -> str | None:
+    """Return the unit of a body's lengths.
+
+    Parameters
+    ----------
+    unit : str or None
+        None: it is not known.
+
+    Raises
+    ------
+    InputError
+        If it is no unit of length.
+    """
+    if unit is not None and not is_unit_of_length(unit):
+        refuse("unit", unit, 'a unit of length is needed, such as "um", "mm" or "m"')
+    return unit
+
+
 def checked_sides(sizes: Any) -> tuple[float, float]:
     """Return the sides of a surface.
 
@@ -84,7 +104,7 @@ def checked_sides(sizes: Any) -> tuple[float, float]:
     except (TypeError, ValueError):
         sides = ()
     if len(sides) != 2 or not all(map(_is_length, sides)):
-        raise InputError(f"sizes is {sizes!r}; give two positive, finite numbers (Lx, Ly)")
+        refuse("sizes", sizes, "give two positive, finite numbers (Lx, Ly)")
     return sides
 
 
@@ -106,7 +126,7 @@ def checked_length(length: Any) -> float:
     except (TypeError, ValueError):
         value = np.nan
     if not _is_length(value):
-        raise InputError(f"length is {length!r}; give a positive number")
+        refuse("length", length, "a positive, finite number is needed")
     return value
 
 

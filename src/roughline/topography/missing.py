@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.errors.checks import number, one_of, refuse
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Mask, Real
@@ -40,12 +41,10 @@ class Missing:
     most: float = 0.1
 
     def __post_init__(self) -> None:
-        if self.method not in ("harmonic", "nearest"):
-            raise InputError(
-                f'missing is {self.method!r}; points are filled "harmonic" or "nearest"'
-            )
-        if not 0 <= self.most < 1:
-            raise InputError(f"most_missing is {self.most}; a share from 0 to below 1 is needed")
+        one_of("missing", self.method, ("harmonic", "nearest"))
+        share = "a share from 0 to below 1 is needed"
+        if not 0 <= number("most_missing", self.most, share) < 1:
+            refuse("most_missing", self.most, share)
 
     @property
     def other(self) -> Filling:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.errors.checks import as_number, is_whole, positive, refuse, several
+from roughline.errors.public import public
 from roughline.topography.body import Body, BodyType, Surface, with_heights
 from roughline.topography.crop import Crop, points_in, settings_of_piece
 from roughline.topography.missing import Missing
@@ -23,6 +25,7 @@ _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of
 _ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
 
 
+@public
 @dataclass(frozen=True)
 class Preparation:
     """Steps, in the order in which they are done; each is recorded in the settings of the body.
@@ -58,11 +61,16 @@ class Preparation:
     def __post_init__(self) -> None:
         if self.trend is not None:
             refuse_unknown_trend(self.trend)
-        if self.low_pass is not None and not 0 < self.low_pass < math.inf:
-            raise InputError(f"low_pass is {self.low_pass}; a positive wavelength is needed")
-        for n in np.atleast_1d(self.points if self.points is not None else 2):
-            if n < 2:
-                raise InputError(f"points is {self.points}; at least 2 are needed")
+        if self.crop is not None:
+            ends = [as_number(each) for each in several(self.crop)]
+            if len(ends) not in (2, 4) or not all(e is not None and math.isfinite(e) for e in ends):
+                refuse("crop", self.crop, "give from and to along each side, (x0, x1, y0, y1)")
+        if self.low_pass is not None:
+            positive("low_pass", self.low_pass, "a positive, finite wavelength is needed")
+        if self.points is not None:
+            for n in several(self.points) or [self.points]:
+                if not is_whole(n) or n < 2:
+                    refuse("points", self.points, "whole numbers of at least 2 are needed")
 
     def applied(self, body: BodyType) -> BodyType:
         """Return the body, prepared.
@@ -93,6 +101,7 @@ class Preparation:
         return body
 
 
+@public
 def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     """Return a body prepared.
 

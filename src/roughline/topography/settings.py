@@ -11,10 +11,23 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, get_args
 
-from roughline.errors import InputError
-from roughline.topography.trend import Trend, refuse_unknown_trend
+from roughline.errors.checks import one_of, refuse
+from roughline.topography.trend import Trend
 
 Settings = Mapping[str, str | int | float]
+
+
+def checked_settings(given: Any) -> Settings:
+    """Return settings as they are given.
+
+    Raises
+    ------
+    InputError
+        If they are no mapping.
+    """
+    if not isinstance(given, Mapping):
+        refuse("settings", given, "a mapping of names to texts and numbers is needed")
+    return given
 
 
 def read_only(settings: Settings) -> MappingProxyType[str, str | int | float]:
@@ -56,7 +69,7 @@ def checked_cut_out(given: object, settings: Settings) -> bool:
     if given is None:
         return "cropped" in settings or settings.get("origin") in (MEASURED, PIECE)
     if not isinstance(given, bool):
-        raise InputError(f"is_cut_out is {given!r}; True or False is needed")
+        refuse("is_cut_out", given, "True or False is needed")
     return given
 
 
@@ -78,8 +91,7 @@ def checked_trend(given: Trend | None, settings: Settings) -> Trend:
     if given is None:
         names: tuple[Trend, ...] = get_args(Trend)
         return next((name for name in names if name == settings.get("detrended")), "none")
-    refuse_unknown_trend(given)
-    return given
+    return one_of("removed_trend", given, get_args(Trend))
 
 
 def as_body(settings: Settings) -> Settings:

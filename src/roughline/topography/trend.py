@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from roughline.errors import InputError
+from roughline.errors.checks import one_of
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
@@ -90,8 +90,7 @@ def refuse_unknown_trend(trend: str) -> None:
     InputError
         If no trend has this name; the message lists the known names.
     """
-    if trend not in DEGREES:
-        raise InputError(f"trend is {trend!r}; one of {', '.join(DEGREES)} is needed")
+    one_of("trend", trend, DEGREES)
 
 
 def _polynomials(n: int, degree: int) -> Real:

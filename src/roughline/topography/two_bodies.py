@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.topography.body import Surface
 from roughline.topography.settings import MEASURED
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from roughline.computing.arrays import Real
 
 
+@public
 def facing(first: Surface, second: Surface) -> Surface:
     """Return the surface that stands for two that face each other.
 

@@ -45,7 +45,7 @@ def maps(arguments: Arguments, progress: Progress) -> bytes:
         try:
             row["cells"] = body_in_words(Topography.of(source.path, reading, preparation).body)
         except rl.InputError as error:
-            row["refused"] = without_paths(in_controls(str(error)), arguments)
+            row["refused"] = without_paths(in_controls(error), arguments)
         rows.append(row)
     return frame({"maps": rows})
 

@@ -248,7 +248,7 @@ def at(key: str) -> Iterator[None]:
     try:
         yield
     except rl.RoughlineError as error:
-        raise ControlError(in_controls(str(error)), getattr(error, "at", "") or key) from None
+        raise ControlError(in_controls(error), getattr(error, "at", "") or key) from None
 
 
 def _share(text: str | None) -> float:

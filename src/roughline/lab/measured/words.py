@@ -23,6 +23,6 @@ _CONTROLS = {
 }
 
 
-def in_controls(message: str) -> str:
+def in_controls(message: str | Exception) -> str:
     """Return a message with the names of controls in the places of arguments."""
     return with_arguments_called(message, _CONTROLS, lambda text: f'"{text}"')

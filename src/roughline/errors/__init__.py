@@ -12,9 +12,26 @@ class RoughlineError(Exception):
 class InputError(RoughlineError, ValueError):
     """The input is not usable; the message says what came, what is allowed and what to do.
 
-    An argument that solves the problem is named in the message with an equals sign, such as
-    unit="um".
+    Parameters
+    ----------
+    message : str
+        The message; with `argument`, what follows its name. Another argument, one that solves the
+        problem, is named in it with an equals sign, such as unit="um".
+    argument : str, optional
+        Name of the argument that cannot be used; the message begins with it.
+
+    Attributes
+    ----------
+    argument : str or None
+        That name.
+    statement : str
+        The message without that name, for those who call the argument something else.
     """
+
+    def __init__(self, message: str, argument: str | None = None) -> None:
+        super().__init__(message if argument is None else f"{argument} {message}")
+        self.argument = argument
+        self.statement = message
 
 
 class UnitError(InputError):

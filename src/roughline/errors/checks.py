@@ -1,0 +1,151 @@
+"""Checks of what callers give; each refuses in one line, in terms of the caller's own argument."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from numbers import Integral, Real
+from typing import Any, NoReturn, TypeVar
+
+from roughline.errors import InputError
+
+_LONGEST = 60  # characters of a value that a message shows
+_Choice = TypeVar("_Choice")
+
+
+def refuse(argument: str, given: Any, needed: str) -> NoReturn:
+    """Refuse a value.
+
+    Parameters
+    ----------
+    argument : str
+        Name of the argument.
+    given : object
+        What came.
+    needed : str
+        What is allowed, as a clause: "a positive number is needed".
+
+    Raises
+    ------
+    InputError
+        Always.
+    """
+    raise InputError(f"is {shown(given)}; {needed}", argument)
+
+
+def shown(given: Any) -> str:
+    """Write a value for a message: short, on one line, arrays and objects by what they are."""
+    if isinstance(given, str):
+        return f'"{_short(given)}"'
+    if given is None or isinstance(given, bool | complex):
+        return repr(given)
+    if isinstance(given, Integral):
+        return _short(str(int(given)))
+    if isinstance(given, Real):
+        return repr(float(given))
+    shape = getattr(given, "shape", None)
+    if isinstance(shape, tuple) and shape and type(given).__module__ == "numpy":
+        return f"an array of shape {shape}"
+    if isinstance(given, list | tuple | set | dict):
+        return _short(_of_several(given))
+    if isinstance(given, type):
+        return f"the class {given.__name__}"
+    name = type(given).__name__
+    return f"{'an' if name[0] in 'AEIOUaeio' else 'a'} {name}"
+
+
+def number(argument: str, given: Any, needed: str = "a number is needed") -> float:
+    """Return a real number as a float; text, arrays, True and False are refused."""
+    value = as_number(given)
+    if value is None:
+        refuse(argument, given, needed)
+    return value
+
+
+def positive(
+    argument: str, given: Any, needed: str = "a positive, finite number is needed"
+) -> float:
+    """Return a positive, finite number."""
+    value = number(argument, given, needed)
+    if not 0 < value < math.inf:
+        refuse(argument, given, needed)
+    return value
+
+
+def between(argument: str, given: Any, low: float, high: float, needed: str) -> float:
+    """Return a number from `low` to `high`, both included."""
+    value = number(argument, given, needed)
+    if not low <= value <= high:
+        refuse(argument, given, needed)
+    return value
+
+
+def whole(argument: str, given: Any, least: int, needed: str) -> int:
+    """Return a whole number of at least so much."""
+    if not is_whole(given) or given < least:
+        refuse(argument, given, needed)
+    return int(given)
+
+
+def refuse_other_seeds(rng: Any) -> None:
+    """Refuse a seed that is no whole number."""
+    whole("rng", rng, 0, "a seed, a whole number from 0 on, is needed")
+
+
+def rising_pair(argument: str, given: Any, needed: str) -> tuple[float, float]:
+    """Return two numbers, the second of them larger."""
+    both = [as_number(each) for each in several(given)]
+    if len(both) != 2 or both[0] is None or both[1] is None or not both[0] < both[1]:
+        refuse(argument, given, needed)
+    return both[0], both[1]
+
+
+def one_of(argument: str, given: Any, allowed: Iterable[_Choice]) -> _Choice:
+    """Return the one of the allowed texts that is given."""
+    choices = list(allowed)
+    for each in choices:
+        if isinstance(given, str) and given == each:
+            return each
+    *first, last = [f'"{each}"' for each in choices]
+    names = f"{', '.join(first)} and {last}" if first else last
+    refuse(argument, given, f"allowed {'are' if first else 'is'} {names}")
+
+
+def several(given: Any) -> list[Any]:
+    """The members of a sequence or an array; none of a text or of what has no members."""
+    if isinstance(given, str) or not hasattr(given, "__iter__") or getattr(given, "ndim", 1) == 0:
+        return []
+    return list(given)
+
+
+def as_number(given: Any) -> float | None:
+    """Return a real number, or an array of no dimensions, as a float; None for all else."""
+    is_scalar = isinstance(given, Real) or getattr(given, "shape", None) == ()
+    if isinstance(given, bool) or not is_scalar:
+        return None
+    try:
+        return float(given)
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def is_whole(given: Any) -> bool:
+    """Whether a value is a whole number; True and False are none."""
+    return isinstance(given, Integral) and not isinstance(given, bool)
+
+
+def _short(text: str) -> str:
+    """A text on one line, its middle left out where it is long."""
+    line = " ".join(text.split())
+    half = _LONGEST // 2
+    return line if len(line) <= _LONGEST else f"{line[:half]} ... {line[-half:]}"
+
+
+def _of_several(given: Any) -> str:
+    """Several values in their brackets."""
+    if isinstance(given, dict):
+        return f"a dict with {', '.join(map(str, given)) or 'nothing in it'}"
+    inside = ", ".join(map(shown, given))
+    if isinstance(given, tuple):
+        return f"({inside}{',' if len(given) == 1 else ''})"
+    return f"[{inside}]" if isinstance(given, list) else f"{{{inside}}}"

@@ -1,0 +1,229 @@
+"""Functions and classes that users call: what they are given is held to their signatures."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+from roughline.errors import InputError
+from roughline.errors.checks import as_number, is_whole, refuse
+
+_Door = TypeVar("_Door", bound=Callable[..., Any])
+
+_KINDS: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "float": (lambda given: as_number(given) is not None, "a number"),
+    "int": (is_whole, "a whole number"),
+    "bool": (lambda given: type(given).__name__ in ("bool", "bool_"), "True or False"),
+    "str": (lambda given: isinstance(given, str), "a text"),
+    "Path": (lambda given: hasattr(given, "__fspath__"), "a path"),
+    "ArrayLike": (lambda given: _are_numbers(given), "an array of numbers"),
+    "None": (lambda given: given is None, "None"),
+}
+"""What an annotation allows, and what it is called."""
+
+_CLASSES = {
+    "Surface": "a Surface",
+    "Line": "a Line",
+    "Body": "a Surface or a Line",
+    "BodyType": "a Surface or a Line",
+    "SelfAffine": "a SelfAffine spectrum",
+    "IsotropicSpectrum": "what rl.isotropic_spectrum(surface) returns",
+    "ProfileSpectrum": "what rl.profile_spectrum(lines) returns",
+    "LatticeSpectrum": "what spectrum.lattice(n) returns",
+    "Roughness": "what rl.roughness(body) returns",
+    "Material": 'a Material, such as rl.material("steel"),',
+    "Curve": "a Curve, as rl.press returns it,",
+    "Comparison": "a Comparison, as rl.compare returns it,",
+    "PowerLaw": "a PowerLaw, as rl.fit_power_law returns it,",
+    "TrustMap": "what rl.trust_map() returns",
+    "Axes": "Axes of matplotlib",
+    "Question": "a Question",
+    "Reading": "a Reading, as rl.Reading(...),",
+    "Preparation": "a Preparation, as rl.Preparation(...),",
+    "Plan": "a Plan, as campaign.read_plan returns it,",
+}
+"""Classes that annotations name, and what they are called."""
+
+_MEMBERS = {"Body": ("Surface", "Line"), "BodyType": ("Surface", "Line")}
+
+_MEANT = {
+    "rng": "seed random_state random_seed",
+    "E_star": "E E_modulus modulus young youngs_modulus young_modulus Estar E_eff",
+    "E": "young youngs_modulus young_modulus modulus E_modulus",
+    "nu": "poisson poisson_ratio poissons_ratio",
+    "hurst": "H hurst_exponent hurst_parameter",
+    "fractal_dimension": "D D_f Df fractal_dim dimension",
+    "rms_height": "rms h h_rms hrms sigma Sq Rq rms_heights roughness",
+    "length": "L size sizes side",
+    "sizes": "size L length lengths side sides extent",
+    "q_roll": "roll_off rolloff q_r qr",
+    "q_high": "cutoff cut_off q_s qs q_max",
+    "n": "points N n_points shape size",
+    "forces": "force F load loads pressure pressures",
+    "loads": "load force forces F pressure pressures",
+    "depths": "depth d indentation",
+    "n_loads": "steps n_steps num n_forces points",
+    "axes": "ax axis",
+    "window": "range limits",
+    "averaging": "method average mean",
+    "points": "n resample",
+    "trend": "detrend",
+}
+"""Arguments, and other names that they are called by."""
+
+_EXPLAINED = {
+    "E_star": "the contact modulus, which rl.contact_modulus(first, second) gives of two materials",
+    "forces": "total forces: a mean pressure times the nominal area",
+}
+"""Arguments that differ from what they are mistaken for."""
+
+
+def public(door: _Door) -> _Door:
+    """Return a function or class of which a call that does not fit is refused in one line.
+
+    Names of arguments are held to the signature, and values to those of its annotations that are
+    in the tables above; ranges are the function's own matter. Of a class, this holds for its making
+    and for its public methods.
+
+    Parameters
+    ----------
+    door : function or class
+        Its annotations are texts, as ``from __future__ import annotations`` leaves them.
+    """
+    if not inspect.isclass(door):
+        return _held(door, door.__name__, _refuse_other_kinds)  # type: ignore[return-value]
+    for name, method in list(vars(door).items()):
+        if inspect.isfunction(method) and (name == "__init__" or not name.startswith("_")):
+            called = door.__name__ if name == "__init__" else name
+            setattr(door, name, _held(method, called, _refuse_other_kinds))
+    return door
+
+
+def public_names(door: _Door) -> _Door:
+    """Return a function as :func:`public` does, of which the names of arguments alone are held.
+
+    It looks at all values itself.
+
+    Parameters
+    ----------
+    door : function
+        What users call.
+    """
+    return _held(door, door.__name__, None)  # type: ignore[return-value]
+
+
+def _held(
+    function: Callable[..., Any],
+    called: str,
+    refuse_value: Callable[[str, Any, inspect.Parameter], None] | None,
+) -> Callable[..., Any]:
+    """Return a function that looks at its arguments first."""
+
+    @functools.wraps(function)
+    def held(*positional: Any, **named: Any) -> Any:
+        signature = _signature(function)
+        try:
+            given = signature.bind(*positional, **named).arguments
+        except TypeError:
+            raise _misfit(called, signature, positional, named) from None
+        if refuse_value is not None:
+            for name, value in given.items():
+                refuse_value(name, value, signature.parameters[name])
+        return function(*positional, **named)
+
+    return held
+
+
+@functools.cache
+def _signature(function: Callable[..., Any]) -> inspect.Signature:
+    return inspect.signature(function)
+
+
+def _refuse_other_kinds(name: str, value: Any, parameter: inspect.Parameter) -> None:
+    """Refuse a value of none of the kinds that an annotation names, if all are in the tables."""
+    if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
+        return
+    if value is parameter.default or not isinstance(parameter.annotation, str):
+        return
+    kinds = parameter.annotation.split(" | ")
+    if all(kind in _KINDS or kind in _CLASSES for kind in kinds) and not any(
+        _is_of(value, kind) for kind in kinds
+    ):
+        words = [
+            _KINDS[kind][1] if kind in _KINDS else _CLASSES[kind]
+            for kind in kinds
+            if kind != "None"
+        ]
+        bare = " without a unit" if "float" in kinds and isinstance(value, str) else ""
+        refuse(name, value, f"{' or '.join(words)}{bare} is needed")
+
+
+def _is_of(value: Any, kind: str) -> bool:
+    """Whether a value is of a kind; classes are known by their names, so that none is imported."""
+    if kind in _KINDS:
+        return _KINDS[kind][0](value)
+    names = {each.__name__ for each in type(value).__mro__}
+    return not names.isdisjoint(_MEMBERS.get(kind, (kind,)))
+
+
+def _are_numbers(given: Any) -> bool:
+    """Whether NumPy makes an array of real numbers of it."""
+    import numpy as np  # here because it loads slowly
+
+    try:
+        return np.asarray(given).dtype.kind in "iuf"
+    except (TypeError, ValueError):
+        return False
+
+
+def _misfit(
+    called: str,
+    signature: inspect.Signature,
+    positional: tuple[Any, ...],
+    named: Mapping[str, Any],
+) -> InputError:
+    """Say which argument of a call does not fit, and which one may be meant."""
+    parameters = [each for each in signature.parameters.values() if each.name != "self"]
+    names = [each.name for each in parameters]
+    takes = f"it takes {', '.join(f'{name}=' for name in names) or 'no arguments'}"
+    for name in named:
+        if name not in names:
+            return InputError(f"{called} has no argument {name}=; {_meant(name, names) or takes}")
+    first = len(signature.parameters) - len(names)  # "self"
+    places = [each.name for each in parameters if each.kind != each.KEYWORD_ONLY]
+    if len(positional) - first > len(places):
+        by_name = ", ".join(f"{name}=" for name in names if name not in places)
+        if not places:
+            return InputError(f"{called} takes its arguments by name: {by_name or 'it has none'}")
+        return InputError(
+            f"{called} is given {len(positional) - first} arguments by place; it takes "
+            f"{', '.join(places)} so" + (f", and {by_name} by name" if by_name else "")
+        )
+    given = {*named, *places[: len(positional) - first]}
+    missing = [
+        each.name for each in parameters if each.default is each.empty and each.name not in given
+    ]
+    if missing:
+        return InputError(f"{called} needs {' and '.join(f'{name}=' for name in missing)}; {takes}")
+    twice = next((name for name in places[: len(positional) - first] if name in named), "")
+    return InputError(f"{called} is given {twice}= twice, by place and by name; give it once")
+
+
+def _meant(name: str, names: list[str]) -> str:
+    """Say which of the names is meant by another one; empty where none is near."""
+    called = {each: _MEANT.get(each, "").split() for each in names}
+    likely = [each for each in names if name in called[each]]
+    if len(name) > 1:  # H and h are two quantities
+        likely += [each for each in names if _plain(name) in map(_plain, called[each])]
+    likely += difflib.get_close_matches(name, names, 1)
+    if not likely:
+        return ""
+    explained = f", {_EXPLAINED[likely[0]]}" if likely[0] in _EXPLAINED else ""
+    return f"give {likely[0]}={explained}"
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", "").lower()
