@@ -53,8 +53,11 @@ def test_a_campaign_from_plan_to_files(invoke, plan, tmp_path):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (PLAN.replace("realisations", "realizations"), "is not known: was it meant?"),
-        (PLAN.replace("1024", '"1024"'), "points is '1024'; a whole number is needed"),
+        (
+            PLAN.replace("realisations", "realizations"),
+            "is not known; did you mean 'realisations'?",
+        ),
+        (PLAN.replace("1024", '"1024"'), 'points is "1024"; a whole number is needed'),
         (PLAN.replace("[2.2, 2.8]", "[]"), "fractal_dimensions is []; at least one"),
         (PLAN.replace("1024", "100_000_000_000"), "points; allowed are 3 to"),
         ("seed = ", "is not valid TOML"),
@@ -78,7 +81,7 @@ def test_bad_plans_are_one_line_and_exit_2(invoke, tmp_path, text, message):
         (("campaign", "export", "{plan}", "--out", "x"), "study.zarr does not exist"),
         (("campaign", "run", "{plan}", "--threads", "0"), "threads is 0"),
         (("campaign", "run", "{plan}", "--store", "{plan}"), "study.toml"),
-        (("compare",), "neither of hurst and fractal_dimension"),
+        (("compare",), "give exactly one of --hurst and --fractal-dimension; neither is given"),
         (("compare", "--hurst", "0.5", "--roll-off", "1 mm"), "without the length"),
         (("compare", "--hurst", "0.5", "--tolerance", "10"), "tolerance is 10.0; a share"),
         (("compare", "--hurst", "0.5", "--surfaces", "1"), "surfaces is 1; an interval"),

@@ -132,16 +132,16 @@ def test_the_first_real_surface(topographies, invoke, tmp_path):
     ("arguments", "message"),
     [
         (("press", "none.sur", "--modulus", "1 GPa"), "none.sur does not exist"),
-        (("press", "{file}", "--modulus", "110"), 'modulus is "110", without a unit'),
-        (("press", "{file}", "--modulus", "-1 GPa"), "E_star is -1000000000.0; a positive"),
-        (("press", "{file}", "--modulus", "nan GPa"), "E_star is nan"),
+        (("press", "{file}", "--modulus", "110"), '--modulus is "110", without a unit'),
+        (("press", "{file}", "--modulus", "-1 GPa"), '--modulus is "-1 GPa"; a positive'),
+        (("press", "{file}", "--modulus", "nan GPa"), '--modulus is "nan GPa"; a positive'),
         (("press", "{file}", "--modulus", "5 m"), "no quantity in Pa"),
-        (("press", "{file}", "--modulus", "1 GPa", "--loads", "1"), "n_loads is 1"),
+        (("press", "{file}", "--modulus", "1 GPa", "--loads", "1"), "--loads is 1; a whole number"),
         (("press", "{file}", "--modulus", "1 GPa", "--force", "-1 N"), "give positive ones"),
         (("press", "{file}", "--modulus", "1 GPa", "--force", "0 N"), "give positive ones"),
         (
             ("press", "{file}", "--modulus", "1 GPa", "--load", "2 N", "--load", "1 m"),
-            'load is "1 m"; give a total force such as "10 N", or a mean pressure',
+            '--load is "1 m"; give a total force such as "10 N", or a mean pressure',
         ),
         (
             ("press", "{file}", "--modulus", "1 GPa", "--force", "2 N", "--depth", "1 um"),
@@ -156,7 +156,7 @@ def test_the_first_real_surface(topographies, invoke, tmp_path):
         (("press", "{text}", "--modulus", "1 GPa"), "of a type that is not known"),
         (
             ("generate", "--length", "1 mm", "--rms-height", "1 um", "--out", "x.nc"),
-            "neither of hurst and fractal_dimension",
+            "give exactly one of --hurst and --fractal-dimension; neither is given",
         ),
         (
             (
@@ -170,7 +170,7 @@ def test_the_first_real_surface(topographies, invoke, tmp_path):
                 "--out",
                 "x.nc",
             ),
-            "hurst is 2.0; allowed is 0 to 1",
+            "--hurst is 2.0; allowed is 0 to 1",
         ),
         (
             ("generate", "--hurst", "1", "--length", "1", "--rms-height", "1 um", "--out", "x.nc"),

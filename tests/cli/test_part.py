@@ -87,7 +87,7 @@ def test_a_report_on_a_part_and_its_joint(scans, invoke, tmp_path):
     ("arguments", "message"),
     [
         (("--joint-area", "100 µm^2"), "crop the map, or leave --joint-area out"),
-        (("--joint-area", "0 cm^2"), "give a positive one (--joint-area)"),
+        (("--joint-area", "0 cm^2"), '--joint-area is "0 cm^2"; a positive'),
         (("--joint-area", "2 cm"), "which is no quantity in m^2"),
         (("--joint-area", "2 cm^2", "--depth", "1 um"), "its depth counts from the touch"),
     ],

@@ -204,7 +204,7 @@ def test_tables_of_an_unloading_have_a_value_in_every_cell(unloaded):
             ("--joint-area", "2 cm^2", "--load", "80 kN"),
             "bears less than 74 kN on the joint (H A_0)",
         ),
-        (("--load", "0 N"), 'load is "0 N"; give positive ones'),
+        (("--load", "0 N"), '--load is "0 N"; give positive ones'),
         (("--load", "0 N", "--load", "1 N", "--history"), "and zero only to unload after others"),
         (("--history",), "--history needs --load or --depth in the order of the history"),
         (("--depth", "1 um", "--unload"), "--unload takes off the largest of the loads (--load)"),

@@ -18,6 +18,7 @@ from roughline.campaign.progress import EnsembleProgress, Summary
 from roughline.campaign.writer import writing
 from roughline.computing.cores import available_cores, processor_name
 from roughline.errors import InputError
+from roughline.errors.checks import refuse
 from roughline.errors.public import public
 
 
@@ -162,7 +163,7 @@ def _threads_that_fit(workers: int, wanted: int | None) -> int:
 def _check(scheduler: str | None, workers: int | None, threads: int | None) -> None:
     for name, value in (("workers", workers), ("threads", threads)):
         if value is not None and value < 1:
-            raise InputError(f"{name} is {value}; at least 1 is needed")
+            refuse(name, value, "at least 1 is needed")
     if scheduler is not None and workers is not None:
         raise InputError(
             "both workers and a scheduler are given; the workers of a cluster are started there: "

@@ -7,6 +7,7 @@ import sys
 from typing import Annotated
 
 import typer
+from typer.exceptions import TyperException
 
 from roughline._version import __version__
 from roughline.cli.about import about
@@ -18,10 +19,8 @@ from roughline.cli.flags import in_flags
 from roughline.cli.help import PanelsFirst
 from roughline.cli.lab import lab
 from roughline.cli.topography import generate, info
+from roughline.cli.usage import NOT_OFFERED, in_one_line, refuse_empty
 from roughline.errors import ConvergenceError, RoughlineError
-
-NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered.md"
-"""The page on what the program does not do."""
 
 app = typer.Typer(
     name="roughline",
@@ -63,13 +62,19 @@ def _options(
 def main() -> None:
     """Run the command line; errors are one line, exit code 2 for input and 1 for numerics."""
     try:
-        app()
+        refuse_empty(sys.argv[1:])
+        sys.exit(app(standalone_mode=False))
+    except TyperException as error:
+        if type(error).__name__ == "NoArgsIsHelpError":
+            typer.echo(error.format_message(), err=True)
+            sys.exit(2)
+        sys.exit(_say(in_one_line(error), 2))
     except ConvergenceError as error:
-        sys.exit(_say(error, 1))
+        sys.exit(_say(in_flags(error), 1))
     except RoughlineError as error:
-        sys.exit(_say(error, 2))
+        sys.exit(_say(in_flags(error), 2))
 
 
-def _say(error: RoughlineError, code: int) -> int:
-    typer.echo(f"roughline: {in_flags(str(error))}", err=True)
+def _say(what: str, code: int) -> int:
+    typer.echo(f"roughline: {' '.join(what.split())}", err=True)
     return code

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable
+from roughline.errors.checks import refuse
 
 
 def compare_command(
@@ -54,6 +56,15 @@ def compare_command(
     from roughline.report.progress import load_progress
     from roughline.report.terminal import print_comparison
 
+    if file is None:
+        of_file = {"unit": unit, "channel": channel, "sizes": size}
+        of_file["missing"] = None if fill is options.FillingChoice.harmonic else fill.value
+        of_file["most_missing"] = None if max_missing == 0.1 else f"{max_missing:g}"
+        _refuse(of_file, "it says how a FILE is read, and there is none: leave it out")
+    else:
+        of_spectrum = {"hurst": hurst, "fractal_dimension": fractal_dimension, "length": length}
+        of_spectrum |= {"q_roll": roll_off, "q_high": cutoff}
+        _refuse(of_spectrum, "it belongs to a spectrum, and a FILE is given: leave one of them out")
     roughness = file or options.spectrum_of(
         hurst, fractal_dimension, length, "1 m", roll_off, cutoff
     )
@@ -78,3 +89,10 @@ def compare_command(
         print_json(of_comparison(result, files))
     else:
         print_comparison(result, files)
+
+
+def _refuse(options_given: Mapping[str, Any], why: str) -> None:
+    """Refuse the first of the options that is given."""
+    for name, given in options_given.items():
+        if given is not None:
+            refuse(name, given, why)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import sys
 from pathlib import Path
@@ -13,6 +14,7 @@ from roughline.cli import options
 from roughline.cli.body import press_body
 from roughline.cli.part import press_part
 from roughline.errors import InputError
+from roughline.errors.checks import refuse
 
 LOADS = "Loads"
 BODIES = "Bodies"
@@ -236,8 +238,11 @@ def press_command(
         raise InputError('a report needs a --load, such as "10 N"')
     if friction is not None and report is None and not json:
         raise InputError(
-            "partial slip is written to the report and to JSON only: give --report or --json"
+            "partial slip (--friction) is written to the report and to JSON only: give --report or "
+            "--json"
         )
+    if against is not None and not os.path.isfile(against):  # noqa: PTH113 - of a name too long, too
+        refuse("against", str(against), "no such file: give a file with a topography")
     question = Question(
         file[0] if len(file) == 1 else file,
         materials=materials,

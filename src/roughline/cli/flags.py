@@ -11,14 +11,17 @@ _FLAGS = {
     "materials": "--materials",
     "loads": "--load",
     "depths": "--depth",
+    "n_loads": "--loads",
     "against": "--against",
     "hardness": "--hardness",
     "elastic": "--elastic",
+    "periodic": "--periodic",
     "friction": "--friction",
+    "frequency": "--frequency",
+    "theories": "--theory",
     "history": "--history",
     "unload": "--unload",
     "joint_area": "--joint-area",
-    "n_loads": "--loads",
     "grid_error": "--grid-error",
     "unit": "--unit",
     "channel": "--channel",
@@ -27,6 +30,23 @@ _FLAGS = {
     "most_missing": "--max-missing",
     "trend": "--trend",
     "crop": "--crop",
+    "low_pass": "--low-pass",
+    "points": "--resample",
+    "remove_outliers": "--remove-outliers",
+    "hurst": "--hurst",
+    "fractal_dimension": "--fractal-dimension",
+    "length": "--length",
+    "rms_height": "--rms-height",
+    "q_roll": "--roll-off",
+    "q_high": "--cutoff",
+    "n": "--points",
+    "rng": "--seed",
+    "surfaces": "--surfaces",
+    "force_bars": "--force-bar",
+    "tolerance": "--tolerance",
+    "threads": "--threads",
+    "workers": "--workers",
+    "scheduler": "--scheduler",
     "host": "--host",
     "port": "--port",
     "password_file": "--password-file",
@@ -37,6 +57,6 @@ _FLAGS = {
 }
 
 
-def in_flags(message: str) -> str:
-    """Return a message with flags in the places of arguments, which have an equals sign."""
+def in_flags(message: str | Exception) -> str:
+    """Return a message with flags in the places of arguments."""
     return with_arguments_called(message, _FLAGS, shlex.quote)

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from roughline.errors.checks import positive
+
 _MB = 1_000_000
 
 
@@ -44,6 +46,8 @@ def lab(
     from roughline.server.process import start_forking
     from roughline.server.settings import ServerSettings, password_in
 
+    for name, megabytes in (("max_upload", max_upload), ("max_memory", max_memory)):
+        positive(name, megabytes, "a positive, finite number of MB is needed")
     settings = ServerSettings(
         host=host,
         port=port,

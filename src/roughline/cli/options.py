@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 import typer
 
 from roughline.errors import InputError, RoughlineError
+from roughline.errors.checks import refuse
 
 if TYPE_CHECKING:
     from roughline.assessment.reading import Reading
@@ -150,7 +151,7 @@ def preparation_of(
 ) -> Preparation | None:
     """The preparation that the options describe; None where none is given."""
     from roughline.topography.preparation import Preparation
-    from roughline.units import in_si, lengths
+    from roughline.units import lengths
 
     if not (trend or crop or low_pass or resample is not None or remove_outliers):
         return None
@@ -158,7 +159,7 @@ def preparation_of(
         crop=tuple(lengths(crop, "crop")) if crop else None,
         remove_outliers=remove_outliers,
         trend=trend.value if trend else None,
-        low_pass=in_si(low_pass, "m", "low-pass") if low_pass else None,
+        low_pass=_positive(low_pass, "low_pass") if low_pass else None,
         points=resample,
     )
 
@@ -173,32 +174,36 @@ def spectrum_of(
 ) -> SelfAffine:
     """The spectrum that the options describe; without a length, one without cutoffs."""
     from roughline.spectra.self_affine import SelfAffine
-    from roughline.units import in_si
 
     if length is None and (roll_off or cutoff):
         raise InputError(
             "a roll-off or a cutoff is given without the length of the surface: give --length too"
         )
+    side = _positive(length or "1 m", "length")
+    longest = side if roll_off is None else _positive(roll_off, "q_roll")
+    shortest = None if cutoff is None else _positive(cutoff, "q_high")
+    if longest > side * (1 + 1e-12):
+        refuse("q_roll", roll_off, f"a wavelength of at most the length, {length}, is needed")
+    if shortest is not None and not shortest < longest:
+        refuse("q_high", cutoff, f"a wavelength below {roll_off or length} is needed")
     return SelfAffine(
         hurst=hurst,
         fractal_dimension=fractal_dimension,
-        length=in_si(length or "1 m", "m", "length"),
-        rms_height=in_si(rms_height, "m", "rms-height"),
-        q_roll=wavenumber(roll_off, "roll-off"),
-        q_high=wavenumber(cutoff, "cutoff"),
+        length=side,
+        rms_height=_positive(rms_height, "rms_height"),
+        q_roll=None if roll_off is None else 2 * math.pi / longest,
+        q_high=None if shortest is None else 2 * math.pi / shortest,
     )
 
 
-def wavenumber(text: str | None, name: str) -> float | None:
-    """Read a wavelength, and return its wavenumber. [1 / m]"""
+def _positive(text: str, name: str) -> float:
+    """Read a positive length. [m]"""
     from roughline.units import in_si
 
-    if text is None:
-        return None
-    wavelength = in_si(text, "m", name)
-    if not 0 < wavelength < math.inf:
-        raise InputError(f"{name} is {text}; a positive wavelength is needed")
-    return 2 * math.pi / wavelength
+    length = in_si(text, "m", name)
+    if not 0 < length < math.inf:
+        refuse(name, text, "a positive, finite length is needed")
+    return length
 
 
 def print_json(content: dict[str, Any]) -> None:

@@ -47,7 +47,7 @@ def info(
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     with writable(out):
         result = describe(file, reading, steps)
-    result = replace(result, obstacles=[in_flags(str(each)) for each in result.obstacles])
+    result = replace(result, obstacles=[in_flags(each) for each in result.obstacles])
     files: list[Path] = []
     if out is not None:
         from roughline.report.description_figures import write_description

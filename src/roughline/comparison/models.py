@@ -13,8 +13,9 @@ from numpy.typing import ArrayLike
 from roughline.comparison.single_surface import difference_of_one, scatter_of_surfaces
 from roughline.comparison.trust import Difference
 from roughline.contact.press import press
-from roughline.errors.checks import refuse_other_seeds, whole
+from roughline.errors.checks import refuse, refuse_other_seeds, whole
 from roughline.spectra.isotropic import isotropic_spectrum
+from roughline.spectra.realisation import refuse_points
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.averages import Average, average, relative_difference
 from roughline.statistics.verdict import Verdict
@@ -152,9 +153,12 @@ def compare(
     forces = np.geomspace(1e-3, 3, 15) if force_bars is None else np.asarray(force_bars, float)
     report = progress or (lambda done, total: None)
     refuse_other_seeds(rng)
+    if forces.ndim != 1 or not forces.size or not ((forces > 0) & np.isfinite(forces)).all():
+        refuse("force_bars", force_bars, "positive, finite F / (E* h L) are needed")
     if isinstance(body, Surface):
         return _compare_surface(body, forces, rng, report)
     whole("surfaces", surfaces, 2, "an interval needs at least 2")
+    refuse_points(n, "surface")
     return _compare_spectrum(_on_grid(body, n), n, surfaces, forces, rng, report)
 
 

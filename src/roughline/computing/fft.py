@@ -16,7 +16,7 @@ import numpy as np
 
 from roughline.computing.arrays import Complex, ComplexFloats, Real, Single
 from roughline.computing.cores import available_cores
-from roughline.errors import InputError
+from roughline.errors.checks import refuse
 from roughline.errors.public import public
 
 _threads = available_cores()
@@ -35,9 +35,7 @@ def set_threads(count: int) -> None:
     """
     global _threads
     if not 1 <= count <= available_cores():
-        raise InputError(
-            f"threads is {count}; this machine allows 1 to {available_cores()}: choose one of these"
-        )
+        refuse("threads", count, f"this machine allows 1 to {available_cores()}")
     _threads = count
 
 

@@ -9,7 +9,7 @@ from typing import Any, NoReturn, TypeVar
 
 from roughline.errors import InputError
 
-_LONGEST = 60  # characters of a value that a message shows
+_LONGEST = 80  # characters of a value that a message shows
 _Choice = TypeVar("_Choice")
 
 
@@ -36,22 +36,29 @@ def refuse(argument: str, given: Any, needed: str) -> NoReturn:
 def shown(given: Any) -> str:
     """Write a value for a message: short, on one line, arrays and objects by what they are."""
     if isinstance(given, str):
-        return f'"{_short(given)}"'
+        return f'"{shortened(given)}"'
     if given is None or isinstance(given, bool | complex):
         return repr(given)
     if isinstance(given, Integral):
-        return _short(str(int(given)))
+        return shortened(str(int(given)))
     if isinstance(given, Real):
         return repr(float(given))
     shape = getattr(given, "shape", None)
     if isinstance(shape, tuple) and shape and type(given).__module__ == "numpy":
         return f"an array of shape {shape}"
     if isinstance(given, list | tuple | set | dict):
-        return _short(_of_several(given))
+        return shortened(_of_several(given))
     if isinstance(given, type):
         return f"the class {given.__name__}"
     name = type(given).__name__
     return f"{'an' if name[0] in 'AEIOUaeio' else 'a'} {name}"
+
+
+def shortened(text: str) -> str:
+    """A text on one line, its middle left out where it is long."""
+    line = " ".join(text.split())
+    half = _LONGEST // 2
+    return line if len(line) <= _LONGEST else f"{line[:half]} ... {line[-half:]}"
 
 
 def number(argument: str, given: Any, needed: str = "a number is needed") -> float:
@@ -132,13 +139,6 @@ def as_number(given: Any) -> float | None:
 def is_whole(given: Any) -> bool:
     """Whether a value is a whole number; True and False are none."""
     return isinstance(given, Integral) and not isinstance(given, bool)
-
-
-def _short(text: str) -> str:
-    """A text on one line, its middle left out where it is long."""
-    line = " ".join(text.split())
-    half = _LONGEST // 2
-    return line if len(line) <= _LONGEST else f"{line[:half]} ... {line[-half:]}"
 
 
 def _of_several(given: Any) -> str:

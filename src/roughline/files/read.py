@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.errors.checks import shortened
 from roughline.errors.public import public
 from roughline.files.archives import refuse_bombs
 from roughline.files.heights_in_text import read_text
@@ -115,9 +117,9 @@ def measurement(
         If the file does not exist, has an unknown format, is damaged, or has no such channel.
     """
     path = Path(path)
-    if not path.is_file():
-        what = "is a folder" if path.is_dir() else "does not exist"
-        raise InputError(f"{name or path} {what}; give a file with a topography")
+    if not os.path.isfile(path):  # noqa: PTH113 - of a name that no file can have, Path raises
+        what = "is a folder" if os.path.isdir(path) else "does not exist"  # noqa: PTH112
+        raise InputError(f"{name or shortened(str(path))} {what}; give a file with a topography")
     name = name or path.name
     if path.stat().st_size == 0:
         raise InputError(f"{name} is empty: export it again")

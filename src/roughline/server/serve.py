@@ -20,6 +20,7 @@ from tornado.web import Application
 
 from roughline.computing.cores import available_cores
 from roughline.errors import InputError
+from roughline.errors.checks import refuse, shown
 from roughline.server.access import Visitors
 from roughline.server.empty_figures import EmptyFigures
 from roughline.server.handlers import (
@@ -218,8 +219,9 @@ def _listening(settings: ServerSettings) -> list[socket.socket]:
         sockets = bind_sockets(settings.port, settings.host)
     except socket.gaierror as error:
         raise InputError(
-            f'host="{settings.host}" is not an address of this machine: give one, or 127.0.0.1 for '
-            "this machine alone"
+            f"is {shown(settings.host)}, which is no address of this machine: give one, or "
+            "127.0.0.1 for this machine alone",
+            "host",
         ) from error
     except (OSError, UnicodeError) as error:
         why = os.strerror(error.errno) if isinstance(error, OSError) and error.errno else error
@@ -231,7 +233,7 @@ def _listening(settings: ServerSettings) -> list[socket.socket]:
     if settings.is_local and not all(ip_address(each).is_loopback for each in found):
         for each in sockets:
             each.close()
-        raise InputError(f'host="{settings.host}" leads to other machines here: give 127.0.0.1')
+        refuse("host", settings.host, "it leads to other machines here: give 127.0.0.1")
     return sockets
 
 

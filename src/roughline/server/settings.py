@@ -8,6 +8,7 @@ from ipaddress import ip_address
 from pathlib import Path
 
 from roughline.errors import InputError
+from roughline.errors.checks import refuse, shown
 
 LOOPBACK = "127.0.0.1"
 _LEAST_MEMORY = 500_000_000  # of a task [bytes]
@@ -56,18 +57,17 @@ class ServerSettings:
             raise InputError("host is empty; give an address, such as 127.0.0.1")
         if not self.is_local and not self.password:
             raise InputError(
-                f'host="{self.host}" lets other machines in: put a password into a file and give '
-                "it too (password_file=)"
+                f"is {shown(self.host)}, which lets other machines in: put a password into a file "
+                "and give it too (password_file=)",
+                "host",
             )
         if self.password is not None and len(self.password) < 8:
             raise InputError("the password has fewer than 8 characters; take a longer one")
         if not 0 <= self.port < 65536:
-            raise InputError(f"port is {self.port}; 0 (any free one) to 65535 is allowed")
+            refuse("port", self.port, "0 (any free one) to 65535 is allowed")
         for name in ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions"):
             if not 0 < getattr(self, name) < math.inf:
-                raise InputError(
-                    f"a limit of {getattr(self, name)} is not possible: give a positive {name}="
-                )
+                refuse(name, getattr(self, name), "a positive, finite number is needed")
         if self.max_memory < _LEAST_MEMORY:
             raise InputError(
                 f"{self.max_memory / 1e6:g} MB of memory is too little: give a max_memory= of at "
@@ -94,7 +94,9 @@ def password_in(file: Path) -> str:
     try:
         lines = file.read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"cannot read the password from {file} ({error})") from error
+        why = getattr(error, "strerror", None) or "it is no text"
+        needed = f"it cannot be read ({why}): give a file whose first line is the password"
+        raise InputError(f"is {shown(str(file))}; {needed}", "password_file") from error
     if not lines or not lines[0].strip():
-        raise InputError(f"{file} has no password in its first line: write one there")
+        refuse("password_file", str(file), "it has no password in its first line: write one there")
     return lines[0].strip()

@@ -1,0 +1,120 @@
+"""Mistakes in a command itself, each said in one line: what came, what is allowed, what to do."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from typing import Any
+
+from roughline.errors import InputError
+from roughline.errors.checks import shown
+
+NOT_OFFERED = "https://github.com/roughline/roughline/tree/main/docs/not_offered.md"
+"""The page on what the program does not do."""
+
+_NOT_DONE = {
+    "adhesion": "adhesion adhesive adhesion-energy work-of-adhesion surface-energy jkr dmt "
+    "pull-off",
+    "the leak through a gap": "leak leaks leakage leak-rate seal gasket flow percolation permeance",
+    "a layer or coating": "coating coatings coat layer layers layered film thickness substrate",
+    "viscoelasticity": "viscoelastic viscoelasticity viscous creep relaxation rubber loss-modulus",
+    "sliding and coupled friction": "sliding slip stick-slip shear fretting coupled-friction "
+    "friction-coupled tangential tangential-load traction",
+    "lubrication": "lubrication lubricant oil ehl viscosity film-thickness",
+    "wear": "wear abrasion archard running-in",
+    "heat": "temperature heat heating thermal-expansion flash-temperature",
+    "gas in the gap": "gas air helium gap-conductance vacuum",
+    "time and dynamics": "impact damping velocity speed time vibration",
+    "finite deformation": "large-strain large-strains finite-strain large-deformation",
+    "plastic flow inside the body": "hardening pile-up residual-stress plasticity",
+    "an anisotropic body": "anisotropic anisotropy orthotropic single-crystal",
+}
+"""What is not done, and words that options would be named by."""
+
+_KINDS = {"int": "a whole number is needed", "float": "a number is needed"}
+"""What is needed where the parser's name of a mistake begins so."""
+
+
+def refuse_empty(arguments: list[str]) -> None:
+    """Refuse values that are empty, as those of variables of a shell that are not set.
+
+    Raises
+    ------
+    InputError
+        With the option that the empty value belongs to.
+    """
+    for i, argument in enumerate(arguments):
+        option, sign, value = argument.partition("=")
+        if not option.startswith("--") or not sign:
+            option, value = (arguments[i - 1] if i else ""), argument
+        if not value.strip():
+            named = option if option.startswith("-") else "an argument"
+            raise InputError(f'{named} is ""; give a value, or leave {named} out')
+
+
+def in_one_line(mistake: Any) -> str:
+    """Say what is wrong with a command.
+
+    Parameters
+    ----------
+    mistake : typer.exceptions.TyperException
+        What the parser raised; its kinds are known by what they carry.
+    """
+    context = getattr(mistake, "ctx", None)
+    command = getattr(context, "command", None)
+    parameter, option = getattr(mistake, "param", None), getattr(mistake, "option_name", None)
+    if option is not None and hasattr(mistake, "possibilities"):
+        return _unknown(option, command)
+    if option is not None:
+        takes_none = "not take" in mistake.message
+        return f"{option} {'takes no value: leave it out' if takes_none else 'needs a value'}"
+    if parameter is not None:
+        return _of_parameter(parameter, mistake)
+    path = getattr(context, "command_path", "").rpartition("roughline")[2]
+    see = f"see roughline{path} --help"
+    if extra := re.search(r"unexpected extra argument[()s]* \((.*)\)", mistake.message, re.DOTALL):
+        return f"{shown(extra[1])} is not expected there; {see}"
+    if unknown := re.match(r"No such command '(.*?)'\.?", mistake.message, re.DOTALL):
+        names = list(getattr(command, "commands", ()))
+        return f"there is no command {shown(unknown[1])}; {_meant(unknown[1], names, 'commands')}"
+    return mistake.format_message()
+
+
+def _unknown(option: str, command: Any) -> str:
+    """Say of an unknown option what is near it, or that what it asks for is not offered."""
+    word = option.lstrip("-").lower().replace("_", "-")
+    options = [name for each in getattr(command, "params", ()) for name in each.opts]
+    near = difflib.get_close_matches(option, options, 2, cutoff=0.75)
+    for topic, words in _NOT_DONE.items():
+        if word in words.split() and not near:
+            return (
+                f"there is no option {option}: {topic} is not offered; what to use: {NOT_OFFERED}"
+            )
+    return f"there is no option {shown(option)[1:-1]}; {_meant(option, options, 'options')}"
+
+
+def _meant(given: str, names: list[str], called: str) -> str:
+    """Name what is near, or where the list is."""
+    near = difflib.get_close_matches(given, names, 2, cutoff=0.75)
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    return f"--help lists the {called}"
+
+
+def _of_parameter(parameter: Any, mistake: Any) -> str:
+    """Say what an option or an argument needs."""
+    name = max(parameter.opts, key=len)
+    name = name if name.startswith("-") else name.upper()
+    if not mistake.message:
+        wanted = (getattr(parameter, "help", None) or "").rstrip(".")
+        return f"{name} is needed" + (f", {wanted[0].lower()}{wanted[1:]}" if wanted else "")
+    found: list[Any] = getattr(mistake.__cause__, "errors", list)()
+    if not found:
+        return f"{name}: {mistake.message}"
+    kind, bounds = found[0]["type"], found[0].get("ctx", {})
+    needed = _KINDS.get(kind.partition("_")[0], mistake.message)
+    if "ge" in bounds:
+        needed = f"at least {bounds['ge']} is needed"
+    elif choices := re.search(r"is not one of (.*?)\.?$", mistake.message):
+        needed = f"allowed are {choices[1]}".replace("'", '"')
+    return f"{name} is {shown(found[0]['input'])}; {needed}"
