@@ -160,3 +160,17 @@ def test_moments_that_diverge_say_so():
         spectrum.moment(2)
     with pytest.raises(rl.InputError, match="diverges for H = 0"):
         _ = rl.SelfAffine(hurst=0.0, rms_height=1.0).C_0
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"hurst": 0.8, "rms_height": 1e-6, "length": 1e-3},
+        {"fractal_dimension": 2.3, "C_0": 2e-30},
+        {"hurst": 0, "rms_height": 1, "q_roll": 20.0, "q_high": 400.0},
+        {"hurst": 1, "rms_height": 0.1, "length": 3, "q_high": 1e5},
+    ],
+)
+def test_what_is_printed_makes_the_spectrum_again(given):
+    spectrum = rl.SelfAffine(**given)
+    assert eval(repr(spectrum), {"SelfAffine": rl.SelfAffine}) == spectrum

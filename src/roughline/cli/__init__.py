@@ -63,7 +63,7 @@ def main() -> None:
     """Run the command line; errors are one line, exit code 2 for input and 1 for numerics."""
     try:
         refuse_empty(sys.argv[1:])
-        sys.exit(app(standalone_mode=False))
+        sys.exit(app(standalone_mode=False) or 0)
     except TyperException as error:
         if type(error).__name__ == "NoArgsIsHelpError":
             typer.echo(error.format_message(), err=True)

@@ -25,7 +25,7 @@ _NOT_DONE = {
     "heat": "temperature heat heating thermal-expansion flash-temperature",
     "gas in the gap": "gas air helium gap-conductance vacuum",
     "time and dynamics": "impact damping velocity speed time vibration",
-    "finite deformation": "large-strain large-strains finite-strain large-deformation",
+    "finite deformation": "finite-deformation large-strain finite-strain large-deformation",
     "plastic flow inside the body": "hardening pile-up residual-stress plasticity",
     "an anisotropic body": "anisotropic anisotropy orthotropic single-crystal",
 }
@@ -84,9 +84,8 @@ def _unknown(option: str, command: Any) -> str:
     """Say of an unknown option what is near it, or that what it asks for is not offered."""
     word = option.lstrip("-").lower().replace("_", "-")
     options = [name for each in getattr(command, "params", ()) for name in each.opts]
-    near = difflib.get_close_matches(option, options, 2, cutoff=0.75)
     for topic, words in _NOT_DONE.items():
-        if word in words.split() and not near:
+        if word in words.split():
             return (
                 f"there is no option {option}: {topic} is not offered; what to use: {NOT_OFFERED}"
             )

@@ -47,11 +47,17 @@ _CLASSES = {
 }
 """Classes that annotations name, and what they are called."""
 
+_MAKING = {
+    "Surface": "rl.Surface(heights, sizes=(Lx, Ly))",
+    "Line": "rl.Line(heights, length=L)",
+}
+"""How bodies are made of arrays."""
+
 _MEMBERS = {"Body": ("Surface", "Line"), "BodyType": ("Surface", "Line")}
 
 _MEANT = {
     "rng": "seed random_state random_seed",
-    "E_star": "E E_modulus modulus young youngs_modulus young_modulus Estar E_eff",
+    "E_star": "E E_modulus modulus young youngs_modulus young_modulus Estar E_eff nu poisson",
     "E": "young youngs_modulus young_modulus modulus E_modulus",
     "nu": "poisson poisson_ratio poissons_ratio",
     "hurst": "H hurst_exponent hurst_parameter",
@@ -71,12 +77,14 @@ _MEANT = {
     "averaging": "method average mean",
     "points": "n resample",
     "trend": "detrend",
+    "is_cut_out": "periodic",
 }
 """Arguments, and other names that they are called by."""
 
 _EXPLAINED = {
     "E_star": "the contact modulus, which rl.contact_modulus(first, second) gives of two materials",
     "forces": "total forces: a mean pressure times the nominal area",
+    "is_cut_out": "False for a surface that is repeated periodically",
 }
 """Arguments that differ from what they are mistaken for."""
 
@@ -158,7 +166,19 @@ def _refuse_other_kinds(name: str, value: Any, parameter: inspect.Parameter) -> 
             if kind != "None"
         ]
         bare = " without a unit" if "float" in kinds and isinstance(value, str) else ""
-        refuse(name, value, f"{' or '.join(words)}{bare} is needed")
+        refuse(name, value, f"{' or '.join(words)}{bare} is needed{_how_to_make(value, kinds)}")
+
+
+def _how_to_make(value: Any, kinds: list[str]) -> str:
+    """How a body is made of what came instead."""
+    wanted = {member for kind in kinds for member in _MEMBERS.get(kind, (kind,))} & {*_MAKING}
+    if not wanted:
+        return ""
+    if isinstance(value, str) or hasattr(value, "__fspath__"):
+        return ": rl.read(file) makes one of a file"
+    if hasattr(value, "shape") or isinstance(value, list):
+        return f": make one, {' or '.join(_MAKING[each] for each in sorted(wanted, reverse=True))}"
+    return ""
 
 
 def _is_of(value: Any, kind: str) -> bool:
@@ -207,7 +227,10 @@ def _misfit(
         each.name for each in parameters if each.default is each.empty and each.name not in given
     ]
     if missing:
-        return InputError(f"{called} needs {' and '.join(f'{name}=' for name in missing)}; {takes}")
+        explained = f", {_EXPLAINED[missing[0]]}" if missing[0] in _EXPLAINED else ""
+        them = "them" if len(missing) > 1 else "it"
+        listed = " and ".join(f"{name}=" for name in missing)
+        return InputError(f"{called} needs {listed}{explained}; give {them}")
     twice = next((name for name in places[: len(positional) - first] if name in named), "")
     return InputError(f"{called} is given {twice}= twice, by place and by name; give it once")
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughline.errors import InputError
-from roughline.errors.checks import refuse
+from roughline.errors.checks import refuse, shown
 from roughline.units import is_unit_of_length
 
 if TYPE_CHECKING:
@@ -49,7 +49,8 @@ def checked_heights(heights: Any, dimensions: int) -> Real:
             array = np.ascontiguousarray(array)
         array = array.view()
     except (TypeError, ValueError) as error:
-        raise InputError(f"the heights are not an array of real numbers ({error})") from error
+        what = "complex numbers" if str(error) == "complex" else shown(heights)
+        raise InputError(f"are not an array of real numbers, but {what}", "heights") from error
     if array.ndim != dimensions:
         name = {1: "a Line", 2: "a Surface"}[dimensions]
         raise InputError(
