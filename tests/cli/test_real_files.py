@@ -349,9 +349,9 @@ def test_points_filled_before_are_not_said_to_matter_nothing(topographies, invok
         ),
         (("--modulus", "1 GPa", "--crop", "0 um, 1 um"), "crop has 2 lengths; give 4"),
         (("--modulus", "1 GPa", "--low-pass", "5"), "without a unit"),
-        (("--modulus", "1 GPa", "--against", "none.nc"), "none.nc does not exist"),
+        (("--modulus", "1 GPa", "--against", "none.nc"), '--against is "none.nc"; no such file'),
         (("--modulus", "1 GPa", "--channel", "1"), "has one channel only; leave --channel out"),
-        (("--modulus", "1 GPa", "--max-missing", "2"), "most_missing is 2"),
+        (("--modulus", "1 GPa", "--max-missing", "2"), "--max-missing is 2.0"),
     ],
 )
 def test_questions_that_do_not_fit_together(tmp_path, invoke, arguments, message):
