@@ -94,9 +94,9 @@ def test_passwords_of_any_letters_are_compared():
         ({"password": "short"}, "fewer than 8"),
         ({"port": 65536}, "port is 65536"),
         ({"max_upload": 0}, "max_upload is 0; a positive"),
-        ({"max_seconds": -1.0}, "positive max_seconds="),
-        ({"max_seconds": float("nan")}, "limit of nan"),
-        ({"max_seconds": float("inf")}, "limit of inf"),
+        ({"max_seconds": -1.0}, "max_seconds is -1.0; a positive"),
+        ({"max_seconds": float("nan")}, "max_seconds is nan"),
+        ({"max_seconds": float("inf")}, "max_seconds is inf"),
         ({"max_memory": 1e6}, "1 MB of memory is too little"),
     ],
 )

@@ -66,7 +66,7 @@ class Preparation:
             if len(ends) not in (2, 4) or not all(e is not None and math.isfinite(e) for e in ends):
                 refuse("crop", self.crop, "give from and to along each side, (x0, x1, y0, y1)")
         if self.low_pass is not None:
-            positive("low_pass", self.low_pass, "a positive, finite wavelength is needed")
+            positive("low_pass", self.low_pass, "a positive wavelength is needed")
         if self.points is not None:
             for n in several(self.points) or [self.points]:
                 if not is_whole(n) or n < 2:

@@ -19,6 +19,11 @@ _CONTROLS = {
     "hardness": "hardness",
     "elastic": '"elastic"',
     "joint_area": "joint area",
+    "low_pass": "low pass",
+    "points": "points",
+    "frequency": "frequency",
+    "theories": "theories",
+    "depths": "depths",
     "friction": "friction",
 }
 
