@@ -171,8 +171,8 @@ def test_a_store_that_is_not_finished_is_refused(own_store, invoke, tmp_path, mo
     ("arguments", "message"),
     [
         (("--fractal-dimensions", "2.1; 2.5"), '--fractal-dimensions is "2.1; 2.5"; numbers with'),
-        (("--fractal-dimensions", "1.9"), "fractal dimension 1.9; allowed is 2 to 3"),
-        (("--points", "2"), "2 points; allowed are 3 to"),
+        (("--fractal-dimensions", "1.9"), '"1.9"; numbers from 2 to 3, each once, are needed'),
+        (("--points", "2"), "--points is 2; 3 to 32768 points are needed"),
         (("--realisations", "0"), "0 realisations; at least one"),
         (("--force-bars", "1 to 0.1, 4 per decade"), "two rising, positive loads and 1 to 1000"),
         (("--force-bars", "0.1, 0.01"), "force_bars must be positive, finite and rising"),
@@ -181,7 +181,7 @@ def test_a_store_that_is_not_finished_is_refused(own_store, invoke, tmp_path, mo
         (("--plan", "{own}", "--points", "32"), "--points is given beside --plan"),
         (("--store", "{own}", "--seed", "3"), "--seed is given beside --store"),
         (("--plan", "{one}"), "there is lines (reduced)"),
-        (("--plan", "none.toml"), "none.toml does not exist; a plan in TOML is needed"),
+        (("--plan", "none.toml"), '--plan is "none.toml"; there is no such file'),
     ],
 )
 def test_what_makes_no_study_is_one_line(invoke, tmp_path, arguments, message):

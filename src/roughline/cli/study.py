@@ -2,19 +2,39 @@
 
 from __future__ import annotations
 
+import math
+import os
 import re
 import shlex
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from operator import lt
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from roughline.errors import InputError
+from roughline.errors.checks import refuse, shown
 
 if TYPE_CHECKING:
     from roughline.paper.study import Study
     from roughline.paper.windows import Window, Windows
 
 _RANGE = re.compile(r"\s*(\S+)\s+to\s+(\S+)\s*,\s*(\d+)\s+per\s+decade\s*")
+
+_NEEDED: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "fractal_dimensions": (
+        lambda given: all(2 <= each <= 3 for each in given) and len({*given}) == len(given),
+        "numbers from 2 to 3, each once, are",
+    ),
+    "points": (lambda given: 3 <= given <= 2**15, f"3 to {2**15} points are"),
+    "line_points": (lambda given: 3 <= given <= 2**28, f"3 to {2**28} points are"),
+    "realisations": (lambda given: given >= 1, "at least one is"),
+    "lines": (lambda given: given >= 1, "at least one is"),
+    "force_bars": (
+        lambda given: given[0] > 0 and given[-1] < math.inf and all(map(lt, given, given[1:])),
+        "positive, finite and rising loads F / (E* h L) are",
+    ),
+}
+"""What the settings of a study must be, and how that is said."""
 
 
 def study_of(
@@ -66,6 +86,8 @@ def study_of(
             "says what is computed: leave one of the two out"
         )
     if plan is not None:
+        if not os.path.isfile(plan):  # noqa: PTH113 - of a name that no file can have, Path raises
+            refuse("--plan", str(plan), "there is no such file: give a plan in TOML")
         where = store or plan.with_suffix(".zarr")
         return Study(read_plan(plan), where, f"from the plan {plan.name}", command, fitted)
     assert store is not None
@@ -87,6 +109,11 @@ def _settings(given: Mapping[str, Any]) -> dict[str, Any]:
     for name, read in (("fractal_dimensions", _numbers), ("force_bars", _forces)):
         if name in settings:
             settings[name] = read(settings[name], f"--{name.replace('_', '-')}")
+    for name, value in settings.items():
+        holds, needed = _NEEDED[name]
+        if not holds(value):
+            option = name.replace("_", "-")
+            refuse(f"--{option}", given[option], f"{needed} needed")
     return settings
 
 
@@ -104,7 +131,8 @@ def _numbers(text: str, flag: str, example: str = "2.1, 2.5, 2.9") -> tuple[floa
         return tuple(float(part) for part in text.split(","))
     except ValueError:
         raise InputError(
-            f'{flag} is "{text}"; numbers with commas between them are needed, such as "{example}"'
+            f"{flag} is {shown(text)}; numbers with commas between them are needed, such as "
+            f'"{example}"'
         ) from None
 
 
@@ -120,7 +148,7 @@ def _forces(text: str, flag: str) -> tuple[float, ...]:
     count = int(found[3])
     if not (0 < low < high < float("inf") and 1 <= count <= 1000):
         raise InputError(
-            f'{flag} is "{text}"; two rising, positive loads and 1 to 1000 per decade are needed, '
+            f"{flag} is {shown(text)}; two rising, positive loads and 1 to 1000 per decade are needed, "
             f'such as "{example}"'
         )
     return decades(low, high, count)
@@ -130,7 +158,7 @@ def _window(text: str, flag: str) -> Window:
     numbers = _numbers(text, flag, "0.01, 0.1")
     if len(numbers) != 2 or not 0 < numbers[0] < numbers[1] < float("inf"):
         raise InputError(
-            f'{flag} is "{text}"; two rising, positive loads F / (E* h L) are needed, such as '
+            f"{flag} is {shown(text)}; two rising, positive loads F / (E* h L) are needed, such as "
             '"0.01, 0.1"'
         )
     return numbers[0], numbers[1]
