@@ -148,8 +148,8 @@ def _forces(text: str, flag: str) -> tuple[float, ...]:
     count = int(found[3])
     if not (0 < low < high < float("inf") and 1 <= count <= 1000):
         raise InputError(
-            f"{flag} is {shown(text)}; two rising, positive loads and 1 to 1000 per decade are needed, "
-            f'such as "{example}"'
+            f"{flag} is {shown(text)}; two rising, positive loads and 1 to 1000 per decade "
+            f'are needed, such as "{example}"'
         )
     return decades(low, high, count)
 
