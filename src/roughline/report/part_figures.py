@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
 
 _ABREAST = 4  # maps of heights in a row
 _LOG_FROM = 5.0  # largest over smallest from which on an axis is logarithmic
-_LONGEST = 18  # letters of a name under an axis
+_LONGEST, _BEGIN = 18, 4  # letters of a name under an axis, and of them from its beginning
+_BROAD = 22  # letters of a line beside an axis
 _MOST_NAMED = 12  # maps whose names fit under an axis
 
 MOST_HEIGHTS = 16
@@ -112,9 +114,10 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     else:
         axes.set_xlabel("number of the map")
     axes.set_xlim(0.5, values.size + 0.5)
-    axes.set_ylabel(answer.name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=8)
+    name = textwrap.fill(answer.name, _BROAD)
+    axes.set_ylabel(name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=8)
 
 
 def _short(name: str) -> str:
-    """A name that fits under an axis."""
-    return name if len(name) <= _LONGEST else f"{name[: _LONGEST - 1]}…"
+    """A name that fits under an axis; maps of a part mostly differ in the end of their names."""
+    return name if len(name) <= _LONGEST else f"{name[:_BEGIN]}…{name[_BEGIN + 1 - _LONGEST :]}"
