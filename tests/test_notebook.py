@@ -99,6 +99,19 @@ def test_a_notebook_shows_the_loads_of_a_curve():
     assert row == ["0", "–", "–", "–", "–", "–", "max_iterations reached above the tolerance"]
 
 
+def test_a_notebook_tells_once_that_loads_were_interrupted():
+    def stopping(done, total):
+        if done == 2:
+            raise KeyboardInterrupt
+
+    surface = SPECTRUM.surface(32, 3)
+    with pytest.raises(rl.Interrupted) as stopped:
+        rl.press(surface, E_star=1.0, n_loads=12, progress=stopping)
+    _, *rows = cells(stopped.value.curve._repr_html_())
+    assert [row[0] for row in rows] == ["0", "1", "10 of 12"]
+    assert rows[-1][-1] == "not solved: interrupted before"
+
+
 def pictures_below(cells):
     """The number of pictures below each cell of a notebook, which a kernel of its own runs."""
     import nbformat

@@ -35,7 +35,13 @@ from roughline.assessment.variants import (
 )
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.curve import Curve
-from roughline.contact.estimates import estimate, expected_area_fraction, memory_for
+from roughline.contact.estimates import (
+    duration,
+    estimate,
+    expected_area_fraction,
+    gigabytes,
+    memory_for,
+)
 from roughline.contact.loads import Loads
 from roughline.engineering.intervals import Intervals
 from roughline.errors.public import public
@@ -47,6 +53,11 @@ Announce = Callable[[str], None]
 
 _LARGE = 2**20  # points from which on the cost is announced
 _MANY = 1000  # loads from which on the cost is announced
+# Memory beside that of a press, as whole commands on 1024² and 2048² points took it. [bytes]
+_BYTES_TO_READ = 30_000_000
+_BYTES_TO_ANSWER = 30_000_000
+_BYTES_OF_OTHER_CURVES = 28  # and of their surfaces; per point
+_BYTES_TO_DRAW = 160_000_000
 
 
 @public
@@ -147,16 +158,27 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
         )
     if announce is not None and (large or case.count >= _MANY):
         cost_of = partial(estimate, body.shape, case.count, yielding=yielding, area_fraction=share)
-        cost = str(cost_of(periodic=case.periodic))
+        told = cost_of(periodic=case.periodic, fields=[0] if question.fields else False)
+        memory = told.memory + _bytes_beside(question, body)
+        cost = f"about {gigabytes(memory)} and {duration(told.seconds)}"
         if twice:
-            interface = cost_of(periodic=True)
-            cost += f", then {interface} for the interface"
+            cost += f", then {duration(cost_of(periodic=True).seconds)} for the interface"
         if more := repeats(question, body):
             cost += (
                 f"; where points yield, up to {more:g} times as long in addition, for elastic "
                 "bodies and for the scatter of the hardness"
             )
         announce(f"{body.shape[0]} x {body.shape[1]} points, {case.count} loads: {cost}")
+
+
+def _bytes_beside(question: Question, body: Surface) -> int:
+    """Return the memory that a question takes beside a press: to read, to answer, to draw."""
+    taken = _BYTES_TO_READ
+    if question.materials is not None:
+        taken += _BYTES_TO_ANSWER + _BYTES_OF_OTHER_CURVES * body.heights.size
+    if question.fields:
+        taken += _BYTES_TO_DRAW
+    return taken
 
 
 def _expected_share(body: Surface, case: LoadCase) -> float | None:

@@ -62,7 +62,7 @@ class Estimate:
     seconds: float
 
     def __str__(self) -> str:
-        return f"about {gigabytes(self.memory)} and {_duration(self.seconds)}"
+        return f"about {gigabytes(self.memory)} and {duration(self.seconds)}"
 
 
 @public_names
@@ -213,7 +213,8 @@ def gigabytes(memory: int) -> str:
     return f"{size:.0f} GB" if size >= 100 else f"{size:.2g} GB"
 
 
-def _duration(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """Return a time in words, to two digits."""
     for size, unit in ((3600, "h"), (60, "min")):
         if seconds >= size:
             return f"{seconds / size:.1f} {unit}"

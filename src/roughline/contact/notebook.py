@@ -50,16 +50,20 @@ def html_of_curve(curve: Curve) -> str:
         area, error = curve.area_fraction_corrected, curve.area_fraction_error
         columns.append(("corrected area A/A_0", area, error, None))
     header = ["load", *(name for name, *_ in columns), "remark"]
+    reached = np.flatnonzero(curve.status != Status.INTERRUPTED)
     rows = [
         [
             str(i),
             *(_cell(i, values, errors, unit) for _, values, errors, unit in columns),
             _remark(curve, i),
         ]
-        for i in _shown(curve.status.size)
+        for i in reached[_shown(reached.size)].tolist()
     ]
-    if len(rows) < curve.status.size:
+    if len(rows) < reached.size:
         rows.insert(_FIRST, ["…"] * len(header))
+    if left := curve.status.size - reached.size:  # told once
+        missing = ["–"] * len(columns)
+        rows.append([f"{left} of {curve.status.size}", *missing, Status.INTERRUPTED.reason])
     model = "reduced model" if curve.area_fraction is None else "full model"
     boundary = curve.settings.get("boundary")
     place = f", {boundary} half-space" if boundary else ""
