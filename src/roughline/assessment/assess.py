@@ -56,7 +56,7 @@ _MANY = 1000  # loads from which on the cost is announced
 # Memory beside that of a press, as whole commands on 1024² and 2048² points took it. [bytes]
 _BYTES_TO_READ = 30_000_000
 _BYTES_TO_ANSWER = 30_000_000
-_BYTES_OF_OTHER_CURVES = 28  # and of their surfaces; per point
+_BYTES_OF_OTHER_CURVES = 34  # and of their surfaces; per point
 _BYTES_TO_DRAW = 160_000_000
 
 
@@ -159,10 +159,11 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
     if announce is not None and (large or case.count >= _MANY):
         cost_of = partial(estimate, body.shape, case.count, yielding=yielding, area_fraction=share)
         told = cost_of(periodic=case.periodic, fields=[0] if question.fields else False)
-        memory = told.memory + _bytes_beside(question, body)
+        then = cost_of(periodic=True) if twice else told
+        memory = max(told.memory, then.memory) + _bytes_beside(question, body)
         cost = f"about {gigabytes(memory)} and {duration(told.seconds)}"
         if twice:
-            cost += f", then {duration(cost_of(periodic=True).seconds)} for the interface"
+            cost += f", then {duration(then.seconds)} for the interface"
         if more := repeats(question, body):
             cost += (
                 f"; where points yield, up to {more:g} times as long in addition, for elastic "
