@@ -57,7 +57,7 @@ _MANY = 1000  # loads from which on the cost is announced
 _BYTES_TO_READ = 30_000_000
 _BYTES_TO_ANSWER = 30_000_000
 _BYTES_OF_OTHER_CURVES = 34  # and of their surfaces; per point
-_BYTES_TO_DRAW = 160_000_000
+_BYTES_TO_DRAW = 220_000_000
 
 
 @public
