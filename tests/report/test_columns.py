@@ -50,6 +50,12 @@ def test_a_long_name_stands_above_its_values():
     assert list(block.body) == [name, "  640 x 480  1 mm x 1 mm"]
 
 
+def test_intervals_below_their_values_have_no_brackets():
+    (block,) = blocks(["load", "all"], [["0.1", "+46.7% (-15.7% to +155.4%) *"]], 30)
+    lines = [" ".join(line.split()) for line in block.body]
+    assert lines == ["0.1 +46.7%", "-15.7% to +155.4% *"]
+
+
 def test_a_paragraph_is_broken_between_words():
     text = "116 (0.04%), 3 regions, inside"
     shown = paragraph("missing", text, 9, 30)

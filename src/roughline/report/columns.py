@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -42,7 +43,7 @@ class _Column:
         cells = []
         for (cell,) in self.cells:
             value, *interval = value_and_interval(cell)
-            cells.append([value, *(ends.strip("()") for ends in interval)])
+            cells.append([value, *(re.sub("[()]", "", ends) for ends in interval)])
         return _Column(self.header, cells)
 
 
