@@ -53,11 +53,10 @@ Announce = Callable[[str], None]
 
 _LARGE = 2**20  # points from which on the cost is announced
 _MANY = 1000  # loads from which on the cost is announced
-# Memory beside that of a press, as whole commands on 1024² and 2048² points took it. [bytes]
-_BYTES_TO_READ = 30_000_000
-_BYTES_TO_ANSWER = 30_000_000
-_BYTES_OF_OTHER_CURVES = 34  # and of their surfaces; per point
-_BYTES_TO_DRAW = 220_000_000
+# Memory of whole commands on 1024² and 2048² points, as measured. [bytes], and per point
+_BYTES_TO_READ = 30_000_000  # beside that of a press
+_BYTES_TO_ANSWER, _BYTES_OF_OTHER_CURVES = 30_000_000, 34  # beside that, with materials
+_BYTES_TO_DRAW, _BYTES_OF_FIGURES = 410_000_000, 145  # once the press is over, of the process
 
 
 @public
@@ -160,7 +159,7 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
         cost_of = partial(estimate, body.shape, case.count, yielding=yielding, area_fraction=share)
         told = cost_of(periodic=case.periodic, fields=[0] if question.fields else False)
         then = cost_of(periodic=True) if twice else told
-        memory = max(told.memory, then.memory) + _bytes_beside(question, body)
+        memory = _most_memory(question, body, max(told.memory, then.memory))
         cost = f"about {gigabytes(memory)} and {duration(told.seconds)}"
         if twice:
             cost += f", then {duration(then.seconds)} for the interface"
@@ -172,14 +171,15 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
         announce(f"{body.shape[0]} x {body.shape[1]} points, {case.count} loads: {cost}")
 
 
-def _bytes_beside(question: Question, body: Surface) -> int:
-    """Return the memory that a question takes beside a press: to read, to answer, to draw."""
-    taken = _BYTES_TO_READ
-    if question.materials is not None:
-        taken += _BYTES_TO_ANSWER + _BYTES_OF_OTHER_CURVES * body.heights.size
+def _most_memory(question: Question, body: Surface, pressing: int) -> int:
+    """Return the most memory of the process: while it presses, or while it draws. [bytes]"""
+    points = body.heights.size
+    most = pressing + _BYTES_TO_READ
     if question.fields:
-        taken += _BYTES_TO_DRAW
-    return taken
+        most = max(most, _BYTES_TO_DRAW + _BYTES_OF_FIGURES * points)
+    if question.materials is not None:
+        most += _BYTES_TO_ANSWER + _BYTES_OF_OTHER_CURVES * points
+    return most
 
 
 def _expected_share(body: Surface, case: LoadCase) -> float | None:

@@ -30,7 +30,7 @@ def checked_number(
         with contextlib.suppress(OverflowError):  # of whole numbers without bound
             number = float(plain)
     if not (least <= number <= most and number > 0):
-        raise InputError(f"{name} is {_shown(value)}; {allowed} is needed")
+        raise InputError(f"{name} is {shown(value)}; {allowed} is needed")
     return number
 
 
@@ -41,7 +41,7 @@ def checked_count(name: str, value: Any, least: int = -_MOST) -> int:
     if isinstance(plain, bool) or not whole or not least <= plain <= _MOST:
         bound = "" if least == -_MOST else f" of at least {least}"
         at_most = f" and at most {_MOST:.0e}" if whole and plain > _MOST else ""
-        raise InputError(f"{name} is {_shown(value)}; a whole number{bound}{at_most} is needed")
+        raise InputError(f"{name} is {shown(value)}; a whole number{bound}{at_most} is needed")
     return int(plain)
 
 
@@ -49,7 +49,7 @@ def checked_flag(name: str, value: Any) -> bool:
     """Return True or False; refuse all else, whose truth would be a guess."""
     plain = _plain(value)
     if not isinstance(plain, bool):
-        raise InputError(f"{name} is {_shown(value)}; True or False is needed")
+        raise InputError(f"{name} is {shown(value)}; True or False is needed")
     return plain
 
 
@@ -57,7 +57,7 @@ def refuse_unknown_precision(precision: Any) -> None:
     """Refuse what is no precision of the convolutions."""
     if not isinstance(precision, str) or precision not in ("mixed", "float64", "float32"):
         raise InputError(
-            f'precision is {_shown(precision)}; allowed are "mixed", "float64" and "float32"'
+            f'precision is {shown(precision)}; allowed are "mixed", "float64" and "float32"'
         )
 
 
@@ -65,7 +65,7 @@ def refuse_mute(progress: Any) -> None:
     """Refuse what cannot be called with the progress."""
     if progress is not None and not callable(progress):
         raise InputError(
-            f"progress is {_shown(progress)}; a function of (loads done, loads in all) is needed"
+            f"progress is {shown(progress)}; a function of (loads done, loads in all) is needed"
         )
 
 
@@ -76,7 +76,7 @@ def checked_shape(shape: Any) -> tuple[int, int]:
         return checked_count("shape", nx, 1), checked_count("shape", ny, 1)
     except (TypeError, ValueError):
         raise InputError(
-            f"shape is {_shown(shape)}; the points of the surface along x and y are needed, two "
+            f"shape is {shown(shape)}; the points of the surface along x and y are needed, two "
             "positive whole numbers such as shape=(1024, 1024)"
         ) from None
 
@@ -88,9 +88,7 @@ def checked_values(name: str, values: Any) -> Real:
     except (TypeError, ValueError) as error:
         raise InputError(f"{name} are not numbers ({error}); give a list of numbers") from error
     if array.size and array.dtype.kind not in "iuf":
-        raise InputError(
-            f"{name} are not numbers ({name}={_shown(values)}); give a list of numbers"
-        )
+        raise InputError(f"{name} are not numbers ({name}={shown(values)}); give a list of numbers")
     return array.astype(np.float64)
 
 
@@ -102,7 +100,7 @@ def kept_loads(fields: Any, count: int) -> frozenset[int]:
     numbers = list(plain) if isinstance(plain, Iterable) and not isinstance(plain, str) else None
     if numbers is None or not all(_is_load(each, count) for each in numbers):
         raise InputError(
-            f"fields is {_shown(fields)}; give True, False, or numbers of loads, 0 to {count - 1}, "
+            f"fields is {shown(fields)}; give True, False, or numbers of loads, 0 to {count - 1}, "
             "such as fields=[0]"
         )
     return frozenset(int(each) for each in numbers)
@@ -129,7 +127,7 @@ def checked_share(name: str, value: Any) -> float:
     return checked_number(name, value, "a share of the surface from 0 to 1", most=1.0)
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
     """Show what was given in one short line."""
     text = " ".join(repr(value).split())
     return text if len(text) <= 60 else text[:57] + "..."

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
-from roughline.contact.arguments import checked_count
+from roughline.contact.arguments import checked_count, shown
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.notebook import described, html_of_curve
 from roughline.contact.quantities import IN_FILES
@@ -279,7 +279,9 @@ class Curve:
             If the file cannot be written.
         """
         if not isinstance(path, str | os.PathLike):
-            raise InputError(f'path is {path!r}; a name that ends in ".nc" or ".csv" is needed')
+            raise InputError(
+                f'path is {shown(path)}; a name that ends in ".nc" or ".csv" is needed'
+            )
         path = Path(path)
         if path.suffix not in (".nc", ".csv"):
             raise InputError(
