@@ -2,6 +2,7 @@
 
 import re
 import shlex
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import roughline as rl
 from roughline import campaign
 from roughline.cli.study import study_of
 from roughline.paper.plan import paper_plan, with_settings
+from roughline.paper.results import results_of_store
 from roughline.paper.roles import departures, roles_of
 from roughline.paper.windows import Windows
 
@@ -153,14 +155,38 @@ def test_the_command_that_repeats_a_study_is_told():
 
 
 @pytest.mark.slow
+def test_a_store_that_has_more_than_the_plan_gives_the_plan_s_part(own_store):
+    plan = campaign.read_plan(own_store.with_suffix(".toml"))
+    part = replace(
+        plan,
+        ensembles=tuple(
+            replace(each, fractal_dimensions=(2.25,), realisations=2)
+            for each in plan.ensembles
+            if each.name != "blocks-n16"
+        ),
+    )
+    store = campaign.Store(own_store)
+    some = results_of_store(store, "in part", "none", plan=part)
+    every = results_of_store(store, "as a whole", "none")
+    for data in (some.full, some.reduced):
+        assert (data.sizes["realisation"], data.fractal_dimension.values.tolist()) == (2, [2.25])
+    assert (some.other_grid, every.other_grid.attrs["n"]) == (None, 16)
+    assert every.full.sizes["realisation"] == 3
+    wanted = every.full.stiffness.sel(fractal_dimension=2.25)[:2]
+    assert some.full.stiffness.sel(fractal_dimension=2.25).equals(wanted)
+
+
+@pytest.mark.slow
 def test_a_store_that_is_not_finished_is_refused(own_store, invoke, tmp_path, monkeypatch):
-    counts = campaign.Store.counts
+    dataset = campaign.Store.dataset
 
     def unfinished(store, name):
-        done, failed, total = counts(store, name)
-        return (done - 2, failed, total) if name == "springs" else (done, failed, total)
+        data = dataset(store, name)
+        if name == "springs":
+            data.case_status[0, :2] = 0
+        return data
 
-    monkeypatch.setattr(campaign.Store, "counts", unfinished)
+    monkeypatch.setattr(campaign.Store, "dataset", unfinished)
     code, _, err = invoke("paper", "--store", own_store, "--out", tmp_path / "out")
     assert (code, len(err.splitlines())) == (2, 1)
     assert "2 of 6 cases of 'springs' in" in err

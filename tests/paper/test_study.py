@@ -1,6 +1,7 @@
 """The paper's study on its way: its gallery, and an interrupt."""
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -28,6 +29,13 @@ def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, tmp_path):
     other = replace(plan, gallery=replace(plan.gallery, force_bar=0.1))
     with pytest.raises(rl.StoreError, match="a gallery with other settings"):
         campaign.run(other, finished)
+    # of other fractal dimensions, as a study grows by them, it is drawn again
+    grown = replace(plan, gallery=replace(plan.gallery, fractal_dimensions=(2.5,)))
+    shutil.copytree(finished, tmp_path / "grown")
+    campaign.run(grown, tmp_path / "grown")
+    drawn = campaign.Store(tmp_path / "grown").gallery()
+    assert drawn.heights.shape == (1, 24, 24)
+    assert drawn.fractal_dimension.values == pytest.approx([2.5])
     # a damaged one is drawn again
     (tmp_path / "hurt").mkdir()
     chunk = next(path for path in (finished / "gallery" / "contact").rglob("c/**/*"))

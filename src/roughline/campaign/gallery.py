@@ -85,7 +85,9 @@ def write_gallery(root: Any, gallery: Gallery, results: Results) -> None:
 
 
 def gallery_is_whole(root: Any, gallery: Gallery, path: Path) -> bool:
-    """Whether all of a gallery that was marked done can be read.
+    """Whether all of a gallery that was marked done is there and can be read.
+
+    One of other fractal dimensions is not: they are drawn instead, as a study grows by them.
 
     Raises
     ------
@@ -94,7 +96,10 @@ def gallery_is_whole(root: Any, gallery: Gallery, path: Path) -> bool:
     """
     group = root[GALLERY]
     wanted = json.loads(json.dumps(_settings(gallery)))
-    if {key: group.attrs.get(key) for key in wanted} != wanted:
+    differ = [key for key in wanted if group.attrs.get(key) != wanted[key]]
+    if differ == ["fractal_dimensions"]:
+        return False
+    if differ:
         raise StoreError(f"{path} holds a gallery with other settings; choose another folder")
     return all(read_or_none(group[name]) is not None for name in _DIMENSIONS)
 

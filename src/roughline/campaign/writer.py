@@ -37,6 +37,12 @@ class Writer:
         try:
             for ensemble in plan.ensembles:
                 refuse_other_settings(self._root, ensemble, path)
+            if (
+                plan.gallery is not None
+                and self.has_gallery
+                and not gallery_is_whole(self._root, plan.gallery, path)
+            ):
+                self._root.attrs[GALLERY_DONE] = False
             self._groups = {
                 ensemble.name: prepared_group(self._root, ensemble) for ensemble in plan.ensembles
             }
@@ -44,12 +50,6 @@ class Writer:
             self._arrays = {name: dict(group.arrays()) for name, group in self._groups.items()}
             for arrays in self._arrays.values():
                 mend(arrays)
-            if (
-                plan.gallery is not None
-                and self.has_gallery
-                and not gallery_is_whole(self._root, plan.gallery, path)
-            ):
-                self._root.attrs[GALLERY_DONE] = False
         except (ValueError, KeyError, TypeError) as error:
             raise damaged_or_foreign(path) from error
 

@@ -9,16 +9,18 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from roughline.campaign.layout import CASE_STATUS, PENDING
 from roughline.errors import StoreError
 from roughline.paper.exponents import at_dimension, exponents_of
 from roughline.paper.laws import DimensionLaws, dimension_laws
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
-from roughline.paper.roles import Roles, roles_of
+from roughline.paper.roles import roles_of
 from roughline.paper.windows import Windows
 
 if TYPE_CHECKING:
     import xarray
 
+    from roughline.campaign.plan import Ensemble, Plan
     from roughline.campaign.store import Store
 
 ROW_REDUCED, ROW_MATCHED, ROW_FULL = "reduced", "reduced, with the waves of the surfaces", "full"
@@ -118,7 +120,11 @@ class PaperResults:
 
 
 def results_of_store(
-    store: Store, name: str, command: str, windows: Windows | None = None
+    store: Store,
+    name: str,
+    command: str,
+    windows: Windows | None = None,
+    plan: Plan | None = None,
 ) -> PaperResults:
     """Read the results of a store that has surfaces and lines.
 
@@ -130,6 +136,8 @@ def results_of_store(
         As in :class:`PaperResults`.
     windows : Windows, optional
         Where exponents are fitted, as far as the loads reach; default: the paper's.
+    plan : Plan, optional
+        What of the store is used; default: all.
 
     Raises
     ------
@@ -138,9 +146,13 @@ def results_of_store(
     StoreError
         If cases are not done.
     """
-    every = {each: store.dataset(each) for each in store.names}
+    if plan is None:
+        every = {each: store.dataset(each) for each in store.names}
+    else:
+        every = {each.name: _part(store, each) for each in plan.ensembles}
     roles = roles_of({each: data.attrs for each, data in every.items()})
-    _refuse_unfinished(store, roles)
+    for each in roles.names:
+        _refuse_unfinished(store, each, every[each])
     lines, surfaces = every[roles.reduced], every[roles.full]
     reached = (windows or Windows()).within(lines.force_bar.values, surfaces.force_bar.values)
     return PaperResults(
@@ -156,15 +168,20 @@ def results_of_store(
     )
 
 
-def _refuse_unfinished(store: Store, roles: Roles) -> None:
-    """Refuse a store in which cases of a report are neither done nor recorded as failed."""
-    for name in roles.names:
-        done, failed, total = store.counts(name)
-        if done + failed < total:
-            raise StoreError(
-                f"{total - done - failed} of {total} cases of {name!r} in {store.path} are not "
-                "done: run its plan to the end, then report"
-            )
+def _part(store: Store, ensemble: Ensemble) -> xarray.Dataset:
+    """Read the bodies of an ensemble from a store that may have more of them."""
+    data = store.dataset(ensemble.name).isel(realisation=slice(ensemble.realisations))
+    return data.sel(fractal_dimension=sorted(ensemble.fractal_dimensions))
+
+
+def _refuse_unfinished(store: Store, name: str, data: xarray.Dataset) -> None:
+    """Refuse an ensemble in which cases are neither done nor recorded as failed."""
+    status = data[CASE_STATUS.name].values
+    if pending := int((status == PENDING).sum()):
+        raise StoreError(
+            f"{pending} of {status.size} cases of {name!r} in {store.path} are not done: run its "
+            "plan to the end, then report"
+        )
 
 
 def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:

@@ -89,7 +89,9 @@ def recompute(
             progress=progress,
             announce=announce,
         )
-    results = results_of_store(Store(study.store), study.name, study.command, study.windows)
+    results = results_of_store(
+        Store(study.store), study.name, study.command, study.windows, study.plan
+    )
     try:
         return write_page(results, out)
     except OSError as error:
