@@ -55,8 +55,9 @@ _LARGE = 2**20  # points from which on the cost is announced
 _MANY = 1000  # loads from which on the cost is announced
 # Memory of whole commands on 1024² and 2048² points, as measured. [bytes], and per point
 _BYTES_TO_READ = 30_000_000  # beside that of a press
-_BYTES_TO_ANSWER, _BYTES_OF_OTHER_CURVES = 30_000_000, 34  # beside that, with materials
+_BYTES_OF_OTHER_CURVES = 30  # with materials
 _BYTES_TO_DRAW, _BYTES_OF_FIGURES = 410_000_000, 145  # once the press is over, of the process
+_BYTES_TO_ANSWER = 45_000_000  # beside either, with materials
 
 
 @public
@@ -173,13 +174,11 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
 
 def _most_memory(question: Question, body: Surface, pressing: int) -> int:
     """Return the most memory of the process: while it presses, or while it draws. [bytes]"""
-    points = body.heights.size
-    most = pressing + _BYTES_TO_READ
+    points, answers = body.heights.size, question.materials is not None
+    most = pressing + _BYTES_TO_READ + (_BYTES_OF_OTHER_CURVES * points if answers else 0)
     if question.fields:
         most = max(most, _BYTES_TO_DRAW + _BYTES_OF_FIGURES * points)
-    if question.materials is not None:
-        most += _BYTES_TO_ANSWER + _BYTES_OF_OTHER_CURVES * points
-    return most
+    return most + (_BYTES_TO_ANSWER if answers else 0)
 
 
 def _expected_share(body: Surface, case: LoadCase) -> float | None:
