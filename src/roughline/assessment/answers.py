@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from operator import itemgetter
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.kinds import has_spectrum
 from roughline.assessment.larger_surface import LargerSurface, stiffness_of_the_piece
+from roughline.assessment.misfit import strains
 from roughline.engineering.answer import Answer
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
@@ -20,6 +22,7 @@ from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal
 
+_STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
 _STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
 
 
@@ -94,6 +97,12 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
         broken.append(
             f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
             f"no interval includes the effect of slopes over {_STEEP:g}"
+        )
+    what, ratio = max(strains(question, body), key=itemgetter(1), default=("", 0.0))
+    if ratio > _STRAINED:
+        broken.append(
+            f"{what.format(decimal(ratio, 2))}: bodies that are strained so far are not linear "
+            "elastic, and no interval includes that"
         )
     if pair is not None and result.curve.hardness is None:
         index = None

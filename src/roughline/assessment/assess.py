@@ -44,6 +44,7 @@ from roughline.contact.estimates import (
 )
 from roughline.contact.loads import Loads
 from roughline.engineering.intervals import Intervals
+from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
@@ -101,6 +102,7 @@ def assess_body(
     else:
         _tell_cost(question, body, case, announce)
         solution, larger = _solved_body(question, body, case, parts, progress)
+        _refuse_all_at_the_hardness(question, case, solution.curve)
     result = Assessment(
         question,
         parts,
@@ -121,6 +123,16 @@ def assess_body(
     result = replace(result, partial_slip=slip, interrupted=result.interrupted or interrupted)
     warnings = warnings_of(result, spectrum, case.grid_error)
     return replace(result, warnings=warnings, notes=notes_of(result, solution.note))
+
+
+def _refuse_all_at_the_hardness(question: Question, case: LoadCase, curve: Curve) -> None:
+    """Refuse depths at which all of the area is at the hardness; of forces it is known before."""
+    beyond = np.flatnonzero((curve.converged & ~case.borne(curve))[list(case.asked)])
+    if case.depths and beyond.size:
+        raise InputError(
+            f"depth {question.headings[beyond[0]]} indents all of the body: its whole area is at "
+            "the hardness, and bears no more at any larger depth; give smaller ones"
+        )
 
 
 def _with_joint_recorded(curve: Curve, joint: float | None) -> Curve:

@@ -84,6 +84,7 @@ def refuse_beyond_hardness(question: Question, area: float) -> None:
     hardness = hardness_of(question)
     if hardness is None:
         return
+    bearer = "the softer body" if question.pair is None else question.pair.bearer
     for heading, force in zip(question.headings, question.forces(area), strict=False):
         if force >= hardness.value * area * (1 - 1e-12):  # of a joint it is rounded
             most = engineering(hardness.value * area * question.scale(area), "N")
@@ -91,8 +92,8 @@ def refuse_beyond_hardness(question: Question, area: float) -> None:
             if question.joint is None:
                 on, joint = "the map", "the area of the joint that carries them (joint_area=), "
             raise InputError(
-                f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and the "
-                f"softer body, of hardness {engineering(hardness.value, 'Pa')}, bears less than "
+                f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and "
+                f"{bearer}, of hardness {engineering(hardness.value, 'Pa')}, bears less than "
                 f"{most} on {on} (H A_0): give smaller loads, {joint}or a larger hardness "
                 "(hardness=) if the body has it"
             )

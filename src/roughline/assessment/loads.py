@@ -21,6 +21,7 @@ LoadProgress = Callable[[int, int], None]
 """Called with (loads done, loads in all)."""
 
 _LIGHTEST = 1e-3  # of the largest load, where a whole curve begins
+_ROUNDING = 1e-9  # of the force under which all of the area is at the hardness
 _CURVE_LOADS = 16  # of a whole curve
 
 
@@ -93,9 +94,16 @@ class LoadCase:
         values = self.forces or self.depths
         return values.index(max(values)) if values else self.count - 1
 
+    def borne(self, curve: Curve) -> Mask:
+        """Which loads of a curve were solved, and leave some of the area below the hardness."""
+        if self.hardness is None or curve.area_fraction is None:
+            return curve.converged
+        most = self.hardness * curve.length**2
+        return curve.converged & (np.nan_to_num(curve.force) < most * (1 - _ROUNDING))
+
     def under_forces_of(self, curve: Curve) -> LoadCase:
-        """The same under the forces of a curve that were solved."""
-        forces = curve.force[curve.converged].tolist()
+        """The same under the forces of a curve that were solved, and that the body bears."""
+        forces = curve.force[self.borne(curve)].tolist()
         return replace(self, forces=forces, depths=[], n_loads=None)
 
     def of_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 from roughline.assessment.hardness import WITHOUT_YIELD
 from roughline.assessment.kinds import has_spectrum
+from roughline.assessment.nominal import nominal_area
 from roughline.errors import InputError
-from roughline.topography.body import Body, Line
-from roughline.units import engineering
+from roughline.topography.body import Body, Line, Surface
+from roughline.units import decimal, engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.question import Question
@@ -21,7 +22,8 @@ def refuse_misfit(question: Question, body: Body) -> None:
     ------
     InputError
         If something that belongs to a surface is asked of a line scan, theories of a body that
-        has no spectrum, or a joint that is smaller than its map.
+        has no spectrum, or a joint that is smaller than its map; or if a mean pressure is above the
+        contact modulus, or a depth above the shorter side.
     """
     is_scan = isinstance(body, Line) and body.kind == "profile"
     if is_scan and (question.periodic or question.grid_error or question.depths):
@@ -42,8 +44,28 @@ def refuse_misfit(question: Question, body: Body) -> None:
         )
     if question.joint is not None:
         _refuse_as_piece_of_a_joint(body, question.joint)
+    for what, ratio in strains(question, body):
+        if ratio > 1:
+            raise InputError(
+                f"{what.format(decimal(ratio, 2))}, and half-spaces are linear elastic far below "
+                "that only: give a smaller one, and check its unit"
+            )
     if question.theories and not has_spectrum(body):
         raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
+
+
+def strains(question: Question, body: Body) -> list[tuple[str, float]]:
+    """Say of each load how far it strains a body; the ratio is beside, and left out of the text."""
+    area = nominal_area(body)
+    side = min(body.sizes) if isinstance(body, Surface) else body.length
+    what = "the mean pressure of load {} is {{}} times the contact modulus"
+    if depths := question.heights():
+        what = "depth {} is {{}} times the shorter side of the body"
+        ratios = [depth / side for depth in depths]
+    else:
+        ratios = [force / area / question.modulus for force in question.forces(area)]
+    texts = [what.format(heading) for heading in question.headings]
+    return list(zip(texts, ratios, strict=False))
 
 
 def _refuse_as_piece_of_a_joint(body: Body, joint: float) -> None:

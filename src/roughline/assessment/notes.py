@@ -12,6 +12,7 @@ from roughline.assessment.hardness import WITHOUT_YIELD, hardness_of
 from roughline.assessment.kinds import is_map
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
+from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.answer import Answer
 from roughline.engineering.formulas import ELASTIC_UP_TO, electrical_resistance
 from roughline.engineering.joint import constriction_of_disc
@@ -201,7 +202,7 @@ def of_yield(result: Assessment) -> list[str]:
     curve, pair, hardness = result.curve, result.question.pair, hardness_of(result.question)
     if curve.hardness is None or hardness is None or curve.plastic_fraction is None:
         return []
-    whose = "given" if pair is None or hardness.factor == 1 else "of the softer body"
+    whose = "given" if pair is None or hardness.factor == 1 else f"of {pair.bearer}"
     known = f"{engineering(hardness.value, 'Pa')}, {whose}"
     share = float(curve.plastic_fraction[result.asked[result.largest]])
     notes = []
@@ -212,16 +213,19 @@ def of_yield(result: Assessment) -> list[str]:
         )
     elif not np.isnan(share):
         notes.append(f"nothing yields at the largest load: no point reaches the hardness, {known}")
-    if hardness.factor > 1 and result.answers:
+    if hardness.factor > 1 and result.answers and not np.isnan(share):
         notes.append(
             f"the hardness of the table is known to a factor of {hardness.factor:g}; "
-            f"{_scatter_in_words(result)}"
+            f"{_scatter_in_words(result, share)}"
         )
     return notes
 
 
-def _scatter_in_words(result: Assessment) -> str:
-    """Say how far the scatter of the hardness moves answers at the largest load."""
+def _scatter_in_words(result: Assessment, yielded: float) -> str:
+    """Say how far the scatter of the hardness moves answers at the largest load.
+
+    `yielded` is the share of the contact that yields there.
+    """
     load = result.largest
     moved = {
         result.answers[key].name: [float(end[load]) for end in result.hardness_scatter[key]]
@@ -239,14 +243,25 @@ def _scatter_in_words(result: Assessment) -> str:
             "there is not known, and they come without intervals"
         )
     if np.allclose([*moved.values()], 1, rtol=0, atol=_LEAST / 100):
+        except_for = "p_c/H and the estimates that are made with the hardness"
+        if yielded > 0:
+            return (
+                f"with the softest and the hardest such body, the answers at the largest load "
+                f"change by less than {_LEAST:g}%, except for {except_for}"
+            )
         return (
-            "as nothing yields at the largest load, this changes no answer there except p_c/H and "
-            "the estimates that are made with the hardness"
+            "as nothing yields at the largest load, this changes no answer there except "
+            f"{except_for}"
         )
     changes = [f"{name} {change_in_words(low, high)}" for name, (low, high) in moved.items()]
     return (
         "with the softest and the hardest such body, the answers at the largest load change by: "
-        f"{', '.join(changes)}; the intervals include that"
+        f"{', '.join(changes)}; "
+        + (
+            "that is in no interval, as values come without"
+            if result.intervals is None
+            else "the intervals include that"
+        )
     )
 
 
@@ -258,6 +273,28 @@ def of_gas_in_the_gap(result: Assessment) -> list[str]:
         "thermal conductances are those of the solid spots alone, as in vacuum: gas in the gap "
         "adds to them, and air may carry several times what the spots do"
     ]
+
+
+def of_full_contact(result: Assessment) -> list[str]:
+    """Say under which loads all points touch, or all but a few."""
+    curve, body = result.curve_as_asked, result.body
+    if curve.area_fraction is None or not isinstance(body, Surface):
+        return []
+    repeated = curve.settings.get("boundary") == "periodic"
+    rest = "stiffness is infinite" if repeated else "k is that of a flat punch, and k_i infinite"
+    notes = []
+    apart = np.rint((1 - curve.area_fraction) * body.heights.size)
+    full = [name for name, n in zip(result.headings, apart, strict=True) if n == 0]
+    nearly = [name for name, n in zip(result.headings, apart, strict=True) if 0 < n < RESOLVED_FROM]
+    if full:
+        notes.append(f"all points touch under {', '.join(full)}: no gap is left, and {rest}")
+    if nearly:
+        notes.append(
+            f"fewer than {RESOLVED_FROM} points do not touch under {', '.join(nearly)}: the "
+            "stiffness of the interface is that of these last gaps, which the grid decides, and "
+            "without them it is infinite"
+        )
+    return notes
 
 
 def change_in_words(least: float, largest: float) -> str:

@@ -20,6 +20,7 @@ def warnings_of(
     warnings = [
         *say.of_each(bodies, suspicions),
         *broken_assumptions(result, spectrum),
+        *say.of_full_contact(result),
         *say.how_far_a_line_serves(result, grave=True),
         *curve.warnings,
     ]

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.assessment.larger_surface import LargerSurface, larger_surface
-from roughline.assessment.loads import LoadCase, LoadProgress
+from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads
 from roughline.assessment.source import Topography, pressed_body
 from roughline.assessment.uncertainty import Changes, Solution, change
 from roughline.topography.body import Body, Surface
@@ -42,9 +42,10 @@ def with_other_filling(
     if case.n_loads is not None and curve.converged.all():
         again = again.under_forces_of(curve)  # the same forces, not new ones
     moved, interrupted = again.press(other, [], progress)
-    stiffness, share = change(curve.stiffness, moved.stiffness)
-    unloading, _ = change(curve.unloading_stiffness, moved.unloading_stiffness)
-    area, area_share = change(curve.area_fraction_corrected, moved.area_fraction_corrected)
+    asked = asked_loads(case, curve.status.size)
+    stiffness, share = change(curve.stiffness, moved.stiffness, asked)
+    unloading, _ = change(curve.unloading_stiffness, moved.unloading_stiffness, asked)
+    area, area_share = change(curve.area_fraction_corrected, moved.area_fraction_corrected, asked)
     note = (
         f"with missing points filled by {method} instead, stiffness changes by {_at_most(share)}, "
         f"area by {_at_most(area_share)}"
@@ -77,10 +78,10 @@ def interface_of_the_larger_surface(
     progress : callable, optional
         As for :func:`roughline.press`.
     """
-    curve, converged = solution.curve, solution.curve.converged
+    curve, borne = solution.curve, case.borne(solution.curve)
     periodic = solution
-    if not case.periodic and (solution.interrupted or not converged.any()):
-        unknown = replace(curve, unloading_stiffness=np.full(converged.size, np.nan))
+    if not case.periodic and (solution.interrupted or not borne.any()):
+        unknown = replace(curve, unloading_stiffness=np.full(borne.size, np.nan))
         periodic = replace(solution, curve=unknown)
     elif not case.periodic:
         case = replace(case.under_forces_of(curve), periodic=True, levelled=True)
@@ -90,8 +91,8 @@ def interface_of_the_larger_surface(
     known = periodic.intervals
     unloading, area = (known.unloading, known.area) if known else (None, None)
     larger = larger_surface(body, periodic.curve, unloading, area)
-    if larger.stiffness.values.size < converged.size:  # loads that failed before have no force
-        larger = larger.among(converged)
+    if larger.stiffness.values.size < borne.size:  # loads that failed before have no force
+        larger = larger.among(borne)
     return larger, solution.interrupted or periodic.interrupted
 
 

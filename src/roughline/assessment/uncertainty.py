@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Mask, Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends, Intervals
 
@@ -103,10 +103,10 @@ def loading_under_unloading(loading: Ends, unloading: Ends) -> Ends:
     return low, np.where(known, np.fmin(loading[1], unloading[1]), loading[1])
 
 
-def change(before: Real | None, after: Real | None) -> tuple[Real, float]:
-    """By how much each load changes, and by how many per cent at most."""
+def change(before: Real | None, after: Real | None, asked: Indices) -> tuple[Real, float]:
+    """By how much each load changes, and by how many per cent at most of those asked for."""
     assert before is not None
     assert after is not None
     with np.errstate(invalid="ignore", divide="ignore"):
         moved = np.where(after == before, 0.0, np.abs(after - before))  # infinite in full contact
-        return moved, 100 * float(np.nanmax(moved / before, initial=0.0))
+        return moved, 100 * float(np.nanmax((moved / before)[asked], initial=0.0))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -60,9 +61,12 @@ def left_out(pair: MaterialPair, frequency: float | None) -> list[str]:
     elif frequency is not None:
         needed["density"] = "no reflection"
     if (lacking := pair.lacking("hardness")) and pair.hardness is None:
+        softer = ""
+        if len(lacking) == 1 and not any(map(math.isinf, (pair.first.E, pair.second.E))):
+            softer = ", and it is the softer one, as its modulus is below the other's hardness"
         notes.append(
-            f"the hardness of {' and of '.join(lacking)} is not known, so both bodies are taken as "
-            'elastic, whatever the pressure; give it with the material, as "hardness=..."'
+            f"the hardness of {' and of '.join(lacking)} is not known{softer}, so both bodies are "
+            'taken as elastic, whatever the pressure; give it with the material, as "hardness=..."'
         )
     elif lacking:
         notes.append(

@@ -38,7 +38,8 @@ class MaterialPair:
     def hardness(self) -> float | None:
         """Hardness of the softer body, of those that are known; None if none is. [Pa]
 
-        A rigid body never yields.
+        A rigid body never yields. A body whose modulus is below the hardness of the other is the
+        softer one, be its hardness known or not: it is elastic, as rubber is, if it is not.
         """
         softer = self._softer
         return None if softer is None else softer.hardness
@@ -53,7 +54,19 @@ class MaterialPair:
         """The body of lower hardness, among those that can yield."""
         yielding = [each for each in (self.first, self.second) if not math.isinf(each.E)]
         known = [(each.hardness, each) for each in yielding if each.hardness is not None]
-        return min(known, key=itemgetter(0))[1] if known else None
+        if not known:
+            return None
+        hardness, softer = min(known, key=itemgetter(0))
+        unknown = [each for each in yielding if each.hardness is None]
+        return None if any(hardness > each.E for each in unknown) else softer
+
+    @property
+    def bearer(self) -> str:
+        """Which body has that hardness, in words."""
+        for which, each in (("first", self.first), ("second", self.second)):
+            if each is self._softer and self.lacking("hardness"):
+                return f"the {which} body ({each.name})"
+        return "the softer body"
 
     def with_hardness(self, hardness: float) -> MaterialPair:
         """Return the pair with another hardness of the softer body, known exactly. [Pa]

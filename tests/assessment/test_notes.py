@@ -1,0 +1,112 @@
+"""Notes and warnings: what is said together is derived from the same facts."""
+
+import re
+
+import numpy as np
+import pytest
+
+import roughline as rl
+
+PAIR = "steel,copper"
+
+
+@pytest.fixture(scope="module")
+def surface():
+    """A surface of 64 x 64 points that is none of a larger one."""
+    rough = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6).surface(64, 3)
+    return rl.Surface(rough.heights, rough.sizes, "m")
+
+
+def said(body, pair=PAIR, **asked):
+    return rl.assess(rl.Question(body, pair, fields=False, **asked))
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"loads": "2 N"},
+        {"loads": "2 N", "grid_error": False},
+        {"loads": "0.1 mN", "grid_error": True},
+        {"depths": "3 um"},
+        {"depths": "1 nm", "grid_error": True},
+        {"loads": "300 MPa", "periodic": True},
+        {"loads": ["1 N", "3 N"], "joint_area": "1 cm^2"},
+    ],
+)
+def test_what_yields_and_what_the_intervals_hold_is_said_once(surface, asked):
+    result = said(surface, **asked)
+    text = "; ".join(result.remarks)
+    i = result.largest
+    share = result.answers["plastic_fraction"].values[i]
+    assert ("nothing yields" in text) == (share == 0)
+    assert ("% of the contact yields" in text) == (share > 0)
+    without = "values come without intervals" in text
+    assert without == (
+        result.answers["unloading_stiffness"].low is None
+        if "joint_area" not in asked
+        else result.answers["contact_stiffness"].low is None
+    )
+    assert not (without and "the intervals include that" in text)
+    over_hardness = result.answers["contact_pressure_over_hardness"].values[i]
+    assert (over_hardness > 0.9995) <= (share > 0.99)
+
+
+def test_the_effect_of_filling_is_that_on_the_loads_that_were_asked_for(holed):
+    """The lighter loads of a report's curve change more."""
+    file, *_ = holed
+    reading = rl.Reading(unit="m", sizes=(1e-3,))
+    changes = []
+    for whole in (False, True):
+        result = said(file, loads="10 N", reading=reading, whole_curve=whole, grid_error=False)
+        changes += [note for note in result.notes if "filled by nearest instead" in note]
+    assert changes[0] == changes[1]
+
+
+def test_a_soft_body_of_unknown_hardness_is_elastic_and_its_partner_is_not_the_softer_one(surface):
+    """Of rubber on steel, rubber is the softer one, whatever its hardness."""
+    rubber = said(surface, "E=5 MPa nu=0.49, steel", loads="1 kPa")
+    assert rubber.curve.hardness is None
+    assert "contact_pressure_over_hardness" not in rubber.answers
+    text = "; ".join(rubber.remarks)
+    assert "the first body (given) is not known, and it is the softer one" in text
+    assert "of the softer body" not in text
+    metal = said(surface, "E=70 GPa nu=0.33, steel", loads="1 N", grid_error=False)
+    text = "; ".join(metal.remarks)
+    assert metal.curve.hardness == rl.material("steel").hardness
+    assert "1.3 GPa, of the second body (steel)" in text
+    assert "of the softer body" not in text
+    with pytest.raises(rl.InputError, match=r"the second body \(steel\), of hardness 1.3 GPa"):
+        said(surface, "E=70 GPa nu=0.33, steel", loads="2 GPa")
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"depths": "1 m"}, "depth 1 m is 1000 times the shorter side of the body"),
+        ({"depths": ["1 um", "2 mm"]}, "depth 2 mm is 2 times the shorter side"),
+        (
+            {"loads": "1 MN", "elastic": True},
+            "pressure of load 1 MN is 11 times the contact modulus",
+        ),
+        ({"depths": "0.5 mm"}, "depth 0.5 mm indents all of the body"),
+    ],
+)
+def test_loads_far_beyond_sense_are_refused(surface, asked, message):
+    with pytest.raises(rl.InputError, match=re.escape(message)) as refused:
+        said(surface, **asked)
+    assert "\n" not in str(refused.value)
+
+
+def test_strains_beyond_linear_elasticity_are_warned_of(surface):
+    text = "; ".join(said(surface, loads="20 kN", elastic=True, grid_error=False).warnings)
+    assert "load 20 kN is 0.22 times the contact modulus: bodies that are strained" in text
+    text = "; ".join(said(surface, loads="2 kN", elastic=True, grid_error=False).warnings)
+    assert "strained" not in text
+
+
+def test_full_contact_is_said(surface):
+    smooth = rl.Surface(surface.heights / 1000, surface.sizes, "m")
+    result = said(smooth, loads=["1 mN", "20 N"], periodic=True, elastic=True)
+    assert np.isinf(result.answers["contact_stiffness"].values).tolist() == [False, True]
+    text = "; ".join(result.warnings)
+    assert "all points touch under 20 N: no gap is left, and stiffness is infinite" in text
