@@ -63,10 +63,7 @@ _BYTES_TO_ANSWER = 45_000_000  # beside either, with materials
 
 @public
 def assess_body(
-    question: Question,
-    *,
-    announce: Announce | None = None,
-    progress: LoadProgress | None = None,
+    question: Question, *, announce: Announce | None = None, progress: LoadProgress | None = None
 ) -> Assessment:
     """Answer a question of one body: read, prepare, press, and work out what follows.
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from roughline.contact.quantity import unit_of
 from roughline.contact.status import Status
-from roughline.topography.notebook import html, in_words
-from roughline.units import supported_digits
+from roughline.topography.notebook import digits_known, html, in_words
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
@@ -80,16 +79,9 @@ def _cell(load: int, values: Real, errors: Real | None, unit: str | None) -> str
     value = float(values[load])
     if not np.isfinite(value):
         return "infinite" if np.isinf(value) else "–"
-    return in_words(value, unit, digits_known(load, values, errors))
-
-
-def digits_known(load: int, values: Real, errors: Real | None) -> int:
-    """Return how many digits of a value its error by the grid supports."""
-    value = float(values[load])
-    if errors is None or not value > 0:
-        return supported_digits(value, None)
-    error = float(errors[load])
-    return supported_digits(value, (value / (1 + error / value), value + error))
+    return in_words(
+        value, unit, digits_known(value, None if errors is None else float(errors[load]))
+    )
 
 
 def _remark(curve: Curve, load: int) -> str:

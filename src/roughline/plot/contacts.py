@@ -8,14 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
-from roughline.contact.notebook import digits_known
 from roughline.contact.status import Status
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.plot.bodies import draw_map, extent, label_sides
 from roughline.plot.style import drawing_on
 from roughline.plot.units import in_unit
-from roughline.topography.notebook import in_words
+from roughline.topography.notebook import digits_known, in_words
 from roughline.units import decimal
 
 if TYPE_CHECKING:
@@ -128,8 +127,9 @@ def yield_key(fields: Fields) -> str:
 def _title(curve: Curve, load: int, fields: Fields) -> str:
     assert curve.area_fraction_corrected is not None
     force = in_words(float(curve.force[load]), "N" if curve.unit == "m" else None)
-    digits = digits_known(load, curve.area_fraction_corrected, curve.area_fraction_error)
-    share = decimal(100 * float(curve.area_fraction_corrected[load]), digits)
+    area, errors = float(curve.area_fraction_corrected[load]), curve.area_fraction_error
+    digits = digits_known(area, None if errors is None else float(errors[load]))
+    share = decimal(100 * area, digits)
     return f"corrected area {share}% at $F$ = {force}{yield_key(fields)}"
 
 

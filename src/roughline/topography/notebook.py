@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from roughline.units import MOST_DIGITS, SI, decimal, engineering
+from roughline.units import MOST_DIGITS, SI, decimal, engineering, supported_digits
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
@@ -25,6 +25,13 @@ def in_words(value: float, unit: str | None, digits: int = MOST_DIGITS) -> str:
     if unit in SI:
         return engineering(value, unit, digits)
     return f"{decimal(value, digits)} {unit or ''}".strip()
+
+
+def digits_known(value: float, error: float | None) -> int:
+    """Return how many digits of a value v its error e supports: v / (1 + e / v) to v + e."""
+    if error is None or not value > 0:
+        return MOST_DIGITS
+    return supported_digits(value, (value / (1 + error / value), value + error))
 
 
 def described(body: Any) -> str:
