@@ -22,6 +22,9 @@ _NUMBER_AND_UNIT = re.compile(
 _EXPONENT = re.compile(r"(?<=[^\W\d_])(-?\d+)\b")  # of "mm2", "m-3"
 _DECIMAL_COMMA = re.compile(r"\d+,\d+")
 
+LEAST_CHANGE = 0.05
+"""A change below it is written as none. [%]"""
+
 SI = ("m", "N", "N/m", "Pa", "J")
 """Units that get a prefix where values are shown."""
 
@@ -282,3 +285,16 @@ def decimal(value: float, digits: int) -> str:
         if 1e-4 <= abs(value) < 1e6
         else f"{value:.{digits}g}"
     )
+
+
+def change_in_words(least: float, largest: float) -> str:
+    """Write how far a least and a largest ratio are from one, such as "-11 to +6%"."""
+
+    def signed(ratio: float) -> str:
+        percent = 100 * (ratio - 1)
+        if abs(percent) < LEAST_CHANGE:
+            return "0"
+        return ("+" if percent > 0 else "") + decimal(percent, 2)
+
+    ends = signed(least), signed(largest)
+    return "no change" if ends == ("0", "0") else f"{ends[0]} to {ends[1]}%"

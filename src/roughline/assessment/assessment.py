@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from roughline._version import __version__
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.assessment.slip import PartialSlip
@@ -149,8 +148,4 @@ class Assessment:
     @property
     def settings(self) -> dict[str, Any]:
         """Everything that the numbers depend on, by name."""
-        return {
-            "roughline_version": __version__,
-            "E_star": self.curve.E_star,
-            **self.curve.settings,
-        }
+        return {"E_star": self.curve.E_star, **self.curve.settings}

@@ -18,7 +18,7 @@ from roughline.engineering.formulas import ELASTIC_UP_TO, electrical_resistance
 from roughline.engineering.joint import constriction_of_disc
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.repetition import border_jump
-from roughline.units import decimal, engineering
+from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
 _CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
 _MOVED = (  # keys of the answers whose change by the scatter of the hardness is reported
@@ -28,7 +28,6 @@ _MOVED = (  # keys of the answers whose change by the scatter of the hardness is
     "contact_area",
     "constriction_resistance",
 )
-_LEAST = 0.05  # change that is reported [%]
 _BORDER_OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned of
 
 
@@ -242,12 +241,12 @@ def _scatter_in_words(result: Assessment, yielded: float) -> str:
             "the softest such body does not bear the largest load, so how far the answers change "
             "there is not known, and they come without intervals"
         )
-    if np.allclose([*moved.values()], 1, rtol=0, atol=_LEAST / 100):
+    if np.allclose([*moved.values()], 1, rtol=0, atol=LEAST_CHANGE / 100):
         except_for = "p_c/H and the estimates that are made with the hardness"
         if yielded > 0:
             return (
                 f"with the softest and the hardest such body, the answers at the largest load "
-                f"change by less than {_LEAST:g}%, except for {except_for}"
+                f"change by less than {LEAST_CHANGE:g}%, except for {except_for}"
             )
         return (
             "as nothing yields at the largest load, this changes no answer there except "
@@ -295,14 +294,3 @@ def of_full_contact(result: Assessment) -> list[str]:
             "without them it is infinite"
         )
     return notes
-
-
-def change_in_words(least: float, largest: float) -> str:
-    """Write how far a least and a largest ratio are from one, such as "-11 to +6%"."""
-
-    def signed(ratio: float) -> str:
-        percent = 100 * (ratio - 1)
-        return "0" if abs(percent) < _LEAST else ("+" if percent > 0 else "") + decimal(percent, 2)
-
-    ends = signed(least), signed(largest)
-    return "no change" if ends == ("0", "0") else f"{ends[0]} to {ends[1]}%"

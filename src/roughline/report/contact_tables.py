@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.assessment.notes import change_in_words
 from roughline.contact.quantities import QUANTITIES
 from roughline.contact.status import Status
 from roughline.engineering.symbols import symbols_of
 from roughline.report.values import value_and_interval, with_interval
-from roughline.units import engineering
+from roughline.units import change_in_words, engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
