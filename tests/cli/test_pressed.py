@@ -6,12 +6,13 @@ from datetime import date
 
 import numpy as np
 import pytest
+import xarray
 
 import roughline as rl
 from roughline.assessment import grid
 from roughline.assessment import loads as load_cases
 from roughline.report.values import scale_of
-from roughline.units import decimal
+from roughline.units import decimal, engineering
 
 PAIR = ("--materials", "steel,copper")
 INTERVAL = re.compile(r"± \S+%|\S+ to \S+")
@@ -311,3 +312,30 @@ def test_units_as_they_stand_in_tables(rough, invoke):
     assert found["answers"]["G"]["values"][0] == pytest.approx(
         kappa * stiffness / found["E_star"], rel=1e-12
     )
+
+
+def test_a_curve_in_a_file_is_shown_and_is_no_topography(tmp_path, invoke, rough):
+    """As press wrote it, and as it is read in Python."""
+    code, _, errors = invoke(
+        *("press", rough, "--modulus", "110 GPa", "--load", "1 N", "--load", "2 N"),
+        *("--out", tmp_path / "out"),
+    )
+    assert code == 0, errors
+    file = tmp_path / "out" / "curve.nc"
+    code, out, _ = invoke("info", file)
+    assert code == 0
+    assert "curve.nc, a curve that roughline wrote" in out
+    data = xarray.load_dataset(file, engine="h5netcdf")
+    for i, force in enumerate(("1 N", "2 N")):
+        (line,) = (each for each in out.splitlines() if each.startswith(force))
+        assert engineering(float(data.stiffness[i]), "N/m") in line
+    code, out, _ = invoke("info", file, "--json")
+    found = json.loads(out)
+    assert found["curve"]["stiffness"] == data.stiffness.values.tolist()
+    assert found["settings"]["E_star"] == 110e9
+    code, _, errors = invoke("press", file, "--modulus", "110 GPa")
+    assert code == 2
+    assert "curve.nc holds a curve that roughline wrote, and no topography" in errors
+    line = rl.SelfAffine(hurst=0.7, length=1.0, rms_height=1.0).line(64, 1)
+    rl.press(line, E_star=1.0, depths=[1e-9, 0.1]).write(tmp_path / "of_line.nc")  # without units
+    assert "0.1" in invoke("info", tmp_path / "of_line.nc")[1]

@@ -16,7 +16,10 @@ from roughline.cli.options import print_json, writable
 def info(
     file: Annotated[
         Path,
-        typer.Argument(help="A topography: an instrument's file, or one that roughline wrote."),
+        typer.Argument(
+            help="A topography: an instrument's file, or one that roughline wrote; or a curve that "
+            "it wrote."
+        ),
     ],
     unit: options.Unit = None,
     channel: options.Channel = None,
@@ -35,14 +38,20 @@ def info(
 ) -> None:
     """Describe a topography: sizes, missing points, roughness, and its self-affine spectrum.
 
+    Of a curve that roughline wrote, it prints what was pressed and the loads.
+
     Intervals are 95 % intervals. The Hurst exponent, the roll-off and the cutoff are those of a
     plateau and a power law fitted to the spectrum; the last line says whether this fit describes
     the spectrum.
     """
     from roughline.assessment.description import describe
+    from roughline.files.curves import curve_in
+    from roughline.report.curve_file import as_json
     from roughline.report.json_output import of_description
-    from roughline.report.terminal import print_description
+    from roughline.report.terminal import print_curve_file, print_description
 
+    if curve := curve_in(file):
+        return print_json(as_json(curve)) if json else print_curve_file(curve)
     reading = options.reading_of(unit, channel, size, fill, max_missing)
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     with writable(out):

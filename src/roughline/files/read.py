@@ -11,6 +11,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
 from roughline.files.archives import refuse_bombs
+from roughline.files.curves import curve_in
 from roughline.files.heights_in_text import read_text
 from roughline.files.instrument import read_instrument
 from roughline.files.measurement import Measurement
@@ -124,6 +125,11 @@ def measurement(
     if path.stat().st_size == 0:
         raise InputError(f"{name} is empty: export it again")
     measured = read_body_file(path, name) if path.suffix == ".nc" else None
+    if measured is None and curve_in(path):
+        raise InputError(
+            f"{name} holds a curve that roughline wrote, and no topography: `roughline info` shows "
+            "it, and xarray.open_dataset opens it"
+        )
     if measured is None and path.suffix == ".npy":
         measured = _read_array(path, name)
     if measured is None:

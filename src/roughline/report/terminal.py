@@ -24,6 +24,7 @@ from roughline.report.contact_tables import (
     quantity,
     star_is_shown,
 )
+from roughline.report.curve_file import loads_table, settings_table
 from roughline.report.description_table import description_table, missing_map
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.assessment.comparison import ModelComparison
     from roughline.assessment.description import Description
+    from roughline.files.curves import CurveInFile
     from roughline.theories.theory_curve import TheoryCurve
 
 MOST_WITH_ALL = 20
@@ -156,6 +158,21 @@ def print_description(description: Description, files: Iterable[Path] = ()) -> N
     for note in (*description.notes, *remarks):
         console.print(f"note: {note}", highlight=False, soft_wrap=True)
     print_files(files)
+
+
+def print_curve_file(curve: CurveInFile) -> None:
+    """Print what a file with a curve is of, and its loads."""
+    console = Console(markup=False)
+    rows = settings_table(curve)
+    indent = 2 + max(len(name) for name, _ in rows)
+    for name, value in rows:
+        console.print(Text(paragraph(name, value, indent, console.width)), soft_wrap=True)
+    header, loads = loads_table(curve)
+    print_table(console, header, loads[:_MOST_SHOWN])
+    if len(loads) > _MOST_SHOWN:
+        console.print(f"{len(loads) - _MOST_SHOWN} more loads: use --json", highlight=False)
+    opened = f'xarray.open_dataset("{curve.file}", engine="h5netcdf")'
+    console.print(f"all of it in Python: {opened}", highlight=False, soft_wrap=True)
 
 
 def print_comparison(compared: ModelComparison, files: Iterable[Path] = ()) -> None:
