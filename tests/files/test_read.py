@@ -1,9 +1,11 @@
 """Files in and out: metres always, one clear line otherwise."""
 
+import io
 import tracemalloc
 import zipfile
 from dataclasses import replace
 
+import h5py
 import numpy as np
 import pytest
 import xarray
@@ -291,3 +293,74 @@ def test_a_piece_of_a_filled_body_does_not_count_the_points_of_the_whole(half_kn
     piece = prepared(whole, rl.Preparation(crop=(0, 5e-4, 0, 1e-3)))
     assert "missing_points" not in piece.settings
     assert piece.settings["filled_before_crop"] == 2050
+
+
+def test_arrays_that_are_no_heights_are_refused(tmp_path):
+    path = tmp_path / "map.npy"
+    arrays = (
+        (np.zeros(0), "holds (0 points|no array)"),
+        (np.zeros((5, 0)), "holds (5 x 0 points|no array)"),
+        (np.zeros(1), "holds 1 points"),
+        (np.zeros((1, 1)), "holds 1 x 1 points"),
+        (np.array(3.0), "0 dimensions"),
+        (np.zeros((3, 3, 3)), "3 dimensions"),
+        (np.ones((4, 4)) * 1j, "of type complex128"),
+        (np.array([["a", "b"]]), "of type <U1"),
+        (np.array([[1, None]], dtype=object), "allow_pickle"),
+    )
+    for array, message in arrays:
+        np.save(path, array, allow_pickle=True)
+        with pytest.raises(rl.InputError, match=message):
+            rl.read(path, "m", sizes=1e-3)
+
+
+@pytest.mark.parametrize("shape", [(20000, 20000), (10**12, 10**9), (2000, 3000)])
+def test_points_that_are_declared_and_cannot_be_there_are_refused_before_they_are_read(
+    tmp_path, shape
+):
+    header = io.BytesIO()
+    declared = {"descr": "<f8", "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(header, declared)
+    (tmp_path / "map.npy").write_bytes(header.getvalue() + bytes(7000))
+    names = ["map.npy"]
+    if shape[0] < 10**6:
+        for name in ("map.nc", "map.h5"):
+            names.append(name)
+            with h5py.File(tmp_path / name, "w") as file:
+                file.create_dataset("heights", shape, "f8", chunks=(1000, 1000))
+                file.attrs.update(format="roughline body 1", kind="surface", unit="m")
+                file.attrs.update(sizes=[1e-3, 1e-3], removed_trend="none")
+    tracemalloc.start()
+    for name in names:
+        with pytest.raises(rl.InputError, match=name):
+            rl.read(tmp_path / name)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 4e7
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"kind": "banana"},
+        {"kind": "profile"},
+        {"sizes": np.array([1e-3])},
+        {"sizes": np.array([np.nan, 1e-3])},
+        {"sizes": "a"},
+        {"sizes": None},
+        {"unit": None},
+        {"removed_trend": "foo"},
+    ],
+)
+def test_a_file_of_our_own_that_is_damaged_is_read_as_nothing_else(tmp_path, wrong):
+    path = tmp_path / "map.nc"
+    rl.write(replace(SPECTRUM.surface(16, 7), unit="m"), path)
+    with h5py.File(path, "r+") as file:
+        for name, value in wrong.items():
+            del file.attrs[name]
+            if value is not None:
+                file.attrs[name] = value
+    with pytest.raises(
+        rl.InputError, match=f"damaged file of roughline .wrong: {next(iter(wrong))}"
+    ):
+        rl.read(path)

@@ -1,7 +1,8 @@
-"""Archives that unpack to far more than their size."""
+"""Files that say that they hold far more than their size: archives, and grids without heights."""
 
 from __future__ import annotations
 
+import math
 import zipfile
 from pathlib import Path
 
@@ -38,4 +39,32 @@ def refuse_bombs(path: Path, name: str) -> None:
         raise InputError(
             f"{name} has {packed / 1e6:.3g} MB and would unpack to {unpacked / 1e6:.4g} MB, "
             "far too large for a measurement: export it again"
+        )
+
+
+def refuse_hollow(points: tuple[int, ...], path: Path, name: str) -> None:
+    """Refuse a file that is too small for the points that it declares, before they are read.
+
+    Parameters
+    ----------
+    points : tuple of int
+        Points along each axis, as the file declares them.
+    path : Path
+        The file.
+    name : str
+        What it is called.
+
+    Raises
+    ------
+    InputError
+        If there are more than 200 points for each byte, or fewer than two.
+    """
+    count, declared = math.prod(points), " x ".join(map(str, points))
+    if count < 2:
+        raise InputError(f"{name} holds {declared or 1} points; at least 2 are needed")
+    size = path.stat().st_size
+    if count > _RATIO * size:
+        raise InputError(
+            f"{name} declares {declared} points and has {size / 1e3:.3g} kB, too little to hold "
+            "them: export it again"
         )

@@ -22,7 +22,6 @@ from roughline.files.text import (
 from roughline.topography.settings import MEASURED
 from roughline.units import metres_per
 
-_OF_PROGRAMS = re.compile(r"[ab](ISO|BCR)-|X;Y;valid")  # SurfaceTopography reads them whole
 _STATED = re.compile(r"\d|unit|einheit|unité", re.IGNORECASE)
 _IN_BRACKETS = re.compile(r"[\[(]\s*([^\])]+?)\s*[\])]")
 _POINTS = re.compile(
@@ -62,7 +61,7 @@ def read_text(path: Path, channel: int | str | None, name: str) -> Measurement |
         If the text is damaged, was cut short, or can be read in more than one way.
     """
     table = table_of(path, name)
-    if table is None or (table.head and _OF_PROGRAMS.match(table.head[0])):
+    if table is None:
         return None
     if len(table.rows) == 1:
         raise InputError(
@@ -127,12 +126,12 @@ def _of_points(
 
 def _along_a_line(x: Real, y: Real) -> Real | None:
     """Positions along a straight line of points; None if they are spread over a map."""
-    if x.size < 3 or (x[0] == x[-1] and y[0] == y[-1]):
+    if x[0] == x[-1] and y[0] == y[-1]:
         return None
     if is_even(x, 1e-9) and abs(x[1] - x[0]) == 1 and x[0] in (0, 1) and len(np.unique(y)) > 2:
         return y  # the first column counts the points
     dx, dy = x - x[0], y - y[0]
-    length = float(np.hypot(dx[-1], dy[-1]))
+    length = float(np.hypot(dx[-1], dy[-1]))  # not 0: the ends differ
     aside = np.abs(dx * dy[-1] - dy * dx[-1]).max() / length
     return (dx * dx[-1] + dy * dy[-1]) / length if aside < 1e-6 * length else None
 

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 
 from roughline.computing.memory import refuse_beyond_memory
-from roughline.errors import InputError, StoreError
+from roughline.errors import InputError, RoughlineError, StoreError
 from roughline.errors.public import public
+from roughline.files.archives import refuse_hollow
 from roughline.files.measurement import Measurement
 from roughline.topography.body import Body, Surface
 from roughline.topography.settings import AS_RECORDED
+from roughline.topography.trend import DEGREES
 
 _FORMAT = "roughline body 1"
 
@@ -84,24 +86,21 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
     Raises
     ------
     InputError
-        If memory cannot hold its heights.
+        If memory cannot hold its heights, or the file cannot.
     """
     import h5netcdf  # here because it loads slowly; xarray loads even more slowly
 
     try:
-        with h5netcdf.File(path, "r") as file:
+        with h5netcdf.File(path, "r", phony_dims="sort") as file:
             if file.attrs.get("format") != _FORMAT:
                 return None
-            points = file["heights"].shape
-            refuse_beyond_memory(
-                2 * 8 * math.prod(points),
-                f"reading the {' x '.join(map(str, points))} points of {name}",
-                "take a smaller piece",
-            )
-            heights = file["heights"][:]
             attrs = dict(file.attrs)
+            heights = _heights_in(file, path, name)
+    except RoughlineError:
+        raise
     except (OSError, ValueError, KeyError, AttributeError):  # the last of h5netcdf before 1.7
         return None
+    _refuse_damaged(attrs, heights, name)
     settings = {
         name.removeprefix("body_"): getattr(value, "item", lambda value=value: value)()
         for name, value in attrs.items()
@@ -119,3 +118,37 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
         is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else AS_RECORDED,
         removed_trend=attrs.get("removed_trend", AS_RECORDED),
     )
+
+
+def _heights_in(file: Any, path: Path, name: str) -> Any:
+    """The heights of a file that roughline wrote, unless it or memory is too small for them."""
+    if "heights" not in file.variables:
+        raise InputError(
+            f"{name} is a damaged file of roughline: it holds no heights; write it again"
+        )
+    points = file["heights"].shape
+    refuse_hollow(points, path, name)
+    refuse_beyond_memory(
+        2 * 8 * math.prod(points),
+        f"reading the {' x '.join(map(str, points))} points of {name}",
+        "take a smaller piece",
+    )
+    return file["heights"][:]
+
+
+def _refuse_damaged(attrs: dict[str, Any], heights: Any, name: str) -> None:
+    """Refuse a file of our own that lacks what we write, or has something else in its place."""
+    kinds = {"surface": 2, "reduced": 1, "profile": 1}
+    sizes = np.atleast_1d(attrs.get("sizes", np.nan))
+    wrong = {
+        "kind": kinds.get(str(attrs.get("kind"))) != heights.ndim,
+        "sizes": sizes.shape != (heights.ndim,) or sizes.dtype.kind not in "if",
+        "unit": not isinstance(attrs.get("unit"), str),
+        "removed_trend": str(attrs.get("removed_trend", "none")) not in DEGREES,
+        "heights": heights.dtype.kind not in "if",
+    }
+    if not wrong["sizes"]:
+        wrong["sizes"] = not (np.isfinite(sizes) & (sizes > 0)).all()
+    if any(wrong.values()):
+        names = ", ".join(key for key, is_wrong in wrong.items() if is_wrong)
+        raise InputError(f"{name} is a damaged file of roughline (wrong: {names}): write it again")

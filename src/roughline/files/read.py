@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
+from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
-from roughline.files.archives import refuse_bombs
+from roughline.files.archives import refuse_bombs, refuse_hollow
 from roughline.files.curves import curve_in
 from roughline.files.heights_in_text import read_text
 from roughline.files.instrument import read_instrument
@@ -145,14 +146,21 @@ def measurement(
 def _read_array(path: Path, name: str) -> Measurement:
     """Read an array in NumPy's format, x along the first axis."""
     try:
-        stored = np.load(path, mmap_mode="r", allow_pickle=False)
+        with np.errstate(over="ignore"):  # of points that no file can hold
+            stored = np.load(path, mmap_mode="r", allow_pickle=False)
         if stored.ndim not in (1, 2) or not np.can_cast(stored.dtype, np.float64, "same_kind"):
             raise ValueError(f"{stored.ndim} dimensions of type {stored.dtype}")
-    except (ValueError, OSError, EOFError) as error:
+    except (ValueError, OSError, EOFError, OverflowError) as error:
         reason = str(error).splitlines()[0][:120] if str(error) else type(error).__name__
         raise InputError(
             f"{name} holds no array of real heights ({reason}): save one or two dimensions"
         ) from error
+    refuse_hollow(stored.shape, path, name)
+    refuse_beyond_memory(
+        2 * 8 * stored.size,
+        f"reading the {' x '.join(map(str, stored.shape))} points of {name}",
+        "take a smaller piece",
+    )
     return Measurement(
         file=name,
         heights=np.array(stored, dtype=np.float64),

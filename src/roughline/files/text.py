@@ -31,7 +31,8 @@ _CONTROLS = re.compile(rb"[\x00-\x08\x0e-\x1f]")
 _MARKS = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 _COMMENT = re.compile(r"\s*(?:#(?!N/A|NV|VALUE)|%|//|!)", re.IGNORECASE)
 
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+_OF_PROGRAMS = re.compile(r"[ab](ISO|BCR)-|X;Y;valid")  # SurfaceTopography reads them whole
+_NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _MISSING_WORDS = {"", "nan", "bad", "n/a", "na", "null", "none", "inf", "+inf", "-inf"}
 _MISSING_WORDS |= {"#n/a", "#nv", "#value!"}  # of spreadsheets
 _MISSING_SIGNS = re.compile(r"\*+|-{2,}|[?]+|[-+]?1\.#[A-Za-z]+")
@@ -79,7 +80,7 @@ _Cells = list[tuple[int, list[str]]]
 
 
 def table_of(path: Path, name: str) -> Table | None:
-    """Read the rows of numbers in a text file; None if it is no text, or holds no such rows.
+    """Read the rows of numbers in a text file; None if there are none, or a program's own format.
 
     Parameters
     ----------
@@ -94,19 +95,22 @@ def table_of(path: Path, name: str) -> Table | None:
         If the rows are damaged, differ in length, or can be read in more than one way.
     """
     text = _text_of(path, name)
-    if text is None:
+    if text is None or _OF_PROGRAMS.match(text):
         return None
     lines = text.split("\n")
     start = next((i for i, line in enumerate(lines) if _begins_rows(line)), None)
     if start is None:
         return None
     body = [(i + 1, line) for i, line in enumerate(lines[start:], start) if line.strip(" \r")]
-    separator, decimal = _dialect("\n".join(line for _, line in body), name)
-    if separator != "\t":
-        body = [(number, line) for number, line in body if line.strip()]
     if any(_COMMENT.match(line) for _, line in body):
         _refuse_words_between_rows(body, name)
         return None  # files of several channels go on so
+    joined = "\n".join(line for _, line in body)
+    if "_" in joined or not joined.isascii():  # Python would read 1_0, and digits of all scripts
+        raise InputError(f"{name} has signs among its numbers that are none; {READ_AS_TEXT}")
+    separator, decimal = _dialect(joined, name)
+    if separator != "\t":
+        body = [(number, line) for number, line in body if line.strip()]
     cells = [(number, _cells(line, separator, decimal)) for number, line in body]
     if not text.endswith("\n"):
         _refuse_a_cut_number(cells, name)
