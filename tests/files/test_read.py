@@ -306,7 +306,7 @@ def test_arrays_that_are_no_heights_are_refused(tmp_path):
         (np.zeros((3, 3, 3)), "3 dimensions"),
         (np.ones((4, 4)) * 1j, "of type complex128"),
         (np.array([["a", "b"]]), "of type <U1"),
-        (np.array([[1, None]], dtype=object), "allow_pickle"),
+        (np.array([[1, None]], dtype=object), "holds no array of real heights"),
     )
     for array, message in arrays:
         np.save(path, array, allow_pickle=True)
