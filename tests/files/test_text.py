@@ -193,6 +193,7 @@ def test_a_list_that_ends_within_a_row_was_cut_short(tmp_path, fast, lost):
             points() + np.random.default_rng(2).normal(size=(108, 3)) * [0.2, 0.1, 0],
             "points that lie on no regular grid",
         ),
+        (np.ones((4, 3)), "they have one position along a side"),
         (np.vstack([points(), [0, 0, 9]]), "two heights at x = 0, y = 0"),
         (np.column_stack([points(), points()[:, 2]]), "the first two are positions on a grid"),
         (np.stack([X, SCAN], 1)[[0, 2, 1, 3]], "0.4 stands before 0.2"),

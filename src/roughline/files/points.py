@@ -65,6 +65,8 @@ def map_of(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float, flo
         alone lacks its end, as in a file that was cut short.
     """
     (i, dx), (j, dy) = (_nodes(positions, name, axis) for positions, axis in ((x, "x"), (y, "y")))
+    if dx == 0 or dy == 0:
+        raise _irregular(name, "they have one position along a side")
     shape = (int(i.max()) + 1, int(j.max()) + 1)
     if shape[0] * shape[1] > _SPARSE * z.size:
         raise _irregular(name, f"{z.size} points would lie on a grid of {shape[0]} x {shape[1]}")
