@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from roughline.errors import InputError
+from roughline.errors.public import public
 from roughline.plot.style import MARKERS, dimension_label, drawing_on
 from roughline.statistics.power_law import (
     PowerLaw,
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 _COLOURS = ("tab:blue", "tab:red", "tab:green", "tab:purple", "tab:orange", "tab:brown")
 
 
+@public
 def exponents(
     laws: xarray.Dataset | Mapping[float, PowerLaw] | Iterable[tuple[float, PowerLaw]],
     window: tuple[float, float] | None = None,
