@@ -110,3 +110,18 @@ def test_full_contact_is_said(surface):
     assert np.isinf(result.answers["contact_stiffness"].values).tolist() == [False, True]
     text = "; ".join(result.warnings)
     assert "all points touch under 20 N: no gap is left, and stiffness is infinite" in text
+
+
+def test_a_wide_interval_names_its_largest_cause_first(surface):
+    """Few points in contact leave more open than the hardness; many of a metal do not."""
+    cropped = rl.Surface(surface.heights, surface.sizes, "m", is_cut_out=True)
+    few = said(cropped, loads="1 N", joint_area="1 cm^2", grid_error=True)
+    (note,) = [text for text in few.warnings if "is left open by" in text]
+    cells = round(few.curve.area_fraction[0] * 64**2)
+    assert f"with {cells} of 4096 points in contact" in note
+    factors = [float(each) for each in re.findall(r"\(a factor of ([0-9.e+]+)\)", note)]
+    assert factors == sorted(factors, reverse=True)
+    k_i = few.answers["interface_stiffness"]
+    assert k_i.high[0] / k_i.low[0] >= 4
+    known = said(surface, loads="20 N", periodic=True, hardness="370 MPa", grid_error=True)
+    assert not [text for text in known.warnings if "is left open by" in text]

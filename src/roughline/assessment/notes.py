@@ -28,6 +28,8 @@ _MOVED = (  # keys of the answers whose change by the scatter of the hardness is
     "contact_area",
     "constriction_resistance",
 )
+_WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
+_COUNTS = 1.2  # upper over lower end of what counts as a cause
 _BORDER_OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned of
 
 
@@ -294,3 +296,39 @@ def of_full_contact(result: Assessment) -> list[str]:
             "without them it is infinite"
         )
     return notes
+
+
+def of_wide_interval(result: Assessment) -> list[str]:
+    """Say why the interval of a stiffness is wide: its causes, the largest first, and a remedy."""
+    keys = ("interface_stiffness", "unloading_stiffness", "contact_stiffness")
+    key = next((each for each in keys if each in result.answers), None)
+    curve, points = result.curve_as_asked, result.body.heights.size
+    error, k = curve.unloading_stiffness_error, curve.unloading_stiffness
+    ends = None if key is None else result.answers[key].ends
+    if key is None or ends is None or error is None or k is None or curve.area_fraction is None:
+        return []
+    with np.errstate(divide="ignore", invalid="ignore"):
+        widths, of_grid = np.log(ends[1] / ends[0]), 2 * np.log1p(error / k)
+        scatter = result.hardness_scatter.get(key)
+        of_hardness = 0 * widths if scatter is None else np.log(scatter[1] / scatter[0])
+        of_piece = np.sqrt(np.maximum((widths - of_hardness) ** 2 - of_grid**2, 0))
+    widths = np.where(np.isfinite(widths), widths, 0)
+    i = int(np.argmax(widths))
+    if widths[i] < np.log(_WIDE):
+        return []
+    cells = round(float(curve.area_fraction[i]) * points)
+    causes = [
+        (of_grid[i], f"the grid, with {cells} of {points} points in contact", "finer pixels"),
+        (of_hardness[i], "the scatter of the hardness", "a measured hardness"),
+    ]
+    if key == "interface_stiffness":
+        causes.append((of_piece[i], "what one map does not show", "a larger map, or several maps"))
+    causes = sorted((each for each in causes if each[0] > np.log(_COUNTS)), reverse=True)
+    if not causes:
+        return []
+    told = [f"{what} (a factor of {decimal(float(np.exp(w)), 2)})" for w, what, _ in causes]
+    return [
+        f"the {result.answers[key].name} under {result.headings[i]} is known to a factor of "
+        f"{decimal(float(np.exp(widths[i])), 2)} between both ends; it is left open by "
+        f"{', then by '.join(told)}: {causes[0][2]} would narrow it most"
+    ]

@@ -21,6 +21,7 @@ def warnings_of(
         *say.of_each(bodies, suspicions),
         *broken_assumptions(result, spectrum),
         *say.of_full_contact(result),
+        *say.of_wide_interval(result),
         *say.how_far_a_line_serves(result, grave=True),
         *curve.warnings,
     ]
