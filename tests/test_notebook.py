@@ -37,10 +37,14 @@ def in_si(surface):
 
 def test_a_body_is_told_in_a_line():
     surface = SPECTRUM.surface(64, 3)
-    assert repr(surface) == "<Surface: 64 × 64 points, 0.001 × 0.001, rms height 1e-06>"
-    assert repr(in_si(surface)) == "<Surface: 64 × 64 points, 1 mm × 1 mm, rms height 1 µm>"
-    line = rl.Line(SPECTRUM.line(256, 1).heights, 1e-3, "m")
-    assert repr(line) == "<Line: 256 points, 1 mm, rms height 1 µm>"
+    assert repr(surface) == "<Surface: 64 × 64 points, 0.001 × 0.001, rms height 1e-06, periodic>"
+    assert repr(in_si(surface)) == (
+        "<Surface: 64 × 64 points, 1 mm × 1 mm, rms height 1 µm, "
+        "periodic (opposite borders are 1.1 ordinary steps apart)>"
+    )
+    assert repr(surface.cropped((0, 32), (0, 64))).endswith(", cut out of a larger one>")
+    line = rl.Line(SPECTRUM.line(256, 1).heights, 1e-3, "m", is_cut_out=False)
+    assert repr(line) == "<Line: 256 points, 1 mm, rms height 1 µm, periodic>"
 
 
 @pytest.mark.parametrize(

@@ -56,7 +56,8 @@ def test_a_surface_pressed_with_its_tilt_says_so(tmp_path):
     assert "tilted" in rl.press(kept, **force).to_dataset().attrs["warnings"]
     level = rl.press(rl.read(path, **as_given), **force)
     assert not any("tilted" in w for w in level.warnings)
-    meant = rl.Surface(heights, (1e-3, 1e-3), "m")  # made, not measured: its tilt is its shape
+    # made, not measured: its tilt is its shape
+    meant = rl.Surface(heights, (1e-3, 1e-3), "m", is_cut_out=False)
     assert rl.press(meant, **force).warnings == ()
     assert any("tilted" in w for w in rl.press(meant.cropped((0, 40), (0, 48)), **force).warnings)
 

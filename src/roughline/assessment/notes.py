@@ -30,7 +30,6 @@ _MOVED = (  # keys of the answers whose change by the scatter of the hardness is
 )
 _WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
 _COUNTS = 1.2  # upper over lower end of what counts as a cause
-_BORDER_OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned of
 
 
 def of_each(bodies: Sequence[Body], say: Callable[[Body], list[str]]) -> list[str]:
@@ -144,19 +143,7 @@ def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
     if not question.is_repeated or not is_map(body):
         return "", False
     found = border_jump(body if question.joint is None else body.detrended())
-    text = (
-        f"repeated periodically, the map jumps by {engineering(found.jump, 'm', 3)} (rms) across "
-        "its borders, "
-        f"{decimal(found.jump / found.step, 2) if found.step else 'infinitely many'} times an "
-        f"ordinary step between neighbouring points, {engineering(found.step, 'm', 3)}"
-    )
-    if found.share_of_slope <= _BORDER_OUTWEIGHS:
-        return text, False
-    return (
-        f"{text}; {found.share_of_slope:.0%} of its mean-square slope lies there, so contact near "
-        "the borders is that of a step which the part does not have: remove what is left of the "
-        'form (trend="curvature"), or take a larger map'
-    ), True
+    return found.in_words("m"), found.outweighs
 
 
 def cropping_and_resampling(body: Body) -> list[str]:

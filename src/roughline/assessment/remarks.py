@@ -16,6 +16,8 @@ def warnings_of(
     result: Assessment, spectrum: Moments | None, grid_error_was_tried: bool
 ) -> list[str]:
     """What is suspicious, where assumptions break, and why there is no interval."""
+    # what a curve says of the borders is said below, as a warning or as a note
+    of_borders, _ = say.borders_of_repeated(result.question, result.body)
     bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
     warnings = [
         *say.of_each(bodies, suspicions),
@@ -23,9 +25,9 @@ def warnings_of(
         *say.of_full_contact(result),
         *say.of_wide_interval(result),
         *say.how_far_a_line_serves(result, grave=True),
-        *curve.warnings,
+        *(text for text in curve.warnings if text != of_borders),
+        *say.of_joint_and_borders(result, grave=True),
     ]
-    warnings += say.of_joint_and_borders(result, grave=True)
     if isinstance(body, Surface) and curve.stiffness_error is None:
         warnings.append(why_without_grid_error(result.question, body, grid_error_was_tried))
     return warnings

@@ -1,4 +1,4 @@
-"""The share of the load on the border of a surface that was cut out of a larger one."""
+"""What the border of a surface does that was cut out of a larger one: its load, its jump."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.halfspace.state import Contact
 from roughline.topography.body import Surface
+from roughline.topography.repetition import border_jump
 
 # A surface that was cut out of a larger one ends where the larger one continues. Where the outer
 # frame of this width carries more than this share of the force, the part beyond it is missed.
@@ -49,3 +50,10 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
         "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or the "
         "periodic half-space",
     )
+
+
+def jump_warnings(surface: Surface) -> tuple[str, ...]:
+    """Say how far a piece of a larger surface jumps at its borders where it is repeated."""
+    if not surface.is_cut_out or surface.rms_height == 0:
+        return ()
+    return (border_jump(surface).in_words(surface.unit),)

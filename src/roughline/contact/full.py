@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline._version import __version__
 from roughline.computing import linear_algebra
-from roughline.contact.border import border_warnings
+from roughline.contact.border import border_warnings, jump_warnings
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Indentation
 from roughline.contact.load_result import LoadResult, columns
@@ -24,6 +24,7 @@ from roughline.halfspace.path import solve_path
 from roughline.halfspace.preconditioner import ApproximateInverse
 from roughline.halfspace.state import Load, Method, Problem
 from roughline.topography.body import Surface
+from roughline.topography.borders import border_doubts
 from roughline.topography.preparation import tilt_warnings
 from roughline.topography.settings import as_body
 
@@ -165,7 +166,9 @@ def _curve(
     prescribed = values[loads.control.removesuffix("s")]
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
     shares = np.array([result.border_share for result in results])
-    at_the_border = () if periodic else border_warnings(surface, values["force"], shares)
+    at_the_border = (
+        jump_warnings(surface) if periodic else border_warnings(surface, values["force"], shares)
+    )
     return Curve(
         **values,
         E_star=E_star,
@@ -183,7 +186,7 @@ def _curve(
             **({} if hardness is None else {"hardness": hardness}),
             **as_body(surface.settings),
         },
-        warnings=(*tilt_warnings(surface), *at_the_border),
+        warnings=(*border_doubts(surface), *tilt_warnings(surface), *at_the_border),
         residual_of=tuple(result.residual_of for result in results),
         surface=surface,
         dents=() if hardness is None else tuple(result.dents for result in results),

@@ -11,6 +11,7 @@ from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Line
+from roughline.topography.borders import decided
 from roughline.topography.settings import as_body
 
 
@@ -64,4 +65,18 @@ def press_line(line: Line, E_star: float, given: GivenLoads) -> Curve:
             "control": loads.control,
             **as_body(line.settings),
         },
+        warnings=_end_warnings(line),
+    )
+
+
+def _end_warnings(line: Line) -> tuple[str, ...]:
+    """Warn of a line whose ends do not meet, as those of a reduced line do."""
+    borders = decided(line)
+    if borders is None or not borders.jump:
+        return ()
+    return (
+        f"the ends of this line are {borders.step:.2g} ordinary steps apart, and those of a "
+        "reduced line meet where it is made from a spectrum: a measured scan is no reduced line "
+        '(kind="profile"); where the line is one, say that its ends need not meet '
+        "(is_cut_out=True)",
     )

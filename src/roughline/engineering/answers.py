@@ -19,7 +19,7 @@ from roughline.topography.body import Surface
 
 def saturated_stiffness(surface: Surface, E_star: float) -> float:
     """Stiffness of the flat punch with the outline and grid of a surface. [N / m]"""
-    flat = Surface(np.zeros(surface.shape), surface.sizes, surface.unit)
+    flat = Surface(np.zeros(surface.shape), surface.sizes, surface.unit, is_cut_out=False)
     depth = math.sqrt(surface.area) * 1e-6
     return float(press(flat, E_star=E_star, depths=[depth]).stiffness[0])
 

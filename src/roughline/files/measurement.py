@@ -208,7 +208,15 @@ class Measurement:
                 is_cut_out=self.is_cut_out,
                 removed_trend=removed_trend,
             )
-        return Line(heights, sides[0], "m", settings, self.kind, removed_trend=removed_trend)
+        return Line(
+            heights,
+            sides[0],
+            "m",
+            settings,
+            self.kind,
+            is_cut_out=self.is_cut_out,
+            removed_trend=removed_trend,
+        )
 
     def _scale(self, unit: str | None, sizes: Sizes | None) -> Scale:
         return Scale(self.file, self.heights.shape, self.unit, unit, self.sizes, sizes)

@@ -60,9 +60,8 @@ def write(body: Body, path: str | Path) -> None:
         "sizes": np.array(sizes),
         "unit": body.unit or "",
         "removed_trend": body.removed_trend,
+        "is_cut_out": int(body.is_cut_out),
     }
-    if isinstance(body, Surface):
-        attrs["is_cut_out"] = int(body.is_cut_out)
     for name, value in body.settings.items():
         attrs[f"body_{name}"] = value
     dimensions = ("x", "y")[: body.heights.ndim]

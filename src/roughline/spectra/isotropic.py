@@ -91,7 +91,7 @@ class IsotropicSpectrum:
         scale = self.rms_height / synthesis.rms_of(moduli)
         heights = synthesis.line_heights(moduli, phases, scale, n)
         settings: Settings = {"origin": "reduced line of a surface's spectrum", "n": int(n)}
-        return Line(heights, self.length, settings=settings)
+        return Line(heights, self.length, settings=settings, is_cut_out=False)
 
 
 @public

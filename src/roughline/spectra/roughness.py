@@ -15,6 +15,7 @@ from roughline.spectra.fit import SelfAffineFit, fit_self_affine
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
 from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
 from roughline.topography.body import Body, Line, Surface
+from roughline.topography.borders import border_doubts
 
 ALIKE = 0.7  # minor over major slope, from which on a surface counts as isotropic
 
@@ -113,7 +114,7 @@ def roughness(body: Body) -> Roughness:
         )
     skewness, kurtosis = _shape(body.heights)
     summits = _summits(body.heights)
-    remarks, spectrum, fit = [], None, None
+    remarks, spectrum, fit = [*border_doubts(body)], None, None
     try:
         estimate = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
         spectrum, fit = estimate, fit_self_affine(estimate)

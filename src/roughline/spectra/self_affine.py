@@ -276,7 +276,8 @@ class SelfAffine:
             Heights (n, n). [length]
         """
         heights, settings = self._generate("surface", n, rng, amplitudes)
-        return Surface(heights, (self.length, self.length), settings=settings)
+        sides = (self.length, self.length)
+        return Surface(heights, sides, settings=settings, is_cut_out=False)
 
     def line(self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed") -> Line:
         """Generate the random line of the reduction method (spectrum ``C_reduced``).
@@ -294,7 +295,7 @@ class SelfAffine:
             Heights (n,). [length]
         """
         heights, settings = self._generate("line", n, rng, amplitudes)
-        return Line(heights, self.length, settings=settings)
+        return Line(heights, self.length, settings=settings, is_cut_out=False)
 
     def _generate(
         self, body: BodyName, n: int, rng: synthesis.Seed, amplitudes: Amplitudes

@@ -12,6 +12,7 @@ import numpy as np
 from roughline.errors import InputError
 from roughline.errors.checks import is_whole, one_of, refuse, rising_pair
 from roughline.errors.public import public
+from roughline.topography.borders import borders_of
 from roughline.topography.crop import settings_of_piece
 from roughline.topography.heights import (
     checked_heights,
@@ -53,20 +54,22 @@ class Surface:
     sizes : tuple of float
         Sides of the rectangle, (Lx, Ly); a cell is Lx / nx by Ly / ny. [length]
     unit : str, optional
-        Unit of all lengths, where it is known; :func:`roughline.read` gives "m".
+        Unit of all lengths, where it is known, such as "m" or "um"; :func:`roughline.read` gives
+        "m".
     settings : mapping, optional
         Where the heights come from; stored with every result.
     is_cut_out : bool, optional
-        Whether the surface is a piece of a larger one, as measured and cropped surfaces are.
-        Default: as the settings record.
+        Whether the surface is a piece of a larger one, as measured and cropped surfaces are, or
+        periodic. Default: as the settings record; where they do not, the heights decide: they are
+        a piece if opposite borders do not meet, and the settings record the step across.
     removed_trend : {"none", "mean", "tilt", "curvature"}, optional
         Trend that was removed from the heights. Default: as the settings record.
 
     Raises
     ------
     InputError
-        For heights that are not real, finite numbers, for a single height, and for sizes that are
-        not positive.
+        For heights that are not real, finite numbers, for a single height, for sizes that are not
+        positive, and for a unit that is none of length.
 
     Examples
     --------
@@ -103,8 +106,8 @@ class Surface:
                 f"the surface has {heights.shape[0]} x {heights.shape[1]} points; at least 1 x 2 "
                 "are needed: give more points"
             )
-        is_cut_out = checked_cut_out(self.is_cut_out, checked_settings(self.settings))
-        _freeze(self, heights=heights, sizes=checked_sides(self.sizes), is_cut_out=is_cut_out)
+        checked_settings(self.settings)
+        _freeze(self, heights=heights, sizes=checked_sides(self.sizes))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -215,21 +218,24 @@ class Line:
     length : float
         Length of the line; a spring stands for length / n. [length]
     unit : str, optional
-        Unit of all lengths, where it is known.
+        Unit of all lengths, where it is known, such as "m" or "um".
     settings : mapping, optional
         Where the heights come from; stored with every result.
     kind : {"reduced", "profile"}, optional
         Whether this is the line of the reduction method (the paper's eq. 7), or a straight cut
         through a surface such as a stylus measures. A cut is not the reduced line of its surface
         and is not pressed as one.
+    is_cut_out : bool, optional
+        Whether the line is a piece of a longer one, or periodic; default: as for a
+        :class:`Surface`.
     removed_trend : {"none", "mean", "tilt", "curvature"}, optional
         Trend that was removed from the heights. Default: as the settings record.
 
     Raises
     ------
     InputError
-        For heights that are not real, finite numbers, for fewer than 2 of them, and for a length
-        that is not positive.
+        For heights that are not real, finite numbers, for fewer than 2 of them, for a length that
+        is not positive, and for a unit that is none of length.
 
     Examples
     --------
@@ -247,6 +253,7 @@ class Line:
     unit: str | None = None
     settings: Settings = field(default_factory=dict, repr=False)
     kind: Literal["reduced", "profile"] = "reduced"
+    is_cut_out: bool = field(default=AS_RECORDED, kw_only=True)
     removed_trend: Trend = field(default=AS_RECORDED, kw_only=True)
 
     __repr__ = described
@@ -316,8 +323,19 @@ def _set(body: Body, **fields: Any) -> None:
         object.__setattr__(body, name, value)
 
 
-def _freeze(body: Body, **fields: Any) -> None:
+def _freeze(body: Body, heights: Real, **fields: Any) -> None:
     """Set checked fields at birth; the settings become read-only."""
-    removed_trend = checked_trend(body.removed_trend, body.settings)
-    checked_unit(body.unit)
-    _set(body, **fields, removed_trend=removed_trend, settings=read_only(body.settings))
+    settings = body.settings
+    is_cut_out = checked_cut_out(body.is_cut_out, settings)
+    if is_cut_out is None:
+        borders = borders_of(heights)
+        is_cut_out, settings = borders.jump, {**settings, **borders.record}
+    _set(
+        body,
+        **fields,
+        heights=heights,
+        unit=checked_unit(body.unit),
+        is_cut_out=is_cut_out,
+        removed_trend=checked_trend(body.removed_trend, settings),
+        settings=read_only(settings),
+    )

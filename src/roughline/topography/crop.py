@@ -15,8 +15,11 @@ if TYPE_CHECKING:
 Crop = tuple[float, ...]
 """From and to along each side: (x0, x1, y0, y1) of a map, (x0, x1) of a line. [length]"""
 
-_COUNTS = ("missing_points", "missing_share", "filled", "outliers_kept")
-"""What settings say of all points of a body."""
+_OF_THE_WHOLE = (
+    *("missing_points", "missing_share", "filled", "outliers_kept"),
+    *("border_step", "border_chance"),
+)
+"""What settings say of all points of a body, or of its borders."""
 
 
 def points_in(crop: Crop, sides: tuple[float, ...], shape: tuple[int, ...]) -> tuple[slice, ...]:
@@ -67,7 +70,7 @@ def points_between(crop: Crop, positions: Real) -> tuple[slice]:
 
 
 def settings_of_piece(settings: Settings, kept: tuple[slice, ...]) -> Settings:
-    """Return the settings of a piece: what was cropped, and no counts of the whole.
+    """Return the settings of a piece: what was cropped, and nothing that is said of the whole.
 
     Parameters
     ----------
@@ -79,7 +82,7 @@ def settings_of_piece(settings: Settings, kept: tuple[slice, ...]) -> Settings:
     ranges = [f"{each.start}:{each.stop}" for each in kept]
     cropped = ranges[0] if len(kept) == 1 else f"x {ranges[0]}, y {ranges[1]}"
     before = settings.get("missing_points", settings.get("filled_before_crop"))
-    left = {key: value for key, value in settings.items() if key not in _COUNTS}
+    left = {key: value for key, value in settings.items() if key not in _OF_THE_WHOLE}
     filled = {"filled_before_crop": before} if before else {}
     return {**left, **filled, "cropped": cropped}
 

@@ -1,4 +1,4 @@
-"""Heights and sizes, checked, and the rms of heights."""
+"""Heights, sizes and units, checked, and the rms of heights."""
 
 from __future__ import annotations
 

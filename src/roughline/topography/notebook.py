@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from roughline.topography.borders import whole_or_piece
 from roughline.units import MOST_DIGITS, SI, decimal, engineering, supported_digits
 
 if TYPE_CHECKING:
@@ -35,11 +36,12 @@ def digits_known(value: float, error: float | None) -> int:
 
 
 def described(body: Any) -> str:
-    """Describe a body in a line: its points, sizes and rms height."""
+    """Describe a body in a line: its points, sizes, rms height, and whether it is a piece."""
     points = " × ".join(map(str, body.heights.shape))
     sizes = " × ".join(in_words(side, body.unit) for side in _sizes(body))
     rms = in_words(body.rms_height, body.unit)
-    return f"<{type(body).__name__}: {points} points, {sizes}, rms height {rms}>"
+    name, kind = type(body).__name__, whole_or_piece(body)
+    return f"<{name}: {points} points, {sizes}, rms height {rms}, {kind}>"
 
 
 def html_of_body(body: Any) -> str:
@@ -56,6 +58,7 @@ def html_of_body(body: Any) -> str:
         ("rms slope", decimal(body.rms_slope, MOST_DIGITS)),
         ("unit of lengths", body.unit or "not stated"),
         ("trend removed", body.removed_trend),
+        ("borders" if surface else "ends", whole_or_piece(body)),
     ]
     kind = "Surface" if surface else f"Line, {body.kind}"
     return html(kind, ("", ""), rows, _thumbnail(body.heights))

@@ -181,6 +181,7 @@ def _cropped(body: BodyType, crop: Crop) -> BodyType:
         heights=heights,
         length=body.spacing * heights.size,
         settings=settings_of_piece(body.settings, kept),
+        is_cut_out=True,
     )
 
 

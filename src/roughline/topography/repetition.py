@@ -8,8 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughline.topography.notebook import in_words
+from roughline.units import decimal
+
 if TYPE_CHECKING:
     from roughline.topography.body import Surface
+
+_OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned of
 
 
 @dataclass(frozen=True)
@@ -29,6 +34,27 @@ class BorderJump:
     jump: float
     step: float
     share_of_slope: float
+
+    @property
+    def outweighs(self) -> bool:
+        """Whether the borders have more of the mean-square slope than all other steps."""
+        return self.share_of_slope > _OUTWEIGHS
+
+    def in_words(self, unit: str | None) -> str:
+        """Say how far a map jumps where it is repeated, and what that means if it outweighs."""
+        times = decimal(self.jump / self.step, 2) if self.step else "infinitely many"
+        text = (
+            f"repeated periodically, the map jumps by {in_words(self.jump, unit, 3)} (rms) across "
+            f"its borders, {times} times an ordinary step between neighbouring points, "
+            f"{in_words(self.step, unit, 3)}"
+        )
+        if not self.outweighs:
+            return text
+        return (
+            f"{text}; {self.share_of_slope:.0%} of its mean-square slope lies there, so contact "
+            "near the borders is that of a step which the part does not have: remove what is left "
+            'of the form (trend="curvature"), or take a larger map'
+        )
 
 
 def border_jump(surface: Surface) -> BorderJump:

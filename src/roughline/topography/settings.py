@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, get_args
 
+import numpy as np
+
 from roughline.errors.checks import one_of, refuse
 from roughline.topography.trend import Trend
 
@@ -50,16 +52,19 @@ PIECE = "topography"
 PERIODIC = "periodic topography"
 """Origin of a topography of SurfaceTopography that is periodic."""
 
+GENERATED = "self-affine"
+"""First word of the origin of what was generated with a spectrum."""
 
-def checked_cut_out(given: object, settings: Settings) -> bool:
-    """Say whether a surface is cut out of a larger one.
+
+def checked_cut_out(given: object, settings: Settings) -> bool | None:
+    """Say whether a body is cut out of a larger one; None where neither caller nor record tells.
 
     Parameters
     ----------
     given : bool or None
         What the caller says; None: what the settings record.
     settings : mapping
-        They record a crop or a measurement.
+        They record a crop, a measurement, or that the heights were generated.
 
     Raises
     ------
@@ -67,10 +72,13 @@ def checked_cut_out(given: object, settings: Settings) -> bool:
         If something else is given.
     """
     if given is None:
-        return "cropped" in settings or settings.get("origin") in (MEASURED, PIECE)
-    if not isinstance(given, bool):
+        origin = str(settings.get("origin"))
+        if "cropped" in settings or origin in (MEASURED, PIECE):
+            return True
+        return False if origin == PERIODIC or origin.startswith(GENERATED) else None
+    if not isinstance(given, bool | np.bool_):
         refuse("is_cut_out", given, "True or False is needed")
-    return given
+    return bool(given)
 
 
 def checked_trend(given: Trend | None, settings: Settings) -> Trend:

@@ -64,21 +64,23 @@ def facing(first: Surface, second: Surface) -> Surface:
         else _on_grid_of_first(turned, shape, first, second)
     )
     heights = first.heights[: shape[0], : shape[1]] + other
-    is_cut_out = first.is_cut_out or second.is_cut_out
+    is_measured = first.is_cut_out or second.is_cut_out
     settings: dict[str, str | int | float] = {
-        "origin": MEASURED if is_cut_out else "two surfaces",
+        "origin": MEASURED if is_measured else "two surfaces",
         **{f"first_{key}": value for key, value in first.settings.items()},
         **{f"second_{key}": value for key, value in second.settings.items()},
     }
+    is_cropped = False
     for name, body in (("first", first), ("second", second)):
         cut_off = [
             size - n * step for size, n, step in zip(body.sizes, shape, first.spacing, strict=True)
         ]
         if any(width > 0.5 * step for width, step in zip(cut_off, body.spacing, strict=True)):
             settings[f"{name}_cropped_to"] = f"{sizes[0]:.6g} x {sizes[1]:.6g}"
+            is_cropped = True
     if not same_grid:
         settings["second_resampled_to"] = f"{shape[0]} x {shape[1]}"
-    return Surface(heights, sizes, first.unit, settings, is_cut_out=is_cut_out)
+    return Surface(heights, sizes, first.unit, settings, is_cut_out=is_measured or is_cropped)
 
 
 def _on_grid_of_first(

@@ -43,7 +43,7 @@ def body(arguments: Mapping[str, Any], progress: Progress) -> bytes:
             "force_bar": f"{gallery.force_bar:g}",
         },
         {
-            "topography": shaded(rl.Surface(heights, (1.0, 1.0))).T,
+            "topography": shaded(rl.Surface(heights, (1.0, 1.0), is_cut_out=False)).T,
             "contact": found["contact"].astype(np.uint8).T,
             "deflection": found["displacement"].T,
             "line": line,

@@ -1,0 +1,146 @@
+"""Whether opposite borders of heights meet, as those of a periodic body do."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Real
+    from roughline.topography.body import Body
+    from roughline.topography.settings import Settings
+
+_JUMP = 1e-3  # chance below which a step across the borders is no ordinary one
+_UNCLEAR = (1e-6, 1e-2)  # chances between which the heights leave it open
+_LEAST = 8  # points along a side whose borders can be judged
+_PLACES = 128  # along a side, at which ordinary steps are taken
+_STEPS = 2**16  # ordinary steps that are taken at least, if there are as many
+_ROUNDING = 32 * np.finfo(np.float64).eps  # of the largest height, below which nothing is a step
+_EVEN = 1e-6  # least relative variance of ordinary steps
+
+_STEP, _CHANCE = "border_step", "border_chance"  # names in the settings
+
+
+@dataclass(frozen=True)
+class Borders:
+    """The step of heights across opposite borders, compared with ordinary steps.
+
+    Attributes
+    ----------
+    step : float
+        Step across the borders over the ordinary one between neighbours, along the side where it
+        is least likely. [1]
+    chance : float
+        Chance of such a step or a larger one, if the heights are periodic. [1]
+    """
+
+    step: float
+    chance: float
+
+    @property
+    def jump(self) -> bool:
+        """Whether opposite borders do not meet, so that the heights are a piece."""
+        return self.chance < _JUMP
+
+    @property
+    def are_unclear(self) -> bool:
+        """Whether the step across is neither an ordinary one nor clearly none."""
+        return _UNCLEAR[0] < self.chance < _UNCLEAR[1]
+
+    @property
+    def record(self) -> Settings:
+        """What the settings of a body record."""
+        return {_STEP: self.step, _CHANCE: self.chance}
+
+    def in_words(self, borders: str) -> str:
+        """Say how the opposite borders of a surface, or the ends of a line, lie to each other."""
+        how_far = f"{self.step:.2g} ordinary steps" if math.isfinite(self.step) else "a step"
+        return f"{'unclear: ' if self.are_unclear else ''}{borders} are {how_far} apart"
+
+
+def borders_of(heights: Real) -> Borders:
+    """Compare the step across opposite borders with ordinary steps.
+
+    Heights that are repeated periodically have no border: the step across is a step as any other.
+    The size of a step at one place is the mean of the roots of its differences of height along the
+    border, to the fourth power, which spikes and scratches hardly move. Over the places along the
+    side it has about a gamma distribution with the mean and the variance that are found within.
+    The chance of the step across follows from it. A slope of the whole and a piece of a larger
+    surface both raise the step across.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (nx, ny) or (n,)
+        Checked heights. [length]
+    """
+    least = Borders(0.0, 1.0)
+    rounding = _ROUNDING * float(max(heights.max(), -heights.min()))
+    for axis, n in enumerate(heights.shape):
+        if n < _LEAST:
+            continue
+        found = _along(np.moveaxis(heights, axis, 0).reshape(n, -1), rounding)
+        if found.chance <= least.chance:
+            least = found if found.chance < least.chance else max(found, least, key=_step)
+    return least
+
+
+def decided(body: Body) -> Borders | None:
+    """Return what was seen at the borders of a body; None if its heights did not decide."""
+    if _CHANCE not in body.settings:
+        return None
+    borders = Borders(float(body.settings[_STEP]), float(body.settings[_CHANCE]))
+    # a body of which its owner said otherwise since is as that says
+    return borders if borders.jump == body.is_cut_out else None
+
+
+def whole_or_piece(body: Body) -> str:
+    """Say whether a body is periodic or cut out, and why where its heights decided that."""
+    name, borders = "cut out of a larger one" if body.is_cut_out else "periodic", decided(body)
+    return name if borders is None else f"{name} ({borders.in_words(_borders_of_a(body))})"
+
+
+def border_doubts(body: Body) -> tuple[str, ...]:
+    """Warn where the heights do not say clearly whether a body is a piece of a larger one."""
+    borders = decided(body)
+    if borders is None or not borders.are_unclear:
+        return ()
+    which, taken = _borders_of_a(body), "cut out of a larger one" if body.is_cut_out else "periodic"
+    return (
+        f"it is unclear whether these heights are periodic: {which} are {borders.step:.2g} "
+        f"ordinary steps apart, and they are taken as {taken}: say which (is_cut_out=True or "
+        "False)",
+    )
+
+
+def _borders_of_a(body: Body) -> str:
+    return "opposite borders" if body.heights.ndim == 2 else "its ends"
+
+
+def _along(rows: Real, rounding: float) -> Borders:
+    """Compare the step from the last row to the first with those between neighbouring rows."""
+    n, across = rows.shape
+    places = min(n - 1, max(_PLACES, _STEPS // across))
+    at = np.linspace(0, n - 2, places).astype(np.intp)
+    steps = np.abs(rows[at + 1] - rows[at])
+    jump = np.abs(rows[0] - rows[-1])
+    largest = float(max(steps.max(), jump.max()))
+    if jump.max() <= rounding:
+        return Borders(0.0, 1.0)
+    if steps.max() <= rounding:
+        return Borders(math.inf, 0.0)
+    within = np.sqrt(steps / largest).mean(axis=1) ** 4
+    over_borders = float(np.sqrt(jump / largest).mean() ** 4)
+    from scipy import special  # here because it loads slowly
+
+    mean = float(within.mean())
+    variance = max(float(within.var(ddof=1)) / mean**2, _EVEN)
+    ratio = over_borders / mean
+    chance = float(special.gammaincc(1 / variance, ratio / variance))
+    return Borders(math.sqrt(ratio), chance)
+
+
+def _step(borders: Borders) -> float:
+    return borders.step
