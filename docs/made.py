@@ -39,7 +39,7 @@ SECTIONS = {
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
     "Errors": (
         *("RoughlineError", "InputError", "UnitError", "ConvergenceError", "StoreError"),
-        *("ClusterError", "Interrupted", "ContinuumWarning"),
+        *("ClusterError", "Interrupted", "ContinuumWarning", "PreparationWarning"),
     ),
 }
 """Public names in the order in which people meet them."""

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from roughline.errors import ConvergenceError as ConvergenceError
     from roughline.errors import InputError as InputError
     from roughline.errors import Interrupted as Interrupted
+    from roughline.errors import PreparationWarning as PreparationWarning
     from roughline.errors import RoughlineError as RoughlineError
     from roughline.errors import StoreError as StoreError
     from roughline.errors import UnitError as UnitError
@@ -89,6 +90,7 @@ _HOMES = {
     "relative_difference": "statistics.averages",
     "ClusterError": "errors",
     "ContinuumWarning": "errors",
+    "PreparationWarning": "errors",
     "ConvergenceError": "errors",
     "InputError": "errors",
     "Interrupted": "errors",

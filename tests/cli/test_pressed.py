@@ -339,3 +339,36 @@ def test_a_curve_in_a_file_is_shown_and_is_no_topography(tmp_path, invoke, rough
     line = rl.SelfAffine(hurst=0.7, length=1.0, rms_height=1.0).line(64, 1)
     rl.press(line, E_star=1.0, depths=[1e-9, 0.1]).write(tmp_path / "of_line.nc")  # without units
     assert "0.1" in invoke("info", tmp_path / "of_line.nc")[1]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--low-pass", "5 mm"), "the low pass is 5 mm, longer than the topography, 1 mm"),
+        (("--low-pass", "0 m"), '--low-pass is "0 m"; a positive, finite length'),
+        (("--low-pass", ""), 'is ""'),
+        (("--crop", ""), 'is ""'),
+        (("--resample", "1000000"), "resampling to 1000000 x 1000000 points needs about"),
+        (("--resample", "0"), "--resample is 0; whole numbers of at least 2"),
+    ],
+)
+def test_a_preparation_that_cannot_be_is_refused_in_a_line(rough, invoke, arguments, message):
+    for command in (("press", rough, "--modulus", "110 GPa"), ("info", rough)):
+        code, out, errors = invoke(*command, *arguments)
+        assert (code, out) == (2, "")
+        assert message in errors
+        assert errors.count("\n") == 1
+
+
+def test_the_same_is_said_of_a_preparation_wherever_it_is_read(rough, invoke, tmp_path):
+    steps = ("--low-pass", "0.95 mm", "--resample", "64")
+    said = "most of the roughness is gone, and answers are those of what is left"
+    idle = "esampling to 64 x 64 points changes neither rms height nor rms slope"
+    press = ("press", rough, "--materials", "steel,copper", "--load", "1 N", "--no-grid-error")
+    code, out, _ = invoke(*press, *steps, "--report", tmp_path / "report")
+    assert code == 0
+    _, described, _ = invoke("info", rough, *steps)
+    page = (tmp_path / "report" / "report.html").read_text("utf-8")
+    for text in (" ".join(out.split()), " ".join(described.split()), page):
+        assert said in text
+        assert idle in text

@@ -1,11 +1,14 @@
 """Preparation of measured bodies: each step does what it says, and says that it did."""
 
 import math
+import tracemalloc
 
 import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.topography import preparation
+from roughline.topography.effects import effects
 from roughline.topography.preparation import Preparation, outliers, prepared
 from roughline.topography.trend import without_trend
 
@@ -144,7 +147,28 @@ def test_resampling_takes_means_or_splines():
         ({"trend": "cubic"}, 'trend is "cubic"; allowed are "none", "mean", "tilt"'),
         ({"low_pass": 0.0}, "low_pass is 0"),
         ({"low_pass": math.nan}, "low_pass is nan"),
+        ({"low_pass": -1.0}, "low_pass is -1"),
+        ({"low_pass": math.inf}, "low_pass is inf"),
+        ({"low_pass": "2 um"}, 'low_pass is "2 um"; a number without a unit'),
+        ({"low_pass": True}, "low_pass is True"),
+        ({"low_pass": 5e-3}, "the low pass is 5 mm, longer than the topography, 1 mm"),
+        ({"low_pass": 1e3}, "the low pass is 1 km, longer than the topography"),
         ({"points": 1}, "points is 1; whole numbers of at least 2"),
+        ({"points": 0}, "points is 0; whole numbers"),
+        ({"points": -3}, "points is -3; whole numbers"),
+        ({"points": 2.5}, "points is 2.5; whole numbers"),
+        ({"points": math.nan}, "points is nan; whole numbers"),
+        ({"points": "64"}, 'points is "64"; whole numbers'),
+        ({"points": True}, "points is True; whole numbers"),
+        ({"points": (1, 64)}, r"points is \(1, 64\); whole numbers"),
+        ({"points": (64, 64, 64)}, r"points is \(64, 64, 64\); give 2 of them"),
+        ({"points": 10**6}, "resampling to 1000000 x 1000000 points needs about .* GB of memory"),
+        ({"points": 10**30}, "of memory, and .* GB is free: resample to fewer points"),
+        ({"remove_outliers": "yes"}, 'remove_outliers is "yes"; True or False is needed'),
+        ({"trend": []}, "trend is .*; allowed are"),
+        ({"crop": "0 um, 5 um"}, 'crop is "0 um, 5 um"; give from and to'),
+        ({"crop": 3}, "crop is 3; give from and to"),
+        ({"crop": (math.nan, 1, 0, 1)}, "crop is .nan, 1, 0, 1.; give from and to"),
         ({"crop": (0, 1)}, "crop has 2 lengths; give 4"),
         ({"crop": (0, 2e-3, 0, 1e-3)}, "crop from 0 to 0.002 is not within 0 to 0.001"),
         ({"crop": (5e-4, 1e-4, 0, 1e-3)}, "or not rising"),
@@ -165,3 +189,86 @@ def test_random_roughness_has_no_spikes(hurst):
         surface = spectrum.surface(256, seed, "gaussian")
         assert not outliers(surface).any()
         assert not outliers(rl.Line(surface.heights[7], 1.0, kind="profile")).any()
+
+
+@pytest.mark.parametrize("dimensions", [1, 2])
+@pytest.mark.parametrize("factor", [0.37, 0.99, 1.5, 4])
+def test_the_memory_of_a_preparation_is_known_before_the_work(monkeypatch, dimensions, factor):
+    n = {1: 2**17, 2: 300}[dimensions]
+    heights = np.random.default_rng(3).normal(size=(n,) * dimensions)
+    body = as_measured(heights) if dimensions == 2 else rl.Line(heights, 1e-3, "m", kind="profile")
+    steps = Preparation(
+        remove_outliers=True, trend="curvature", low_pass=1e-4, points=int(factor * n)
+    )
+    steps.applied(body)  # what is loaded on the way counts only once
+    known = []
+    monkeypatch.setattr(preparation, "refuse_beyond_memory", lambda need, *_: known.append(need))
+    tracemalloc.start()
+    try:
+        steps.applied(body)
+        largest = tracemalloc.get_traced_memory()[1] + heights.nbytes
+    finally:
+        tracemalloc.stop()
+    assert largest < 1.05 * known[0] + 2**20
+    assert known[0] < 3 * largest
+
+
+def notes(body, **steps):
+    return [each.text for each in effects(Preparation(**steps).applied(body))]
+
+
+def test_a_step_says_what_it_took_of_the_roughness():
+    surface = as_measured(ROUGH.heights)
+    (said,) = notes(surface, low_pass=2e-4)
+    low = prepared(surface, Preparation(low_pass=2e-4))
+    taken = [
+        1 - getattr(low, name) / getattr(surface, name) for name in ("rms_height", "rms_slope")
+    ]
+    assert said == (
+        f"the low pass of 200 µm lowers the rms height by {taken[0]:.1%} and the rms slope by "
+        f"{taken[1]:.0%}"
+    )
+    assert notes(surface, remove_outliers=True) == ["no spikes are found, so none is removed"]
+    (said,) = notes(surface, points=48)
+    assert said.startswith("resampling to 48 x 48 points lowers the rms height by ")
+    x = np.linspace(0, 1e-4, 96)
+    (said,) = notes(as_measured(ROUGH.heights + x), trend="tilt")
+    assert said.startswith("the removal of the tilt lowers the rms height by ")
+
+
+@pytest.mark.parametrize(
+    ("steps", "message"),
+    [
+        ({"low_pass": 1e-9}, "the low pass of 1 nm changes neither rms height nor rms slope"),
+        ({"points": 96}, "resampling to 96 x 96 points changes neither rms height nor rms slope"),
+        ({"crop": (0, 1e-3, 0, 1e-3)}, "the crop keeps all points: it changes nothing"),
+        (
+            {"low_pass": 1e-3},
+            "most of the roughness is gone, and answers are those of what is left",
+        ),
+        ({"points": 2}, "most of the roughness is gone"),
+    ],
+)
+def test_a_step_that_does_nothing_or_takes_most_is_warned_of(steps, message):
+    surface = as_measured(ROUGH.heights).detrended()
+    with pytest.warns(rl.PreparationWarning, match=message):
+        prepared(surface, Preparation(**steps))
+
+
+def test_a_press_warns_of_roughness_that_a_preparation_took():
+    smooth = Preparation(low_pass=9e-4).applied(as_measured(ROUGH.heights))
+    curve = rl.press(smooth, E_star=1e9, depths=[1e-8])
+    assert any("most of the roughness is gone" in each for each in curve.warnings)
+
+
+def test_a_crop_that_keeps_all_leaves_a_periodic_surface_periodic():
+    whole = rl.Surface(ROUGH.heights, ROUGH.sizes, "m", is_cut_out=False)
+    steps = Preparation(crop=(0, 1e-3, 0, 1e-3))
+    assert not steps.applied(whole).is_cut_out
+    assert whole.cropped((0, 95), (0, 96)).is_cut_out
+
+
+def test_a_surface_that_is_one_point_wide_can_be_prepared():
+    thin = rl.Surface(ROUGH.heights[:, :1], (1e-3, 1e-5), "m")
+    found = prepared(thin, Preparation(crop=(0, 5e-4, 0, 1e-5), trend="tilt", points=24))
+    assert found.shape == (24, 1)

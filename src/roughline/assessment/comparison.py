@@ -17,7 +17,7 @@ from roughline.spectra.roughness import ALIKE, isotropy
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Line, Surface
-from roughline.topography.preparation import prepared
+from roughline.topography.preparation import as_prepared
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def compare_models(
 def _surface(file: Path, reading: Reading) -> Surface:
     """The surface in a file."""
     content = measurement(file, reading.channel, reading.name)
-    body = prepared(measured_body(content, reading, None, in_place=True))
+    body = as_prepared(measured_body(content, reading, None, in_place=True), None)
     if isinstance(body, Line):
         raise InputError(
             f"{reading.name or file} holds a line; the models are compared on a surface"

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from roughline.assessment.notes import filled_points_and_spikes
+from roughline.assessment.notes import what_was_prepared
 from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body, of_piece
 from roughline.errors import InputError
@@ -15,7 +15,7 @@ from roughline.files.read import measurement, suspicions
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.topography.body import Body
 from roughline.topography.missing import Missing, MissingPattern, missing_pattern
-from roughline.topography.preparation import Preparation, prepared
+from roughline.topography.preparation import Preparation, as_prepared
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +117,8 @@ def describe_measurement(
     found = Description(file, reading.unit, content, piece, missing, list(map(str, obstacles)))
     if obstacles:
         return found
-    body = prepared(body_of(piece, reading, preparation), preparation)
-    notes, parameters = suspicions(body) + filled_points_and_spikes(body), None
+    body = as_prepared(body_of(piece, reading, preparation), preparation)
+    notes, parameters = suspicions(body) + what_was_prepared(body), None
     try:
         parameters = roughness(body)
     except InputError as error:  # a reduced line is no topography

@@ -17,6 +17,7 @@ from roughline.engineering.answer import Answer
 from roughline.engineering.formulas import ELASTIC_UP_TO, electrical_resistance
 from roughline.engineering.joint import constriction_of_disc
 from roughline.topography.body import Body, Line, Surface
+from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump
 from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
@@ -32,10 +33,10 @@ _WIDE = 4.0  # upper over lower end from which on the causes of an interval are 
 _COUNTS = 1.2  # upper over lower end of what counts as a cause
 
 
-def of_each(bodies: Sequence[Body], say: Callable[[Body], list[str]]) -> list[str]:
+def of_each(bodies: Sequence[Body], say: Callable[[Body], Sequence[str]]) -> list[str]:
     """Say something of each topography, and of which of two it is."""
     if len(bodies) == 1:
-        return say(bodies[0])
+        return list(say(bodies[0]))
     return [
         f"{which} body: {note}"
         for which, body in zip(("first", "second"), bodies, strict=True)
@@ -43,8 +44,13 @@ def of_each(bodies: Sequence[Body], say: Callable[[Body], list[str]]) -> list[st
     ]
 
 
-def filled_points_and_spikes(body: Body) -> list[str]:
-    """Say what was filled, and what spikes there are."""
+def what_was_prepared(body: Body) -> list[str]:
+    """Say what was filled, what spikes there are, and all that the preparation did."""
+    return [*grave_effects(body), *filled_spikes_and_effects(body)]
+
+
+def filled_spikes_and_effects(body: Body) -> list[str]:
+    """Say what was filled, what spikes there are, and what the preparation did, unless grave."""
     notes = []
     if body.settings.get("missing_points"):
         count, share = body.settings["missing_points"], float(body.settings["missing_share"])
@@ -61,7 +67,7 @@ def filled_points_and_spikes(body: Body) -> list[str]:
         )
     if body.settings.get("outliers_removed"):
         notes.append(f"{body.settings['outliers_removed']} spikes removed and filled")
-    return notes
+    return notes + [each.text for each in effects(body) if not each.is_grave]
 
 
 def meaning_of_loads(question: Question, body: Body) -> list[str]:

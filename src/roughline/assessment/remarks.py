@@ -10,6 +10,7 @@ from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Surface
+from roughline.topography.effects import grave_effects
 
 
 def warnings_of(
@@ -18,14 +19,16 @@ def warnings_of(
     """What is suspicious, where assumptions break, and why there is no interval."""
     # what a curve says of the borders is said below, as a warning or as a note
     of_borders, _ = say.borders_of_repeated(result.question, result.body)
+    said_elsewhere = {of_borders, *grave_effects(result.body)}
     bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
     warnings = [
         *say.of_each(bodies, suspicions),
+        *say.of_each(bodies, grave_effects),
         *broken_assumptions(result, spectrum),
         *say.of_full_contact(result),
         *say.of_wide_interval(result),
         *say.how_far_a_line_serves(result, grave=True),
-        *(text for text in curve.warnings if text != of_borders),
+        *(text for text in curve.warnings if text not in said_elsewhere),
         *say.of_joint_and_borders(result, grave=True),
     ]
     if isinstance(body, Surface) and curve.stiffness_error is None:
@@ -44,7 +47,7 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
         notes += left_out(pair, question.frequency_in_hertz)
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")
-    notes += say.of_each(bodies, say.filled_points_and_spikes)
+    notes += say.of_each(bodies, say.filled_spikes_and_effects)
     notes += [of_filling] if of_filling else []
     notes += say.meaning_of_loads(question, body)
     return notes + say.of_joint_and_borders(result, grave=False) + say.cropping_and_resampling(body)

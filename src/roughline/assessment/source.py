@@ -16,7 +16,7 @@ from roughline.files.measurement import Measurement
 from roughline.files.read import measurement
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Filling, Missing
-from roughline.topography.preparation import Preparation, prepared
+from roughline.topography.preparation import Preparation, as_prepared
 from roughline.topography.trend import Trend
 from roughline.topography.two_bodies import facing
 
@@ -58,12 +58,12 @@ class Topography:
             If the file cannot be read, or a step does not suit the body.
         """
         if isinstance(given, Surface | Line):
-            return cls(prepared(given, preparation), None, None, reading, preparation)
+            return cls(as_prepared(given, preparation), None, None, reading, preparation)
         content = measurement(given, reading.channel, reading.name)
         content, reading, preparation = of_piece(content, reading, preparation)
         kept = content if not content.by_roughline and content.unknown.any() else None
         body = measured_body(content, reading, preparation, in_place=kept is None)
-        return cls(prepared(body, preparation), given, kept, reading, preparation)
+        return cls(as_prepared(body, preparation), given, kept, reading, preparation)
 
     @property
     def is_filled(self) -> bool:
@@ -77,7 +77,7 @@ class Topography:
             return self.body
         reading = replace(self.reading, missing=method)
         body = measured_body(self.measurement, reading, self.preparation)
-        return prepared(body, self.preparation)
+        return as_prepared(body, self.preparation)
 
     @cached_property
     def filled_region(self) -> Surface | None:

@@ -153,13 +153,14 @@ def preparation_of(
     from roughline.topography.preparation import Preparation
     from roughline.units import lengths
 
-    if not (trend or crop or low_pass or resample is not None or remove_outliers):
+    given = (trend, crop, low_pass, resample)
+    if all(each is None for each in given) and not remove_outliers:
         return None
     return Preparation(
-        crop=tuple(lengths(crop, "crop")) if crop else None,
+        crop=tuple(lengths(crop, "crop")) if crop is not None else None,
         remove_outliers=remove_outliers,
         trend=trend.value if trend else None,
-        low_pass=_positive(low_pass, "low_pass") if low_pass else None,
+        low_pass=_positive(low_pass, "low_pass") if low_pass is not None else None,
         points=resample,
     )
 

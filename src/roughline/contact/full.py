@@ -25,6 +25,7 @@ from roughline.halfspace.preconditioner import ApproximateInverse
 from roughline.halfspace.state import Load, Method, Problem
 from roughline.topography.body import Surface
 from roughline.topography.borders import border_doubts
+from roughline.topography.effects import grave_effects
 from roughline.topography.preparation import tilt_warnings
 from roughline.topography.settings import as_body
 
@@ -186,7 +187,12 @@ def _curve(
             **({} if hardness is None else {"hardness": hardness}),
             **as_body(surface.settings),
         },
-        warnings=(*border_doubts(surface), *tilt_warnings(surface), *at_the_border),
+        warnings=(
+            *border_doubts(surface),
+            *grave_effects(surface),
+            *tilt_warnings(surface),
+            *at_the_border,
+        ),
         residual_of=tuple(result.residual_of for result in results),
         surface=surface,
         dents=() if hardness is None else tuple(result.dents for result in results),

@@ -12,6 +12,7 @@ from roughline.errors import InputError
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Line
 from roughline.topography.borders import decided
+from roughline.topography.effects import grave_effects
 from roughline.topography.settings import as_body
 
 
@@ -65,7 +66,7 @@ def press_line(line: Line, E_star: float, given: GivenLoads) -> Curve:
             "control": loads.control,
             **as_body(line.settings),
         },
-        warnings=_end_warnings(line),
+        warnings=(*grave_effects(line), *_end_warnings(line)),
     )
 
 

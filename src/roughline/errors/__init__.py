@@ -50,6 +50,10 @@ class ContinuumWarning(UserWarning):
     """A quantity of the continuum differs by more than 5 % from that of the generated bodies."""
 
 
+class PreparationWarning(UserWarning):
+    """A step of a preparation changed nothing, or took most of the rms height."""
+
+
 class ConvergenceError(RoughlineError):
     """A load was not solved to the tolerance.
 

@@ -12,6 +12,8 @@ from roughline.errors import InputError
 from roughline.files.scale import Scale, Sizes
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.crop import Crop, points_between, points_in, settings_of_piece
+from roughline.topography.effects import effect_of_trend
+from roughline.topography.heights import rms_deviation
 from roughline.topography.missing import Missing
 from roughline.topography.settings import AS_RECORDED, Settings, checked_trend
 from roughline.topography.trend import Trend, remove_trend
@@ -101,13 +103,14 @@ class Measurement:
             if positions is None
             else [scale.metres * (positions[-1] - positions[0])]
         )
+        is_whole = self.heights[kept].size == self.heights.size
         return replace(
             self,
             heights=self.heights[kept].copy(order="K"),  # so that the whole can go
             sizes=tuple(length / scale.metres for length in lengths),
             positions=positions,
-            settings=settings_of_piece(self.settings, kept),
-            is_cut_out=True,
+            settings=settings_of_piece(self.settings, kept, self.heights.shape),
+            is_cut_out=self.is_cut_out if is_whole else True,
             is_piece=True,
         )
 
@@ -181,8 +184,10 @@ class Measurement:
         if self.positions is not None:
             heights, settings["resampled"] = _on_even_points(self.positions * scale.metres, heights)
         if removed != "none":
+            before = rms_deviation(heights)
             remove_trend(heights, removed)
             settings["detrended"] = removed
+            settings |= effect_of_trend(before, rms_deviation(heights))
         return self._body(heights, sides, settings, removed)
 
     def _trend_to_remove(self, wanted: Trend) -> Trend:

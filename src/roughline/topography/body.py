@@ -179,8 +179,8 @@ class Surface:
             self,
             heights=heights,
             sizes=(dx * heights.shape[0], dy * heights.shape[1]),
-            settings=settings_of_piece(self.settings, (slice(*x), slice(*y))),
-            is_cut_out=True,
+            settings=settings_of_piece(self.settings, (slice(*x), slice(*y)), self.shape),
+            is_cut_out=self.is_cut_out or heights.size < self.heights.size,
         )
 
     def coarsened(self) -> Surface:

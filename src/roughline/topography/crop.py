@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -43,7 +44,8 @@ def points_in(crop: Crop, sides: tuple[float, ...], shape: tuple[int, ...]) -> t
     kept = []
     for low, high, side, n in zip(crop[::2], crop[1::2], sides, shape, strict=True):
         first, end = round(low / (side / n)), min(round(high / (side / n)), n)
-        _refuse_few((low, high), end - first)
+        if n > 1 or end == first:  # a body that is one point wide keeps that
+            _refuse_few((low, high), end - first)
         kept.append(slice(first, end))
     return tuple(kept)
 
@@ -69,7 +71,9 @@ def points_between(crop: Crop, positions: Real) -> tuple[slice]:
     return (slice(first, end),)
 
 
-def settings_of_piece(settings: Settings, kept: tuple[slice, ...]) -> Settings:
+def settings_of_piece(
+    settings: Settings, kept: tuple[slice, ...], shape: tuple[int, ...]
+) -> Settings:
     """Return the settings of a piece: what was cropped, and nothing that is said of the whole.
 
     Parameters
@@ -78,13 +82,16 @@ def settings_of_piece(settings: Settings, kept: tuple[slice, ...]) -> Settings:
         Of the whole.
     kept : tuple of slice
         Points along each side that are in the piece.
+    shape : tuple of int
+        Points along each side of the whole.
     """
     ranges = [f"{each.start}:{each.stop}" for each in kept]
     cropped = ranges[0] if len(kept) == 1 else f"x {ranges[0]}, y {ranges[1]}"
     before = settings.get("missing_points", settings.get("filled_before_crop"))
     left = {key: value for key, value in settings.items() if key not in _OF_THE_WHOLE}
     filled = {"filled_before_crop": before} if before else {}
-    return {**left, **filled, "cropped": cropped}
+    share = math.prod(each.stop - each.start for each in kept) / math.prod(shape)
+    return {**left, **filled, "cropped": cropped, "cropped_share": share}
 
 
 def _refuse_misplaced(crop: Crop, sides: tuple[float, ...]) -> None:

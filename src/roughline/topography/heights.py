@@ -155,7 +155,7 @@ def rms(values: Real, mean: float = 0.0, largest: float | None = None) -> float:
         Largest deviation; computed from the values where it is not given.
     """
     if largest is None:
-        largest = float(np.abs(values).max(initial=0.0))
+        largest = float(max(values.max(initial=0.0), -values.min(initial=0.0)))
     if largest == 0.0:
         return 0.0
     flat, total = values.ravel(order="K"), 0.0

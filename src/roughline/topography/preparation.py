@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.errors import InputError
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.errors import InputError, PreparationWarning
 from roughline.errors.checks import as_number, is_whole, positive, refuse, several
 from roughline.errors.public import public
 from roughline.topography.body import Body, BodyType, Surface, with_heights
 from roughline.topography.crop import Crop, points_in, settings_of_piece
+from roughline.topography.effects import effects, with_effect
 from roughline.topography.missing import Missing
+from roughline.topography.notebook import in_words
 from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
 
 if TYPE_CHECKING:
@@ -22,6 +26,7 @@ if TYPE_CHECKING:
 _TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
 _SPIKE = 5.0  # times the scatter of neighbours
 _NEIGHBOURS = {1: (5, 25, 101), 2: (5,)}  # points along a side, of lines and of surfaces
+_STEPS_NEED = {1: 14, 2: 9}  # heights at once for each, of lines and of surfaces, resampling aside
 _ISO_ALPHA = math.sqrt(math.log(2) / math.pi)
 
 
@@ -59,6 +64,8 @@ class Preparation:
     points: int | tuple[int, int] | None = None
 
     def __post_init__(self) -> None:
+        if not isinstance(self.remove_outliers, bool | np.bool_):
+            refuse("remove_outliers", self.remove_outliers, "True or False is needed")
         if self.trend is not None:
             refuse_unknown_trend(self.trend)
         if self.crop is not None:
@@ -71,39 +78,63 @@ class Preparation:
             for n in several(self.points) or [self.points]:
                 if not is_whole(n) or n < 2:
                     refuse("points", self.points, "whole numbers of at least 2 are needed")
+            if of_each_side := several(self.points):
+                object.__setattr__(self, "points", tuple(of_each_side))
 
     def applied(self, body: BodyType) -> BodyType:
-        """Return the body, prepared.
+        """Return the body, prepared; its settings record what each step did to the roughness.
 
         Raises
         ------
         InputError
-            If a step does not suit the body.
+            If a step does not suit the body, or memory cannot hold it.
         """
         if self.crop is not None:
             body = _cropped(body, self.crop)
+        self._refuse_beyond_memory(body)
         spikes = outliers(body)
         count = int(np.count_nonzero(spikes))
-        if count and self.remove_outliers:
-            known = np.ma.MaskedArray(body.heights, spikes)
-            filled = Missing().filled(known, "the topography, without its outliers,")
-            body = with_heights(body, filled, outliers_removed=count)
+        if self.remove_outliers:
+            body = _without_spikes(body, spikes, count)
         elif count:
             body = with_heights(body, body.heights, outliers_kept=count)
-        changed = self.crop is not None or (count > 0 and self.remove_outliers)
-        trend = self.trend or (body.removed_trend if changed else "none")
-        if trend != "none":
-            body = body.detrended(trend)
+        body = self._without_trend(body, is_changed=bool(count) and self.remove_outliers)
         if self.low_pass is not None:
-            body = _low_passed(body, self.low_pass)
+            body = with_effect(body, _low_passed(body, self.low_pass), "low_pass")
         if self.points is not None:
-            body = resampled(body, self.points)
+            body = with_effect(body, resampled(body, self.points), "resampled")
         return body
+
+    def _without_trend(self, body: BodyType, *, is_changed: bool) -> BodyType:
+        """Remove the trend that is asked for, or again the one of a body that changed."""
+        is_changed |= self.crop is not None
+        trend = self.trend or (body.removed_trend if is_changed else "none")
+        if trend == "none":
+            return body
+        level = body.detrended(trend)
+        is_roughness = self.trend is not None and trend != "mean"
+        return with_effect(body, level, "detrended") if is_roughness else level
+
+    def _refuse_beyond_memory(self, body: Body) -> None:
+        """Refuse steps whose largest need of memory is more than is free."""
+        shape = body.heights.shape
+        needed, what = _STEPS_NEED[len(shape)] * math.prod(shape), _times(shape)
+        advice = "crop to a smaller piece"
+        if self.points is not None:
+            wanted = _wanted(body, self.points)
+            most = _resampling_needs(shape, wanted)
+            if most > needed:
+                needed, advice = most, "resample to fewer points"
+                what += f" and resampling to {_times(wanted)}"
+        refuse_beyond_memory(8 * needed, f"preparing {what} points", advice)
 
 
 @public
 def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     """Return a body prepared.
+
+    It warns (:class:`roughline.PreparationWarning`) of steps that change nothing, and of those that
+    take most of the rms height. The settings of the body record what each step did.
 
     Parameters
     ----------
@@ -111,6 +142,11 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
         Any body.
     preparation : Preparation, optional
         Default: spikes are counted, and nothing is changed.
+
+    Raises
+    ------
+    InputError
+        If a step does not suit the body, or memory cannot hold it.
 
     Examples
     --------
@@ -120,6 +156,15 @@ def prepared(body: Body, preparation: Preparation | None = None) -> Body:
     >>> print(piece.shape, piece.is_cut_out)
     (32, 32) True
     """
+    found = as_prepared(body, preparation)
+    for effect in effects(found) if preparation else ():
+        if effect.is_grave or effect.is_idle:
+            warnings.warn(effect.text, PreparationWarning, stacklevel=2)
+    return found
+
+
+def as_prepared(body: Body, preparation: Preparation | None) -> Body:
+    """Return a body prepared, for those who say themselves what the steps did."""
     preparation = preparation or Preparation()
     if isinstance(body, Surface):
         return preparation.applied(body)
@@ -180,21 +225,37 @@ def _cropped(body: BodyType, crop: Crop) -> BodyType:
         body,
         heights=heights,
         length=body.spacing * heights.size,
-        settings=settings_of_piece(body.settings, kept),
-        is_cut_out=True,
+        settings=settings_of_piece(body.settings, kept, body.heights.shape),
+        is_cut_out=body.is_cut_out or heights.size < body.heights.size,
     )
+
+
+def _without_spikes(body: BodyType, spikes: Mask, count: int) -> BodyType:
+    """Return a body with its spikes filled; without any, the settings record that."""
+    if not count:
+        return with_heights(body, body.heights, outliers_removed=0)
+    known = np.ma.MaskedArray(body.heights, spikes)
+    filled = Missing().filled(known, "the topography, without its outliers,")
+    return with_effect(body, with_heights(body, filled, outliers_removed=count), "outliers")
 
 
 def _low_passed(body: BodyType, cutoff: float) -> BodyType:
     from scipy import ndimage
 
+    longest = max(body.sizes) if isinstance(body, Surface) else body.length
+    if cutoff > longest:
+        raise InputError(
+            f"the low pass is {in_words(cutoff, body.unit)}, longer than the topography, "
+            f"{in_words(longest, body.unit)}: no wave of it would be left; give a shorter "
+            "wavelength, or remove a trend"
+        )
     spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
     deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / spacing for spacing in spacings]
     heights = ndimage.gaussian_filter(body.heights, deviations, mode="nearest")
     return with_heights(body, heights, low_pass=cutoff)
 
 
-def resampled(body: BodyType, points: int | tuple[int, int]) -> BodyType:
+def resampled(body: BodyType, points: int | tuple[int, ...]) -> BodyType:
     """Return the body on another grid over the same sides.
 
     Means over cells where the new grid is coarser, cubic splines where it is finer.
@@ -213,16 +274,8 @@ def resampled(body: BodyType, points: int | tuple[int, int]) -> BodyType:
     """
     from scipy import ndimage
 
-    shape = body.heights.shape
-    if isinstance(points, tuple):
-        wanted: tuple[int, ...] = points
-    elif isinstance(body, Surface):
-        wanted = tuple(max(2, round(points * n / max(shape))) for n in shape)
-    else:
-        wanted = (points,)
-    if len(wanted) != len(shape):
-        raise InputError(f"points is {points}; give {len(shape)} of them")
-    heights = body.heights
+    heights, shape = body.heights, body.heights.shape
+    wanted = _wanted(body, points)
     for axis, n in enumerate(wanted):
         if n < shape[axis]:
             heights = _means(heights, axis, n)
@@ -230,7 +283,40 @@ def resampled(body: BodyType, points: int | tuple[int, int]) -> BodyType:
             zoom = [1.0] * len(shape)
             zoom[axis] = n / shape[axis]
             heights = ndimage.zoom(heights, zoom, order=3, mode="nearest", grid_mode=True)
-    return with_heights(body, heights, resampled_to=" x ".join(map(str, wanted)))
+    return with_heights(body, heights, resampled_to=_times(wanted))
+
+
+def _wanted(body: Body, points: int | tuple[int, ...]) -> tuple[int, ...]:
+    """Points along each side of the new grid; a body that is one point wide stays so."""
+    shape = body.heights.shape
+    if isinstance(points, tuple):
+        wanted = points
+    elif isinstance(body, Surface):
+        wanted = tuple(max(min(2, n), _rounded_ratio(points * n, max(shape))) for n in shape)
+    else:
+        wanted = (points,)
+    if len(wanted) != len(shape):
+        raise InputError(f"points is {points}; give {len(shape)} of them")
+    return wanted
+
+
+def _rounded_ratio(numerator: int, denominator: int) -> int:
+    """Ratio of whole numbers of any size, rounded."""
+    return (2 * numerator + denominator) // (2 * denominator)
+
+
+def _resampling_needs(shape: tuple[int, ...], wanted: tuple[int, ...]) -> int:
+    """Most heights, of 8 bytes each, that resampling holds at once."""
+    held = before = math.prod(shape)
+    for axis, n in enumerate(wanted):
+        after = before // shape[axis] * n
+        held = max(held, 3 * before + (4 if n < shape[axis] else 1) * after)
+        before = after
+    return max(held, math.prod(shape) + 3 * before)  # the last for what it did to the slope
+
+
+def _times(shape: tuple[int, ...]) -> str:
+    return " x ".join(map(str, shape))
 
 
 def _means(heights: Real, axis: int, n: int) -> Real:
