@@ -41,9 +41,11 @@ def layers() -> list[list[str]]:
     return [[name.strip().removeprefix("roughline.") for name in row.split("|")] for row in rows]
 
 
-def import_graph() -> grimp.ImportGraph:
-    """Return every import between files, also those inside functions, but not those for types."""
-    return grimp.build_graph("roughline", exclude_type_checking_imports=True, cache_dir=None)
+def import_graph(*, for_types: bool = False) -> grimp.ImportGraph:
+    """Return every import between files, also those inside functions; those for types if asked."""
+    return grimp.build_graph(
+        "roughline", exclude_type_checking_imports=not for_types, cache_dir=None
+    )
 
 
 def rooms(graph: grimp.ImportGraph) -> dict[str, Room]:

@@ -126,7 +126,8 @@ def test_ctrl_c_in_a_script_ends_in_one_line(plan, tmp_path):
     _, _, err = finish(process, timeout=20)
     said = f"KeyboardInterrupt: interrupted; what is done is kept in {store}: run again to go on"
     assert err.splitlines()[-1] == said
-    assert err.count("File ") == 2, err  # the line of the script and the call that it made
+    # the line of the script, the check of its arguments, and the call that it made
+    assert err.count("File ") == 3, err
 
 
 def test_interrupts_wait_for_what_must_be_whole():

@@ -215,7 +215,7 @@ def test_single_precision_refuses_tolerances_beyond_it():
         rl.InputError, match="single precision cannot resolve gaps to rtol = 0.0001"
     ):
         rl.press(FRACTAL, E_star=1.0, depths=[1e3], precision="float32", rtol=1e-4)
-    with pytest.raises(rl.InputError, match="precision is 'half'; allowed are"):
+    with pytest.raises(rl.InputError, match='precision is "half"; allowed are'):
         rl.press(FRACTAL, E_star=1.0, forces=[1.0], precision="half")
 
 
@@ -256,7 +256,9 @@ def test_a_piece_and_a_coarser_grid_keep_their_sizes():
     assert coarse.shape == (16, 8)
     assert coarse.sizes == piece.sizes
     assert coarse.heights[0, 0] == pytest.approx(piece.heights[:2, :2].mean())
-    with pytest.raises(rl.InputError, match=r"x is \(0, 65\); give 0 <= first < end <= 64"):
+    with pytest.raises(
+        rl.InputError, match=r"x is \(0, 65\); give \(first, end\) with 0 <= first < end <= 64"
+    ):
         FRACTAL.cropped(x=(0, 65), y=(0, 64))
     with pytest.raises(rl.InputError, match="the surface has 3 x 64 points; give even numbers"):
         FRACTAL.cropped(x=(0, 3), y=(0, 64)).coarsened()

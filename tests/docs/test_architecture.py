@@ -22,6 +22,14 @@ def found():
     return rooms(import_graph())
 
 
+@pytest.fixture(scope="module")
+def known():
+    """What each room knows of others, those of which it only names the types among them."""
+    return {
+        name: {name, *room.imports} for name, room in rooms(import_graph(for_types=True)).items()
+    }
+
+
 def test_the_picture_has_the_layers_and_imports_of_today(found):
     drawn = facts_in(PICTURE)
     assert drawn["layers"] == layers(), AGAIN
@@ -36,8 +44,8 @@ def test_the_picture_has_about_the_lines_of_today(found):
 
 
 @pytest.mark.parametrize("step", [*ONE_BODY, *HUNDREDS], ids=str)
-def test_each_step_of_the_walk_is_made_by_a_room_that_knows_both_ends(step, found):
-    assert {step.giver, step.taker} <= {step.by, *found[step.by].imports}
+def test_each_step_of_the_walk_is_made_by_a_room_that_knows_both_ends(step, known):
+    assert {step.giver, step.taker} <= known[step.by]
 
 
 def test_every_room_has_its_line_and_its_layer(found):

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 import sys
 from collections.abc import Iterable
-from numbers import Integral
-from numbers import Real as RealNumber
 from typing import Any
 
 import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.errors.checks import as_number, is_whole, refuse, several, shown
 
 LARGEST = 1e150
 """Beyond it, squares leave the range of double precision."""
@@ -25,23 +23,20 @@ def checked_number(
     name: str, value: Any, allowed: str, least: float = 0.0, most: float = sys.float_info.max
 ) -> float:
     """Return a positive number; refuse what is none, or lies outside least to most."""
-    number, plain = math.nan, _plain(value)
-    if not isinstance(plain, bool) and isinstance(plain, RealNumber):
-        with contextlib.suppress(OverflowError):  # of whole numbers without bound
-            number = float(plain)
-    if not (least <= number <= most and number > 0):
-        raise InputError(f"{name} is {shown(value)}; {allowed} is needed")
+    number = as_number(_plain(value))
+    if number is None or not (least <= number <= most and number > 0):
+        refuse(name, value, f"{allowed} is needed")
     return number
 
 
 def checked_count(name: str, value: Any, least: int = -_MOST) -> int:
     """Return a whole number; refuse what is none, too small, or beyond all that is countable."""
     plain = _plain(value)
-    whole = isinstance(plain, Integral) or (isinstance(plain, float) and plain.is_integer())
-    if isinstance(plain, bool) or not whole or not least <= plain <= _MOST:
+    whole = is_whole(plain) or (isinstance(plain, float) and plain.is_integer())
+    if not whole or not least <= plain <= _MOST:
         bound = "" if least == -_MOST else f" of at least {least}"
         at_most = f" and at most {_MOST:.0e}" if whole and plain > _MOST else ""
-        raise InputError(f"{name} is {shown(value)}; a whole number{bound}{at_most} is needed")
+        refuse(name, value, f"a whole number{bound}{at_most} is needed")
     return int(plain)
 
 
@@ -49,36 +44,27 @@ def checked_flag(name: str, value: Any) -> bool:
     """Return True or False; refuse all else, whose truth would be a guess."""
     plain = _plain(value)
     if not isinstance(plain, bool):
-        raise InputError(f"{name} is {shown(value)}; True or False is needed")
+        refuse(name, value, "True or False is needed")
     return plain
 
 
-def refuse_unknown_precision(precision: Any) -> None:
-    """Refuse what is no precision of the convolutions."""
-    if not isinstance(precision, str) or precision not in ("mixed", "float64", "float32"):
-        raise InputError(
-            f'precision is {shown(precision)}; allowed are "mixed", "float64" and "float32"'
-        )
-
-
-def refuse_mute(progress: Any) -> None:
+def refuse_other_progress(progress: Any) -> None:
     """Refuse what cannot be called with the progress."""
     if progress is not None and not callable(progress):
-        raise InputError(
-            f"progress is {shown(progress)}; a function of (loads done, loads in all) is needed"
-        )
+        refuse("progress", progress, "a function of (loads done, loads in all) is needed")
 
 
 def checked_shape(shape: Any) -> tuple[int, int]:
     """Return the points of a surface along x and y."""
-    try:
-        nx, ny = shape
-        return checked_count("shape", nx, 1), checked_count("shape", ny, 1)
-    except (TypeError, ValueError):
-        raise InputError(
-            f"shape is {shown(shape)}; the points of the surface along x and y are needed, two "
-            "positive whole numbers such as shape=(1024, 1024)"
-        ) from None
+    sides = several(shape)
+    if len(sides) != 2 or not all(is_whole(side) and 1 <= side <= _MOST for side in sides):
+        refuse(
+            "shape",
+            shape,
+            "the points of the surface along x and y are needed, two positive whole numbers such "
+            "as shape=(1024, 1024)",
+        )
+    return int(sides[0]), int(sides[1])
 
 
 def checked_values(name: str, values: Any) -> Real:
@@ -99,9 +85,10 @@ def kept_loads(fields: Any, count: int) -> frozenset[int]:
         return frozenset(range(count)) if plain else frozenset()
     numbers = list(plain) if isinstance(plain, Iterable) and not isinstance(plain, str) else None
     if numbers is None or not all(_is_load(each, count) for each in numbers):
-        raise InputError(
-            f"fields is {shown(fields)}; give True, False, or numbers of loads, 0 to {count - 1}, "
-            "such as fields=[0]"
+        refuse(
+            "fields",
+            fields,
+            f"give True, False, or numbers of loads, 0 to {count - 1}, such as fields=[0]",
         )
     return frozenset(int(each) for each in numbers)
 
@@ -115,8 +102,7 @@ def _plain(value: Any) -> Any:
 
 
 def _is_load(number: Any, count: int) -> bool:
-    whole = isinstance(number, Integral) and not isinstance(number, bool)
-    return whole and 0 <= int(number) < count
+    return is_whole(number) and 0 <= int(number) < count
 
 
 def checked_share(name: str, value: Any) -> float:
@@ -125,9 +111,3 @@ def checked_share(name: str, value: Any) -> float:
     if isinstance(plain, int | float) and not isinstance(plain, bool) and plain == 0:
         return 0.0
     return checked_number(name, value, "a share of the surface from 0 to 1", most=1.0)
-
-
-def shown(value: Any) -> str:
-    """Show what was given in one short line."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else text[:57] + "..."

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact import scaling
-from roughline.contact.arguments import checked_count, shown
+from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.notebook import described, html_of_curve
 from roughline.contact.quantities import IN_FILES
 from roughline.contact.quantity import OVER_LOADS, Quantity, unit_of
 from roughline.contact.status import STATUS_FLAGS, Status
 from roughline.errors import InputError, StoreError
+from roughline.errors.checks import refuse
 from roughline.topography.body import Surface, with_heights
 
 if TYPE_CHECKING:
@@ -279,9 +280,7 @@ class Curve:
             If the file cannot be written.
         """
         if not isinstance(path, str | os.PathLike):
-            raise InputError(
-                f'path is {shown(path)}; a name that ends in ".nc" or ".csv" is needed'
-            )
+            refuse("path", path, 'a name that ends in ".nc" or ".csv" is needed')
         path = Path(path)
         if path.suffix not in (".nc", ".csv"):
             raise InputError(

@@ -16,8 +16,7 @@ from roughline.contact.arguments import (
     checked_flag,
     checked_number,
     kept_loads,
-    refuse_mute,
-    refuse_unknown_precision,
+    refuse_other_progress,
 )
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import expected_area_fraction, memory_for
@@ -26,6 +25,7 @@ from roughline.contact.loads import GivenLoads, Loads, surface_loads
 from roughline.contact.reduced import press_line
 from roughline.contact.status import Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
+from roughline.errors.checks import one_of
 from roughline.errors.public import public_names
 from roughline.topography.body import Body, Line, Surface
 
@@ -147,8 +147,8 @@ def press(
         checked_flag("grid_error", grid_error),
     )
     throw = checked_flag("throw", throw)
-    refuse_unknown_precision(precision)
-    refuse_mute(progress)
+    one_of("precision", precision, ("mixed", "float64", "float32"))
+    refuse_other_progress(progress)
     if isinstance(body, Line):
         if periodic or grid_error or fields is not False:
             raise InputError(
