@@ -144,12 +144,12 @@ def test_without_a_joint_forces_act_on_the_map_and_the_notes_say_so(part):
 @pytest.mark.parametrize(
     ("asked", "message"),
     [
-        ({"joint_area": 0}, 'joint area is "0"; give a positive one'),
-        ({"joint_area": "-2 cm^2"}, 'joint area is "-2 cm^2"; give a positive one'),
-        ({"joint_area": math.nan}, 'joint area is "nan"; give a positive one'),
-        ({"joint_area": "inf cm^2"}, 'joint area is "inf cm^2"; give a positive one'),
-        ({"joint_area": "2 cm"}, 'joint area is "2 cm", which is no quantity in m^2'),
-        ({"joint_area": "2"}, 'joint area is "2", without a unit; give one, such as "2 cm^2"'),
+        ({"joint_area": 0}, "joint_area is 0; a positive, finite area is needed"),
+        ({"joint_area": "-2 cm^2"}, 'joint_area is "-2 cm^2"; a positive, finite area is needed'),
+        ({"joint_area": math.nan}, "joint_area is nan; a positive, finite area is needed"),
+        ({"joint_area": "inf cm^2"}, 'joint_area is "inf cm^2"; a positive, finite area is needed'),
+        ({"joint_area": "2 cm"}, 'joint_area is "2 cm", which is no quantity in m^2'),
+        ({"joint_area": "2"}, 'joint_area is "2", without a unit; give one, such as "2 cm^2"'),
         ({"joint_area": "1,5 cm^2"}, "numbers take a decimal point"),
         ({"joint_area": 1.0, "materials": None, "E_star": 1e9}, "need two materials"),
         ({"joint_area": 1.0, "loads": (), "depths": "1 um"}, "is pressed by loads (loads=)"),

@@ -200,7 +200,7 @@ def test_progress_is_told_map_by_map(maps):
         ({"loads": ()}, "pressed under the same loads: give them (loads=)"),
         ({"reading": rl.Reading(name="x")}, "the name in reading= is that of one file"),
         ({"body": ["a.x3p", "b.x3p", "./a.x3p"]}, "a.x3p is given twice"),
-        ({"body": ["a.x3p", 3]}, "body is a int; give a Surface"),
+        ({"body": ["a.x3p", 3]}, "body is 3; give a Surface"),
         ({"against": "c.x3p"}, "the one second topography (against=)"),
     ],
 )
