@@ -87,7 +87,7 @@ def test_elastic_bodies_are_known_by_the_settings_that_they_always_had():
         ({"hardness_bar": -1}, "hardness_bar is -1.0; a positive"),
         ({"hardness_bar": float("-inf")}, "hardness_bar is -inf; a positive"),
         ({"hardness_bar": float("nan")}, "hardness_bar is nan; a positive"),
-        ({"hardness_bar": "2 GPa"}, "hardness_bar is '2 GPa'; a number is needed"),
+        ({"hardness_bar": "2 GPa"}, 'hardness_bar is "2 GPa"; a number is needed'),
         ({"hardness_bars": 0.3}, "'hardness_bars' is not known; did you mean 'hardness_bar'?"),
         (
             {"hardness_bar": 0.3, "model": "reduced", "boundary": "none"},

@@ -347,7 +347,7 @@ def test_points_filled_before_are_not_said_to_matter_nothing(topographies, invok
             ("--materials", "steel,rigid", "--load", "1 N", "--friction", "0", "--report", "r"),
             "--friction is 0.0; a number above 0",
         ),
-        (("--modulus", "1 GPa", "--crop", "0 um, 1 um"), "crop has 2 lengths; give 4"),
+        (("--modulus", "1 GPa", "--crop", "0 um, 1 um"), "--crop has 2 lengths; give 4"),
         (("--modulus", "1 GPa", "--low-pass", "5"), "without a unit"),
         (("--modulus", "1 GPa", "--against", "none.nc"), '--against is "none.nc"; no such file'),
         (("--modulus", "1 GPa", "--channel", "1"), "has one channel only; leave --channel out"),

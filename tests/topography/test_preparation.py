@@ -170,8 +170,8 @@ def test_resampling_takes_means_or_splines():
         ({"crop": 3}, "crop is 3; give from and to"),
         ({"crop": (math.nan, 1, 0, 1)}, "crop is .nan, 1, 0, 1.; give from and to"),
         ({"crop": (0, 1)}, "crop has 2 lengths; give 4"),
-        ({"crop": (0, 2e-3, 0, 1e-3)}, "crop from 0 to 0.002 is not within 0 to 0.001"),
-        ({"crop": (5e-4, 1e-4, 0, 1e-3)}, "or not rising"),
+        ({"crop": (0, 2e-3, 0, 1e-3)}, "crop is 0 m to 2 mm; lengths that rise, within 0 m"),
+        ({"crop": (5e-4, 1e-4, 0, 1e-3)}, "crop is 500 µm to 100 µm; lengths that rise"),
         ({"crop": (0, 1e-6, 0, 1e-3)}, "keeps 0 points; take more"),
     ],
 )

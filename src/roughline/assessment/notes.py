@@ -275,7 +275,7 @@ def of_full_contact(result: Assessment) -> list[str]:
     if curve.area_fraction is None or not isinstance(body, Surface):
         return []
     repeated = curve.settings.get("boundary") == "periodic"
-    rest = "stiffness is infinite" if repeated else "k is that of a flat punch, and k_i infinite"
+    rest = "stiffness is infinite" if repeated else "k is that of a flat punch"
     notes = []
     apart = np.rint((1 - curve.area_fraction) * body.heights.size)
     full = [name for name, n in zip(result.headings, apart, strict=True) if n == 0]

@@ -91,7 +91,7 @@ class Measurement:
         for obstacle in scale.obstacles():
             raise obstacle
         if self.positions is None:
-            kept = points_in(crop, scale.sides, self.heights.shape)
+            kept = points_in(crop, scale.sides, self.heights.shape, "m")
         else:
             kept = points_between(crop, scale.metres * (self.positions - self.positions[0]))
         positions = None if self.positions is None else self.positions[kept]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.errors import InputError
+from roughline.topography.notebook import in_words
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
@@ -23,7 +24,9 @@ _OF_THE_WHOLE = (
 """What settings say of all points of a body, or of its borders."""
 
 
-def points_in(crop: Crop, sides: tuple[float, ...], shape: tuple[int, ...]) -> tuple[slice, ...]:
+def points_in(
+    crop: Crop, sides: tuple[float, ...], shape: tuple[int, ...], unit: str | None
+) -> tuple[slice, ...]:
     """Return the points along each side that a crop keeps.
 
     Parameters
@@ -34,18 +37,20 @@ def points_in(crop: Crop, sides: tuple[float, ...], shape: tuple[int, ...]) -> t
         Sides of the map, or length of the line. [length]
     shape : tuple of int
         Points along each side.
+    unit : str or None
+        Of the lengths.
 
     Raises
     ------
     InputError
         If the crop is not within the sides, or keeps fewer than two points along one of them.
     """
-    _refuse_misplaced(crop, sides)
+    _refuse_misplaced(crop, sides, unit)
     kept = []
     for low, high, side, n in zip(crop[::2], crop[1::2], sides, shape, strict=True):
         first, end = round(low / (side / n)), min(round(high / (side / n)), n)
         if n > 1 or end == first:  # a body that is one point wide keeps that
-            _refuse_few((low, high), end - first)
+            _refuse_few((low, high), end - first, unit)
         kept.append(slice(first, end))
     return tuple(kept)
 
@@ -56,18 +61,18 @@ def points_between(crop: Crop, positions: Real) -> tuple[slice]:
     Parameters
     ----------
     crop : tuple of float
-        From and to. [length]
+        From and to. [m]
     positions : ndarray, shape (n,)
-        Of the points, rising from 0. [length]
+        Of the points, rising from 0. [m]
 
     Raises
     ------
     InputError
         If the crop is not within the line, or keeps fewer than two points.
     """
-    _refuse_misplaced(crop, (float(positions[-1]),))
+    _refuse_misplaced(crop, (float(positions[-1]),), "m")
     first, end = (int(each) for each in np.searchsorted(positions, crop))
-    _refuse_few(crop, end - first)
+    _refuse_few(crop, end - first, "m")
     return (slice(first, end),)
 
 
@@ -94,20 +99,28 @@ def settings_of_piece(
     return {**left, **filled, "cropped": cropped, "cropped_share": share}
 
 
-def _refuse_misplaced(crop: Crop, sides: tuple[float, ...]) -> None:
+def _refuse_misplaced(crop: Crop, sides: tuple[float, ...], unit: str | None) -> None:
     """Refuse a crop that has not two lengths for each side, or is not within it."""
     if len(crop) != 2 * len(sides):
         raise InputError(
-            f"crop has {len(crop)} lengths; give {2 * len(sides)}, from and to along each side"
+            f"has {len(crop)} lengths; give {2 * len(sides)}, from and to along each side", "crop"
         )
     for low, high, side in zip(crop[::2], crop[1::2], sides, strict=True):
         if not 0 <= low < high <= side * (1 + 1e-9):
             raise InputError(
-                f"crop from {low:g} to {high:g} is not within 0 to {side:g}, or not rising"
+                f"is {_from_to(low, high, unit)}; lengths that rise, within "
+                f"{_from_to(0, side, unit)}, are needed",
+                "crop",
             )
 
 
-def _refuse_few(crop: Crop, points: int) -> None:
+def _refuse_few(crop: Crop, points: int, unit: str | None) -> None:
     """Refuse a crop that keeps fewer than two points along a side."""
     if points < 2:
-        raise InputError(f"crop from {crop[0]:g} to {crop[1]:g} keeps {points} points; take more")
+        raise InputError(
+            f"is {_from_to(crop[0], crop[1], unit)}, which keeps {points} points; take more", "crop"
+        )
+
+
+def _from_to(low: float, high: float, unit: str | None) -> str:
+    return f"{in_words(low, unit)} to {in_words(high, unit)}"

@@ -216,7 +216,7 @@ def outliers(body: Body) -> Mask:
 
 def _cropped(body: BodyType, crop: Crop) -> BodyType:
     sides = body.sizes if isinstance(body, Surface) else (body.length,)
-    kept = points_in(crop, sides, body.heights.shape)
+    kept = points_in(crop, sides, body.heights.shape, body.unit)
     if isinstance(body, Surface):
         x, y = ((each.start, each.stop) for each in kept)
         return body.cropped(x, y)
