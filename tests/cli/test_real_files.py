@@ -90,7 +90,7 @@ def test_info_describes_a_file_without_a_unit(topographies, invoke):
     assert "it cannot be pressed as it is: xy-1.txt states no unit" in said
     code, out, errors = invoke("info", topographies / "xy-1.txt", "--unit", "parsnip")
     assert (code, out) == (2, "")
-    assert 'unit is "1 parsnip"' in errors
+    assert '--unit is "parsnip"; a unit of length is needed' in errors
 
 
 def test_info_on_a_damaged_file_is_one_line(topographies, invoke):

@@ -19,7 +19,7 @@ def test_an_impossible_hardness_is_refused(surface, hardness):
     with pytest.raises(rl.InputError, match="hardness is .*") as refusal:
         rl.press(surface, E_star=1.0, hardness=hardness, forces=[0.1])
     said = str(refusal.value)
-    assert repr(hardness) in said
+    assert (f'"{hardness}"' if isinstance(hardness, str) else repr(hardness)) in said
     assert "positive" in said
     assert "\n" not in said
 
