@@ -82,21 +82,21 @@ def test_what_a_killed_server_leaves_is_removed_by_the_next(tmp_path):
     ("options", "said"),
     [
         (("--host", "0.0.0.0"), "--password-file"),
-        (("--host", ""), "host is empty"),
+        (("--host", ""), '--host is ""; give a value'),
         (("--host", "192.0.2.1", "--password-file", "password"), "cannot listen on 192.0.2.1"),
         (
             ("--host", "no.such.invalid", "--password-file", "password"),
-            "not an address of this machine",
+            "no address of this machine",
         ),
         (("--password-file", "missing"), '--password-file is "missing"; it cannot be read'),
         (("--password-file", "empty"), "no password in its first line"),
         (("--password-file", "short"), "fewer than 8"),
         (("--port", "70000"), "--port is 70000"),
-        (("--max-upload", "0"), "positive --max-upload"),
-        (("--max-upload", "nan"), "positive --max-upload"),
-        (("--max-seconds", "-1"), "positive --max-seconds"),
-        (("--max-memory", "inf"), "positive --max-memory"),
-        (("--max-points", "0"), "positive --max-points"),
+        (("--max-upload", "0"), "--max-upload is 0.0; a positive, finite number"),
+        (("--max-upload", "nan"), "--max-upload is nan; a positive, finite number"),
+        (("--max-seconds", "-1"), "--max-seconds is -1.0; a positive, finite number"),
+        (("--max-memory", "inf"), "--max-memory is inf; a positive, finite number"),
+        (("--max-points", "0"), "--max-points is 0; a positive, finite number"),
     ],
 )
 def test_options_that_make_no_sense_are_one_line(invoke, tmp_path, monkeypatch, options, said):
