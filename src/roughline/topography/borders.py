@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughline.units import decimal
+
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
     from roughline.topography.body import Body
@@ -57,7 +59,9 @@ class Borders:
 
     def in_words(self, borders: str) -> str:
         """Say how the opposite borders of a surface, or the ends of a line, lie to each other."""
-        how_far = f"{self.step:.2g} ordinary steps" if math.isfinite(self.step) else "a step"
+        how_far = (
+            f"{decimal(self.step, 2)} ordinary steps" if math.isfinite(self.step) else "a step"
+        )
         return f"{'unclear: ' if self.are_unclear else ''}{borders} are {how_far} apart"
 
 
@@ -109,7 +113,7 @@ def border_doubts(body: Body) -> tuple[str, ...]:
         return ()
     which, taken = _borders_of_a(body), "cut out of a larger one" if body.is_cut_out else "periodic"
     return (
-        f"it is unclear whether these heights are periodic: {which} are {borders.step:.2g} "
+        f"it is unclear whether these heights are periodic: {which} are {decimal(borders.step, 2)} "
         f"ordinary steps apart, and they are taken as {taken}: say which (is_cut_out=True or "
         "False)",
     )
