@@ -61,9 +61,22 @@ def test_the_error_under_a_load_does_not_depend_on_the_loads_after_it(hardness):
         for forces in ([force], [force, 0.75 * force, 0.5 * force, 0.1 * force, 0.0])
     )
     assert (alone.plastic_fraction[0] > 0.1) == (hardness is not None)
+    if hardness is not None:  # the stiffness on loading is the less certain of both
+        assert (alone.stiffness_error / alone.stiffness)[0] >= (
+            alone.unloading_stiffness_error / alone.unloading_stiffness
+        )[0]
     for name in ("stiffness_error", "unloading_stiffness_error", "area_fraction_error"):
         assert getattr(alone, name)[0] == pytest.approx(getattr(unloaded, name)[0], rel=1e-3)
         assert getattr(alone, name)[0] > 0
+
+
+def test_a_grating_that_only_the_last_grid_resolves_has_an_error_of_its_own_size():
+    """The coarser grids are flat: their slopes are none, and their difference is none."""
+    heights = np.tile([0.0, 0.01], (32, 16))
+    curve = rl.press(rl.Surface(heights, (1.0, 1.0)), E_star=1.0, forces=[1e-3], grid_error=True)
+    area = curve.area_fraction_corrected[0]
+    assert 0.4 < area < 0.6
+    assert area + curve.area_fraction_error[0] >= 1.0  # that of the coarser grids
 
 
 def test_near_full_contact_errors_are_those_of_compliances():
@@ -110,6 +123,68 @@ def test_it_covers_nearly_all_of_many_rough_surfaces():
     for name, inside in covered.items():
         assert np.mean(inside) >= 0.95, name
     assert np.median(claimed) < 0.15
+
+
+def covered_by(curve, finer):
+    """Which resolved loads have the value of the finer grid in their intervals, by quantity."""
+    found = {}
+    for name, error in (
+        ("stiffness", "stiffness_error"),
+        ("area_fraction_corrected", "area_fraction_error"),
+    ):
+        value = getattr(curve, name)
+        off = np.abs(np.log(getattr(finer, name) / value))
+        found[name] = (off <= np.log1p(getattr(curve, error) / value))[curve.resolved].tolist()
+    return found
+
+
+def quarter_of(surface):
+    """Means of four by four points, and the part of the surface that has them."""
+    whole = surface.cropped(*((0, n - n % 16) for n in surface.shape))
+    return whole.coarsened().coarsened(), whole
+
+
+LEAST_COVERED = {  # of 13, 19 and 12 resolved loads: stiffnesses, areas
+    "opd-1.opd": (13, 13),
+    "di-1.di": (17, 18),
+    "al3d-1.al3d": (11, 12),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", LEAST_COVERED)
+def test_it_covers_measured_maps_averaged_over_four_by_four_points(topographies, name):
+    """As often as with a growth that was taken from all loads together."""
+    whole = rl.prepared(rl.read(topographies / name))
+    covered = {"stiffness": [], "area_fraction_corrected": []}
+    for rows in ((0, whole.shape[0] // 2), (whole.shape[0] // 2, whole.shape[0])):
+        for columns in ((0, whole.shape[1] // 2), (whole.shape[1] // 2, whole.shape[1])):
+            coarse, fine = quarter_of(whole.cropped(rows, columns))
+            forces = np.geomspace(0.003, 1.0, 6) * fine.rms_height * fine.length
+            curve = rl.press(coarse, E_star=1.0, forces=forces, grid_error=True)
+            finer = rl.press(fine, E_star=1.0, forces=forces)
+            for quantity, inside in covered_by(curve, finer).items():
+                covered[quantity] += inside
+    for inside, least in zip(covered.values(), LEAST_COVERED[name], strict=True):
+        assert sum(inside) >= least
+
+
+def test_it_covers_noise_that_goes_on_below_the_spacing():
+    """Differences of the rms slope grow from grid to grid, and tell that those of areas will."""
+    covered = {"stiffness": [], "area_fraction_corrected": []}
+    for seed in range(3000, 3004):
+        rough = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(256, seed)
+        noise = 0.3 * np.random.default_rng(seed).standard_normal(rough.shape)
+        coarse, fine = quarter_of(rl.Surface(rough.heights + noise, rough.sizes))
+        forces = [0.05, 0.2, 1.0]
+        curve = rl.press(coarse, E_star=1.0, forces=forces, grid_error=True)
+        for quantity, inside in covered_by(
+            curve, rl.press(fine, E_star=1.0, forces=forces)
+        ).items():
+            covered[quantity] += inside
+    for inside in covered.values():
+        assert len(inside) >= 10
+        assert np.mean(inside) >= 0.8
 
 
 @pytest.mark.slow

@@ -14,18 +14,17 @@ from roughline.errors import InputError
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
 
-# Factors on the difference between the last two grids, chosen so that the errors cover grids four
-# times finer (benchmarks/grid_error.py). For areas at the scale of the cells, the difference of the
-# grids is smaller than the error.
-_SAFETY_STIFFNESS = 2.0
-_SAFETY_OF_YIELD = (
-    2.5  # more where all of the contact yields: finer waves go on cutting up its spots
-)
-_SAFETY_AREA = 3.0
+# Factors on the difference between the last two grids and on the one to be expected next, chosen so
+# that the errors cover grids four times finer (benchmarks/grid_error.py). For areas at the scale of
+# the cells, the differences of the grids are smaller than the error.
+_SAFETY_OF_LAST = 1.5
+_SAFETY_OF_YIELD = 2.0  # more where all of the contact yields: finer waves cut up its spots further
+_SAFETY_OF_NEXT_STIFFNESS = 1.15
+_SAFETY_OF_NEXT_AREA = 3.25
 _SHARE_OF_AREA = 0.25  # of the area's error is in the stiffness where something yields, at least
 _SHARE_OF_YIELD = 0.3  # of what yield takes from the stiffness on loading is uncertain, at least
-_FASTEST_DECAY = 0.5  # at contact edges the order is one: differences halve at best grid by grid
-_FASTEST_GROWTH = 2.0  # and double at worst, where noise of the pixels prevails
+_LEAST_GROWTH = 0.5  # at contact edges the order is one: differences halve at best grid by grid
+_MOST_GROWTH = 2.0  # and double at worst, where noise of the pixels prevails
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
 
@@ -35,20 +34,24 @@ def with_grid_error(
     """Add to a curve the discretisation errors estimated from grids of n / 2 and n / 4 points.
 
     The coarse grids hold the means of two by two points, or of equal pieces where a side has an odd
-    number of points. Differences between grids are those of logarithms. The error is the larger of
-    the last difference and half of the one before, times a safety factor, and times the growth of
-    the differences where they grow: a grid convergence index [1]_ for quantities that vary as
-    powers of the spacing. The error under a load does not depend on the other loads. Where a
-    coarser grid is in full contact, differences are those of compliances. An area is at least as
-    uncertain as its perimeter correction, also on plateaus, where none is made.
+    number of points. Differences between grids are those of logarithms. From grid to grid they are
+    taken to grow as those of the rms slope do, by a factor between a half and two: it says how the
+    roughness goes on below the spacing, and it belongs to the surface, not to a load. A single
+    difference is small at times by chance. So there are two draws of the last one: itself, and the
+    one before times the growth. The error is the larger of both and the growth times their root
+    mean square, which is the difference to be expected next, each times a safety factor: a grid
+    convergence index [1]_ for quantities that vary as powers of the spacing. The error under a load
+    does not depend on the other loads. Where a coarser grid is in full contact, differences are
+    those of compliances. An area is at least as uncertain as its perimeter correction, also on
+    plateaus, where none is made.
 
     Yield adds to this. Safety factors of stiffnesses grow with the share of the contact that
     yields. Where something yields, the error of the logarithm of a stiffness is at least a part of
     the error of the logarithm of the area; this part is smaller near the stiffness of the flat
     punch, where the area hardly matters. The reason is that waves which only a finer grid resolves
     let more of the body yield, and their effects can cancel on the coarser grids. The stiffness on
-    loading depends on single cells: the error of its logarithm is at least a part of its difference
-    from the stiffness on unloading.
+    loading depends on single cells: the error of its logarithm is at least that of the stiffness on
+    unloading, and a part of the difference between both.
 
     The errors cover grids four times finer if the roughness continues below the spacing; they do
     not cover noise that begins at the spacing.
@@ -75,13 +78,17 @@ def with_grid_error(
        J. Fluids Eng. 116, 405-413 (1994).
     """
     half = _halved(surface)
-    curves = [press_coarse(grid) for grid in (_halved(half), half)] + [curve]
+    quarter = _halved(half)
+    growth = _growth([quarter, half, surface])
+    curves = [press_coarse(grid) for grid in (quarter, half)] + [curve]
     areas = [_area(each) for each in curves]
     most = curve.area_fraction_most
     assert most is not None
-    area_error = np.maximum(_error(areas, _SAFETY_AREA), most - areas[-1])
+    area_error = np.maximum(
+        _error(areas, growth, _SAFETY_OF_LAST, _SAFETY_OF_NEXT_AREA), most - areas[-1]
+    )
     with np.errstate(invalid="ignore"):  # bodies apart
-        loading, unloading = _stiffness_errors(curves, np.log1p(area_error / areas[-1]))
+        loading, unloading = _stiffness_errors(curves, growth, np.log1p(area_error / areas[-1]))
     return replace(
         curve,
         stiffness_error=loading,
@@ -90,21 +97,30 @@ def with_grid_error(
     )
 
 
-def _stiffness_errors(curves: Sequence[Curve], area: Real) -> tuple[Real, Real]:
+def _growth(grids: Sequence[Surface]) -> float:
+    """Return by what differences of the rms slope's logarithm grow; the least if there are none."""
+    slopes = np.array([grid.rms_slope for grid in grids])
+    slopes = np.maximum(slopes, np.finfo(float).eps * slopes[-1])  # coarser grids may be flat
+    with np.errstate(invalid="ignore", divide="ignore"):
+        first, second = np.abs(np.diff(np.log(slopes)))
+        growth = np.nan_to_num(second / first)
+    return float(np.clip(growth, _LEAST_GROWTH, _MOST_GROWTH))
+
+
+def _stiffness_errors(curves: Sequence[Curve], growth: float, area: Real) -> tuple[Real, Real]:
     """Return the errors of both stiffnesses from that of the area's logarithm."""
     plastic = curves[-1].plastic_fraction
     assert plastic is not None
-    safety = _SAFETY_STIFFNESS + _SAFETY_OF_YIELD * plastic
+    safety = _SAFETY_OF_LAST + _SAFETY_OF_YIELD * plastic, _SAFETY_OF_NEXT_STIFFNESS
     loading, unloading = [each.stiffness for each in curves], [_unloading(each) for each in curves]
     k, k_u = loading[-1], unloading[-1]
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
         least = np.where(plastic > 0, _SHARE_OF_AREA * area * _open_share(curves[-1]), 0.0)
+        error = np.maximum(_error(unloading, growth, *safety), _times(k_u, np.expm1(least)))
         # where all of the contact yields, nothing is left of k
-        taken = np.where((plastic > 0) & (k > 0), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
-        return (
-            np.maximum(_error(loading, safety), _times(k, np.expm1(np.maximum(least, taken)))),
-            np.maximum(_error(unloading, safety), _times(k_u, np.expm1(least))),
-        )
+        taken = np.fmax(_SHARE_OF_YIELD * np.log(k_u / k), np.log1p(error / k_u))
+        taken = np.where((plastic > 0) & (k > 0), taken, 0.0)
+        return np.maximum(_error(loading, growth, *safety), _times(k, np.expm1(taken))), error
 
 
 def _times(stiffness: Real, share: Real) -> Real:
@@ -152,17 +168,19 @@ def _unloading(curve: Curve) -> Real:
     return curve.unloading_stiffness
 
 
-def _error(values: Sequence[Real], safety: float | Real) -> Real:
-    """Return the error of the last of three grids, each twice as fine as the one before."""
+def _error(values: Sequence[Real], growth: float, of_last: float | Real, of_next: float) -> Real:
+    """Return the error of the last of three grids, from safety factors of two differences."""
     quarter, half, full = values
     with np.errstate(invalid="ignore", divide="ignore"):  # of nothing, and of full contact
-        first, second = np.abs(np.log(half / quarter)), np.abs(np.log(full / half))
-        growth = np.clip(np.nan_to_num(second / first), 1.0, _FASTEST_GROWTH)
-        error = full * np.expm1(safety * np.maximum(second, _FASTEST_DECAY * first) * growth)
-        # compliances over that of the last grid; nothing is left of them in full contact
-        before, last = full / quarter, full / half
-        change = np.maximum(np.abs(1 - last), _FASTEST_DECAY * np.abs(last - before))
+        last, drawn = np.abs(np.log(full / half)), growth * np.abs(np.log(half / quarter))
+        following = growth * np.sqrt((last**2 + drawn**2) / 2)
+        error = full * np.expm1(of_last * np.maximum(last, drawn) + of_next * following)
+        # compliances over that of the last grid; nothing is left of them in full contact, so that
+        # the one difference that is seen there is not small by chance
+        last, drawn = np.abs(1 - full / half), growth * np.abs(full / half - full / quarter)
         closed = (np.isinf(quarter) | np.isinf(half)) & np.isfinite(full)
-        error = np.where(closed, full * safety * change, error)
+        error = np.where(
+            closed, full * (of_last + of_next * growth) * np.maximum(last, drawn), error
+        )
         error = np.where(np.isinf(full), np.nan, error)
     return np.where((quarter == half) & (half == full), 0.0, error)
