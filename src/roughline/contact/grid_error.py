@@ -34,27 +34,23 @@ def with_grid_error(
     """Add to a curve the discretisation errors estimated from grids of n / 2 and n / 4 points.
 
     The coarse grids hold the means of two by two points, or of equal pieces where a side has an odd
-    number of points. Differences between grids are those of logarithms. From grid to grid they are
-    taken to grow as those of the rms slope do, by a factor between a half and two: it says how the
-    roughness goes on below the spacing, and it belongs to the surface, not to a load. A single
-    difference is small at times by chance. So there are two draws of the last one: itself, and the
-    one before times the growth. The error is the larger of both and the growth times their root
-    mean square, which is the difference to be expected next, each times a safety factor: a grid
-    convergence index [1]_ for quantities that vary as powers of the spacing. The error under a load
-    does not depend on the other loads. Where a coarser grid is in full contact, differences are
-    those of compliances. An area is at least as uncertain as its perimeter correction, also on
-    plateaus, where none is made.
+    number of points. Differences between grids are those of logarithms, or of compliances where a
+    coarser grid is in full contact. They are taken to grow from grid to grid as those of the rms
+    slope do, by a factor between a half and two, which belongs to the surface and not to a load.
+    Since a difference is small at times by chance, the last one is drawn twice: as it is, and as
+    the one before times the growth. The error is the larger draw and the difference to be expected
+    next, the growth times the root mean square of both, each times a safety factor: a grid
+    convergence index [1]_. The error under a load does not depend on the other loads. An area is at
+    least as uncertain as its perimeter correction, also on plateaus, where none is made.
 
-    Yield adds to this. Safety factors of stiffnesses grow with the share of the contact that
-    yields. Where something yields, the error of the logarithm of a stiffness is at least a part of
-    the error of the logarithm of the area; this part is smaller near the stiffness of the flat
-    punch, where the area hardly matters. The reason is that waves which only a finer grid resolves
-    let more of the body yield, and their effects can cancel on the coarser grids. The stiffness on
-    loading depends on single cells: the error of its logarithm is at least that of the stiffness on
-    unloading, and a part of the difference between both.
+    Yield adds to this. The safety factor of stiffnesses grows with the share of the contact that
+    yields. There the error of the logarithm of a stiffness is at least a part of that of the area,
+    a smaller one near the stiffness of the flat punch, because waves which only a finer grid
+    resolves let more of the body yield, and their effects can cancel on the coarser grids. The
+    stiffness on loading depends on single cells: the error of its logarithm is at least that of the
+    stiffness on unloading, and a part of the difference between both.
 
-    The errors cover grids four times finer if the roughness continues below the spacing; they do
-    not cover noise that begins at the spacing.
+    The errors cover grids four times finer, but no noise that begins at the spacing.
 
     Parameters
     ----------
@@ -78,15 +74,12 @@ def with_grid_error(
        J. Fluids Eng. 116, 405-413 (1994).
     """
     half = _halved(surface)
-    quarter = _halved(half)
-    growth = _growth([quarter, half, surface])
-    curves = [press_coarse(grid) for grid in (quarter, half)] + [curve]
+    grids = _halved(half), half, surface
+    growth, curves = _growth(grids), [*map(press_coarse, grids[:2]), curve]
     areas = [_area(each) for each in curves]
     most = curve.area_fraction_most
     assert most is not None
-    area_error = np.maximum(
-        _error(areas, growth, _SAFETY_OF_LAST, _SAFETY_OF_NEXT_AREA), most - areas[-1]
-    )
+    area_error = np.maximum(_error(areas, growth, _SAFETY_OF_NEXT_AREA), most - areas[-1])
     with np.errstate(invalid="ignore"):  # bodies apart
         loading, unloading = _stiffness_errors(curves, growth, np.log1p(area_error / areas[-1]))
     return replace(
@@ -111,7 +104,7 @@ def _stiffness_errors(curves: Sequence[Curve], growth: float, area: Real) -> tup
     """Return the errors of both stiffnesses from that of the area's logarithm."""
     plastic = curves[-1].plastic_fraction
     assert plastic is not None
-    safety = _SAFETY_OF_LAST + _SAFETY_OF_YIELD * plastic, _SAFETY_OF_NEXT_STIFFNESS
+    safety = _SAFETY_OF_NEXT_STIFFNESS, _SAFETY_OF_LAST + _SAFETY_OF_YIELD * plastic
     loading, unloading = [each.stiffness for each in curves], [_unloading(each) for each in curves]
     k, k_u = loading[-1], unloading[-1]
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
@@ -168,7 +161,9 @@ def _unloading(curve: Curve) -> Real:
     return curve.unloading_stiffness
 
 
-def _error(values: Sequence[Real], growth: float, of_last: float | Real, of_next: float) -> Real:
+def _error(
+    values: Sequence[Real], growth: float, of_next: float, of_last: float | Real = _SAFETY_OF_LAST
+) -> Real:
     """Return the error of the last of three grids, from safety factors of two differences."""
     quarter, half, full = values
     with np.errstate(invalid="ignore", divide="ignore"):  # of nothing, and of full contact
