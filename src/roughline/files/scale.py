@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from roughline.errors import InputError, UnitError
+from roughline.errors.checks import shown
 from roughline.units import in_si, metres_per, refuse_decimal_comma
 
 Sizes = float | str | Sequence[float | str]
@@ -139,6 +140,7 @@ class Scale:
         axes = len(self.points)
         lengths = "a positive length" if axes == 1 else f"{axes} positive lengths"
         return InputError(
-            f"sizes is {self.given_sizes!r}; {self.file} has {points} points: give {lengths}, such "
-            f"as {example}; numbers without a unit are in {self.given_unit or 'm'}"
+            f"is {shown(self.given_sizes)}; {self.file} has {points} points: give {lengths}, such "
+            f"as {example}; numbers without a unit are in {self.given_unit or 'm'}",
+            "sizes",
         )
