@@ -283,7 +283,10 @@ def test_a_piece_that_is_read_is_the_piece_of_what_is_read(tmp_path):
     assert whole.heights.size > piece.heights.size > 25
     assert piece.length == pytest.approx(50e-6, abs=4e-6)
     assert piece.heights.max() == pytest.approx(1e-6, abs=1e-8)
-    for crop, message in (((0, 1e-3), "lengths that rise, within"), ((0, 1e-6), "keeps 1 points; take more")):
+    for crop, message in (
+        ((0, 1e-3), "lengths that rise, within"),
+        ((0, 1e-6), "keeps 1 points; take more"),
+    ):
         with pytest.raises(rl.InputError, match=message):
             rl.read(tmp_path / "scan.txt", "um", crop=crop)
 
