@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from operator import itemgetter
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.kinds import has_spectrum
@@ -98,11 +97,11 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
             f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
             f"no interval includes the effect of slopes over {_STEEP:g}"
         )
-    what, ratio = max(strains(question, body), key=itemgetter(1), default=("", 0.0))
+    ratio, text = max(strains(question, body), default=(0.0, ""))
     if ratio > _STRAINED:
         broken.append(
-            f"{what.format(decimal(ratio, 2))}: bodies that are strained so far are not linear "
-            "elastic, and no interval includes that"
+            f"{text}: bodies that are strained so far are not linear elastic, and no interval "
+            "includes that"
         )
     if pair is not None and result.curve.hardness is None:
         index = None

@@ -44,28 +44,30 @@ def refuse_misfit(question: Question, body: Body) -> None:
         )
     if question.joint is not None:
         _refuse_as_piece_of_a_joint(body, question.joint)
-    for what, ratio in strains(question, body):
+    for ratio, text in strains(question, body):
         if ratio > 1:
             raise InputError(
-                f"{what.format(decimal(ratio, 2))}, and half-spaces are linear elastic far below "
-                "that only: give a smaller one, and check its unit"
+                f"{text}, and half-spaces are linear elastic far below that only: give a smaller "
+                "one, and check its unit"
             )
     if question.theories and not has_spectrum(body):
         raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
 
 
-def strains(question: Question, body: Body) -> list[tuple[str, float]]:
-    """Say of each load how far it strains a body; the ratio is beside, and left out of the text."""
+def strains(question: Question, body: Body) -> list[tuple[float, str]]:
+    """Return how far each load strains a body: as a ratio, and in words."""
     area = nominal_area(body)
     side = min(body.sizes) if isinstance(body, Surface) else body.length
-    what = "the mean pressure of load {} is {{}} times the contact modulus"
     if depths := question.heights():
-        what = "depth {} is {{}} times the shorter side of the body"
+        what = "depth {} is {} times the shorter side of the body"
         ratios = [depth / side for depth in depths]
     else:
+        what = "the mean pressure of load {} is {} times the contact modulus"
         ratios = [force / area / question.modulus for force in question.forces(area)]
-    texts = [what.format(heading) for heading in question.headings]
-    return list(zip(texts, ratios, strict=False))
+    return [
+        (ratio, what.format(heading, decimal(ratio, 2)))
+        for heading, ratio in zip(question.headings, ratios, strict=False)
+    ]
 
 
 def _refuse_as_piece_of_a_joint(body: Body, joint: float) -> None:

@@ -42,7 +42,7 @@ def refuse_bombs(path: Path, name: str) -> None:
         )
 
 
-def refuse_hollow(points: tuple[int, ...], path: Path, name: str) -> None:
+def refuse_too_few_bytes(points: tuple[int, ...], path: Path, name: str) -> None:
     """Refuse a file that is too small for the points that it declares, before they are read.
 
     Parameters

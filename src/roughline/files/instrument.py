@@ -16,7 +16,7 @@ import numpy as np
 
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, RoughlineError
-from roughline.files.archives import refuse_hollow
+from roughline.files.archives import refuse_too_few_bytes
 from roughline.files.measurement import Measurement
 from roughline.files.text import READ_AS_TEXT, TEXT_SUFFIXES
 from roughline.topography.settings import MEASURED
@@ -57,7 +57,7 @@ def read_instrument(
         with _silence(), opened() as reader:
             _refuse_guessed_format(reader, path)
             chosen = _channel_of(reader, channel, name)
-            refuse_hollow(chosen.nb_grid_pts, path, name)
+            refuse_too_few_bytes(chosen.nb_grid_pts, path, name)
             refuse_beyond_memory(
                 _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
                 f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {name}",

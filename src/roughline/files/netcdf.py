@@ -11,7 +11,7 @@ import numpy as np
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, RoughlineError, StoreError
 from roughline.errors.public import public
-from roughline.files.archives import refuse_hollow
+from roughline.files.archives import refuse_too_few_bytes
 from roughline.files.measurement import Measurement
 from roughline.topography.body import Body, Surface
 from roughline.topography.settings import AS_RECORDED
@@ -126,7 +126,7 @@ def _heights_in(file: Any, path: Path, name: str) -> Any:
             f"{name} is a damaged file of roughline: it holds no heights; write it again"
         )
     points = file["heights"].shape
-    refuse_hollow(points, path, name)
+    refuse_too_few_bytes(points, path, name)
     refuse_beyond_memory(
         2 * 8 * math.prod(points),
         f"reading the {' x '.join(map(str, points))} points of {name}",

@@ -11,7 +11,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
-from roughline.files.archives import refuse_bombs, refuse_hollow
+from roughline.files.archives import refuse_bombs, refuse_too_few_bytes
 from roughline.files.curves import curve_in
 from roughline.files.heights_in_text import read_text
 from roughline.files.instrument import read_instrument
@@ -155,7 +155,7 @@ def _read_array(path: Path, name: str) -> Measurement:
         raise InputError(
             f"{name} holds no array of real heights ({reason}): save one or two dimensions"
         ) from error
-    refuse_hollow(stored.shape, path, name)
+    refuse_too_few_bytes(stored.shape, path, name)
     refuse_beyond_memory(
         2 * 8 * stored.size,
         f"reading the {' x '.join(map(str, stored.shape))} points of {name}",
