@@ -78,7 +78,8 @@
     const {outlineStyle, outlineWidth} = getComputedStyle(document.activeElement);
     const {left, top, right, bottom} = document.activeElement.getBoundingClientRect();
     const inside = left >= 0 && top < innerHeight && right <= innerWidth && bottom > 0;
-    const passing = document.activeElement.matches(".scroll, .table > div, .status button") ? "passing" : null;
+    // a button that cancels may go while it has the focus, which the page itself has until the next key
+    const passing = document.activeElement.matches("body, .scroll, .table > div, .status button") ? "passing" : null;
     return [document.activeElement.dataset.stop ?? passing, inside && outlineStyle !== "none" && parseFloat(outlineWidth) >= 2];
   },
 

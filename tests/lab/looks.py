@@ -28,7 +28,7 @@ def tabbed(page, view):
             break
         page.keyboard.press("Tab")
         stop, is_seen = asked(page, "stop")
-        if stop == "passing":  # a long table, which browsers let scroll by keys, or a cancel
+        if stop == "passing":  # a long table, which scrolls by keys, or a cancel, gone or there
             continue
         reached.append(stop)
         if not is_seen:
