@@ -14,11 +14,15 @@ import sys
 import time
 from collections import defaultdict
 from contextlib import suppress
+from pathlib import Path
 
 import page
 import psutil
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
+from server.serving import entered
 
 SESSIONS, LONELY_ROUNDS, MOVES, PAUSE = 20, 7, 20, 0.1
 ASKED = {
@@ -38,11 +42,10 @@ class Page:
         self.reading = asyncio.create_task(self._read())
 
     @classmethod
-    async def open(cls, address, seed):
-        url = f"ws{address.removeprefix('http')}link"
-        socket = await websocket_connect(
-            HTTPRequest(url, headers={"Origin": address.rstrip("/")}), max_message_size=2**28
-        )
+    async def open(cls, address, cookie, seed):
+        url = f"ws{address.removeprefix('http')}/link"
+        headers = {"Origin": address, "Cookie": cookie}
+        socket = await websocket_connect(HTTPRequest(url, headers=headers), max_message_size=2**28)
         await socket.read_message()
         return cls(socket, seed)
 
@@ -118,10 +121,10 @@ def megabytes(pid):
     return own[0] / 1e6, sum(own) / 1e6
 
 
-async def measure(address, pid):
+async def measure(address, cookie, pid):
     """Measure one page, and many; write the tables."""
     before = megabytes(pid)
-    lone = await Page.open(address, 1000)
+    lone = await Page.open(address, cookie, 1000)
     lonely = {}
     for task in TASKS:
         await lone.ask(task)
@@ -131,7 +134,7 @@ async def measure(address, pid):
             await asyncio.sleep(0.1)
         lonely[task] = statistics.median(taken)
     await lone.close()
-    pages = [await Page.open(address, seed) for seed in range(SESSIONS)]
+    pages = [await Page.open(address, cookie, seed) for seed in range(SESSIONS)]
     burst, people = defaultdict(list), defaultdict(list)
     for task in TASKS:
         for each in pages:
@@ -170,7 +173,7 @@ def main():
         try:
             address = server.stdout.readline().split(" at ")[1].split(" ")[0]
             time.sleep(3)  # what is prepared in the background
-            asyncio.run(measure(address, server.pid))
+            asyncio.run(measure(*entered(address), server.pid))
         finally:
             server.terminate()
 

@@ -39,7 +39,7 @@ class RunningLab:
     Attributes
     ----------
     address : str
-        Of its page.
+        Of its page, with the token.
     process : Popen
         Its server.
     seconds_to_open : float
@@ -90,14 +90,17 @@ class Pages:
 
     Attributes
     ----------
+    address : str
+        Of the page, without the token; each profile is logged in.
     complaints : list of str
         Errors on the console, errors of scripts, refusals of the content security policy, and
         requests that leave the machine.
     """
 
     def __init__(self, browser, address):
-        self._browser, self.address = browser, address
+        self._browser, self._opened = browser, address
         self._host = urlsplit(address).netloc
+        self.address = f"http://{self._host}/"
         self._contexts = []
         self.complaints = []
 
@@ -116,6 +119,7 @@ class Pages:
             **context,
         )
         made.set_default_timeout(60_000)
+        made.request.get(self._opened)  # which logs its pages in
         self._contexts.append(made)
         page = made.new_page()
         page.on("console", self._console)

@@ -354,6 +354,7 @@ def test_a_lost_server_is_said_and_a_new_one_is_found(browser, tmp_path):
     page.locator("#connection").filter(has_text="does not answer").wait_for()
     first.close()
     second = RunningLab(tmp_path / "second", "--port", str(urlsplit(first.address).port))
+    page.context.request.get(second.address)  # it is opened, with the token of its own
     page.wait_for_selector("#connection", state="hidden")
     page.focus("#explore-D_f")
     page.keyboard.press("ArrowRight")

@@ -8,8 +8,9 @@ import subprocess
 import sys
 import time
 from contextlib import asynccontextmanager, contextmanager, suppress
+from http.client import HTTPConnection
 from pathlib import Path
-from urllib.parse import urlencode
+from urllib.parse import urlencode, urlsplit
 
 import psutil
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
@@ -44,11 +45,28 @@ def running_lab(*options, temporary, closes=True):
 
 
 class Lab:
-    """A running lab."""
+    """A running lab, asked by a browser that has opened the address with its token.
+
+    Attributes
+    ----------
+    address : str
+        Without the token, and without a slash at the end.
+    opened : str
+        As it was printed.
+    cookie : str
+        Of the login; empty if the lab asks for a password.
+    """
 
     def __init__(self, address, process, temporary, log, first):
-        self.address, self.process, self.log, self.first = address.rstrip("/"), process, log, first
+        self.opened, self.process, self.log, self.first = address, process, log, first
+        self.address, self.cookie = entered(address)
         self.temporary = temporary
+
+    @property
+    def head(self):
+        """Headers that every request of its own pages has, for `raw`."""
+        host = self.address.partition("//")[2]
+        return f"Host: {host}\r\nOrigin: {self.address}\r\nCookie: {self.cookie}\r\n"
 
     @property
     def folder(self):
@@ -59,6 +77,7 @@ class Lab:
     async def fetch(self, path, **options):
         """Ask by HTTP; returns the response, whatever its status."""
         options = {"follow_redirects": False, "decompress_response": False} | options
+        options["headers"] = {"Cookie": self.cookie} | options.get("headers", {})
         request = HTTPRequest(f"{self.address}{path}", **options)
         response = await AsyncHTTPClient().fetch(request, raise_error=False)
         assert_tells_nothing(response.body)
@@ -69,7 +88,8 @@ class Lab:
         """Open a page."""
         request = HTTPRequest(
             f"ws{self.address.removeprefix('http')}/link",
-            headers={"Origin": self.address} if headers is None else headers,
+            headers={"Cookie": self.cookie}
+            | ({"Origin": self.address} if headers is None else headers),
         )
         socket = await websocket_connect(request, max_message_size=2**28)
         page = Page(socket)
@@ -80,6 +100,16 @@ class Lab:
             socket.close()
             while not page.is_closed and await page.heard() is not None:
                 pass
+
+
+def entered(address):
+    """Open an address that may have a token; gives the bare one, and the cookie of the login."""
+    parts = urlsplit(address)
+    connection = HTTPConnection(parts.netloc, timeout=PATIENCE)
+    connection.request("GET", f"/?{parts.query}")
+    cookie = connection.getresponse().getheader("Set-Cookie", "").partition(";")[0]
+    connection.close()
+    return f"http://{parts.netloc}", cookie
 
 
 class Page:
@@ -158,12 +188,12 @@ async def upload(lab, token, content, name, origin=None):
     )
 
 
-async def log_in(lab, password):
+async def log_in(lab, password, leads_to="/"):
     """Send the form with a password."""
     return await lab.fetch(
         "/login",
         method="POST",
-        body=urlencode({"password": password}),
+        body=urlencode({"password": password, "next": leads_to}),
         headers={"Origin": lab.address},
     )
 

@@ -50,15 +50,15 @@ def test_uploads_that_are_too_large_or_of_nobody_are_refused(lab):
                 await upload(lab, page.token, b"1", "a", origin="http://evil.example")
             ).code == 403
             large = (
-                f"POST /upload?session={page.token}&name=a HTTP/1.1\r\nHost: localhost\r\n"
-                "Origin: http://localhost\r\nContent-Length: 1000001\r\n\r\nx"
+                f"POST /upload?session={page.token}&name=a HTTP/1.1\r\n{lab.head}"
+                "Content-Length: 1000001\r\n\r\nx"
             )
             said = await raw(lab, large.encode())
             assert b" 413 " in said
             assert b"larger than 1 MB" in said
             chunked = (
-                f"POST /upload?session={page.token}&name=a HTTP/1.1\r\nHost: localhost\r\n"
-                "Origin: http://localhost\r\nTransfer-Encoding: chunked\r\n\r\n2\r\nab\r\n0\r\n\r\n"
+                f"POST /upload?session={page.token}&name=a HTTP/1.1\r\n{lab.head}"
+                "Transfer-Encoding: chunked\r\n\r\n2\r\nab\r\n0\r\n\r\n"
             )
             assert b" 411 " in await raw(lab, chunked.encode())
             folder = lab.folder / page.token
@@ -72,8 +72,8 @@ def test_an_upload_that_is_broken_off_is_deleted(lab):
         async with lab.page() as page:
             _, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
             writer.write(
-                f"POST /upload?session={page.token}&name=a HTTP/1.1\r\nHost: localhost\r\n"
-                "Origin: http://localhost\r\nContent-Length: 900000\r\n\r\n".encode()
+                f"POST /upload?session={page.token}&name=a HTTP/1.1\r\n{lab.head}"
+                "Content-Length: 900000\r\n\r\n".encode()
             )
             writer.write(b"x" * 300_000)
             folder = lab.folder / page.token

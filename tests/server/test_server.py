@@ -208,10 +208,9 @@ def test_a_page_that_does_not_read_is_not_sent_more_and_more(lab):
         reader, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
         writer.transport.set_write_buffer_limits(high=2**24)
         writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-        port = lab.address.rpartition(":")[2]
         writer.write(
             (
-                f"GET /link HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nOrigin: {lab.address}\r\n"
+                f"GET /link HTTP/1.1\r\n{lab.head}"
                 "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
             ).encode()

@@ -23,6 +23,7 @@ from roughline.server.settings import ServerSettings
 from server.serving import (
     alive_still,
     becomes,
+    entered,
     run,
     running_lab,
     upload,
@@ -169,11 +170,10 @@ def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
         server = HTTPServer(lab.application())
         server.add_sockets([listening])
         port = listening.getsockname()[1]
-        page = await websocket_connect(
-            HTTPRequest(
-                f"ws://127.0.0.1:{port}/link", headers={"Origin": f"http://127.0.0.1:{port}"}
-            )
-        )
+        opened = f"http://127.0.0.1:{port}/?token={lab.key.secret}"
+        address, cookie = await asyncio.to_thread(entered, opened)
+        headers = {"Origin": address, "Cookie": cookie}
+        page = await websocket_connect(HTTPRequest(f"ws://127.0.0.1:{port}/link", headers=headers))
         await page.read_message()
         await asyncio.sleep(0.7)
         (session,) = lab.sessions.values()

@@ -40,9 +40,13 @@ def lab(
     """Open the lab: a page in the browser to look at surfaces, press them and read the paper.
 
     The server runs on this machine until Ctrl-C, needs no network, and can be reached from this
-    machine only. With --host other machines can reach it; it then asks for a password.
+    machine only, by who has the address with its token. With --host other machines can reach it;
+    it then asks for a password.
     """
+    from contextlib import ExitStack
+
     from roughline.server.interrupts import noted_interrupts
+    from roughline.server.opening import open_page
     from roughline.server.process import start_forking
     from roughline.server.settings import ServerSettings, password_in
 
@@ -68,11 +72,9 @@ def lab(
                 "proxy or tunnel that encrypts."
             )
         if browser:
-            import webbrowser
+            open_page(address, opened)
 
-            webbrowser.open(address)
-
-    with noted_interrupts() as interrupted:
+    with ExitStack() as opened, noted_interrupts() as interrupted:
         # which loads numerics while this process loads the server
         start_forking("roughline.lab.warm")
         from roughline.lab.site import site

@@ -33,9 +33,10 @@ def page() -> str:
     )
 
 
-def login_page(complaint: str) -> str:
-    """Return the page that asks for the password, with a word on what was wrong."""
-    return _environment().get_template("login.html.jinja").render(complaint=complaint)
+def login_page(asks_token: bool, complaint: str, leads_to: str) -> str:
+    """Return the page that asks for the token or password, with a word on what was wrong."""
+    template = _environment().get_template("login.html.jinja")
+    return template.render(asks_token=asks_token, complaint=complaint, leads_to=leads_to)
 
 
 @cache

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import hmac
+import re
 import time
 from collections import OrderedDict
 from dataclasses import dataclass, field
 from ipaddress import IPv6Address, ip_address
-from urllib.parse import SplitResult, urlsplit
+from urllib.parse import SplitResult, parse_qsl, urlencode, urlsplit
+
+from tornado.httputil import HTTPServerRequest
 
 from roughline.server.settings import ServerSettings
 
@@ -37,6 +40,7 @@ HEADERS = {
 RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox"
 """Documents that tasks have written run no program, and load nothing."""
 
+_PAGE = re.compile(r"/(\?[!-~]*)?")  # with what is set in it
 _OWN_NAMES = ("localhost", "127.0.0.1", "::1")
 
 
@@ -66,6 +70,28 @@ def _split(address: str) -> SplitResult:
     except ValueError:
         return urlsplit("")
     return parts
+
+
+def cookie_name(host: str) -> str:
+    """Name of the cookie of a login; it has the port, because cookies are shared by all ports."""
+    port = _split(f"//{host}").port
+    return "roughline_lab" if port is None else f"roughline_lab_{port}"
+
+
+def address_of_page(query: str) -> str:
+    """Return the address of the page with a query, less the token in it."""
+    rest = [part for part in parse_qsl(query, keep_blank_values=True) if part[0] != "token"]
+    return f"/?{urlencode(rest)}" if rest else "/"
+
+
+def own_page(address: str) -> str:
+    """Return an address to go on to if it is the page's own; that of the bare page otherwise."""
+    return address if _PAGE.fullmatch(address) else "/"
+
+
+def visitor(request: HTTPServerRequest) -> str:
+    """Return who asks: one address, or one customer's network."""
+    return neighbourhood(request.remote_ip or "")
 
 
 def passwords_match(given: str, wanted: str) -> bool:
@@ -103,6 +129,10 @@ class Allowance:
         self._left -= 1
         return True
 
+    def give_back(self) -> None:
+        """Give back one that was taken."""
+        self._left = min(self.most, self._left + 1)
+
 
 class Visitors:
     """How often each address may ask, and try passwords, whatever number of pages it has open."""
@@ -118,8 +148,15 @@ class Visitors:
         return self._of(self._questions, address, 2000, 8000).take()
 
     def may_try(self, address: str) -> bool:
-        """Take one try of the password."""
-        return self._of(self._logins, address, 1 / 12, 5).take()
+        """Take one try of the password or token."""
+        return self._tries(address).take()
+
+    def succeeded(self, address: str) -> None:
+        """Give a try back that was right: only wrong ones count."""
+        self._tries(address).give_back()
+
+    def _tries(self, address: str) -> Allowance:
+        return self._of(self._logins, address, 1 / 12, 5)
 
     def _of(
         self, known: OrderedDict[str, Allowance], address: str, rate: float, most: float

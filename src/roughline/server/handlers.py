@@ -6,6 +6,7 @@ import mimetypes
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
+from urllib.parse import urlencode
 
 from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError, RequestHandler, StaticFileHandler, stream_request_body
@@ -13,18 +14,20 @@ from tornado.web import HTTPError, RequestHandler, StaticFileHandler, stream_req
 from roughline.server.access import (
     HEADERS,
     RESULTS_POLICY,
+    address_of_page,
+    cookie_name,
     host_is_ours,
-    neighbourhood,
     origin_is_ours,
-    passwords_match,
+    own_page,
+    visitor,
 )
+from roughline.server.logins import DAYS
+from roughline.server.logins import Login as LoggedIn
 from roughline.server.session import Session, Upload
 
 if TYPE_CHECKING:
     from roughline.server.serve import Server
 
-_COOKIE = "roughline_lab"
-_DAYS = 7  # that a page stays logged in
 _LATER = 3600  # that a browser keeps the parts of the page [s]
 _DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml", "application/xml")
 
@@ -43,7 +46,18 @@ class Guarded(RequestHandler):
     @property
     def address(self) -> str:
         """Where the request comes from."""
-        return neighbourhood(self.request.remote_ip or "")
+        return visitor(self.request)
+
+    @property
+    def login_name(self) -> str:
+        """Name of the browser's login, as its cookie says; empty if it has none."""
+        said = self.get_signed_cookie(cookie_name(self.request.host), max_age_days=DAYS)
+        return (said or b"").decode()
+
+    @property
+    def login(self) -> LoggedIn | None:
+        """The browser's login, for the name by which the server is called now."""
+        return self.server.logins.of(self.login_name, self.request.host.lower())
 
     def set_default_headers(self) -> None:
         """Say what a browser may do with the answer."""
@@ -60,11 +74,8 @@ class Guarded(RequestHandler):
         reads = self.request.method in ("GET", "HEAD")
         if (origin is not None or not reads) and not origin_is_ours(origin, self.request.host):
             raise HTTPError(403, reason="Requests from pages of other servers are refused")
-        if not self.open_to_all and settings.password is not None and not self._is_logged_in():
-            if self.request.path == "/":
-                self.redirect("/login")
-            else:
-                raise HTTPError(401, reason="Log in first")
+        if not self.open_to_all and self.login is None:
+            raise HTTPError(401, reason="Log in first")
 
     def write_error(self, status_code: int, **kwargs: Any) -> None:
         """Answer in one line, without a trace."""
@@ -78,10 +89,37 @@ class Guarded(RequestHandler):
             raise HTTPError(404, reason="This page is no longer connected: reload it")
         return session
 
-    def _is_logged_in(self) -> bool:
-        """Whether the password was given, for the name by which the server is called now."""
-        said = self.get_signed_cookie(_COOKIE, max_age_days=_DAYS)
-        return said == self.request.host.lower().encode()
+    def enter(self, given: str, leads_to: str) -> None:
+        """Let in who has given the password or token, and go on; ask again otherwise."""
+        key, visitors = self.server.key, self.server.visitors
+        may_try = visitors.may_try(self.address)
+        # nobody guesses a token, so a stranger's tries need not keep out who has it
+        if (may_try or key.is_token) and key.opens(given):
+            if may_try:
+                visitors.succeeded(self.address)
+            self.set_signed_cookie(
+                cookie_name(self.request.host),
+                self.server.logins.begin(self.request.host.lower()),
+                expires_days=DAYS,
+                httponly=True,
+                samesite="Strict",
+                secure=self.request.protocol == "https",
+            )
+            self.redirect(leads_to, status=303)
+        elif not may_try:
+            self.set_status(429)
+            self.ask_for_key("Too many tries: wait a minute.", leads_to)
+        else:
+            self.set_status(403)
+            wanted = "token of the lab that runs now" if key.is_token else "password"
+            self.ask_for_key(f"This is not the {wanted}.", leads_to)
+
+    def ask_for_key(self, complaint: str, leads_to: str) -> None:
+        """Send the page that asks for the password or token."""
+        self.set_header("Referrer-Policy", "same-origin")  # "no-referrer" hides a form's origin
+        self.set_header("Cache-Control", "no-store")
+        key = self.server.key
+        self.finish(self.server.site.login_page(key.is_token, complaint, leads_to))
 
 
 class Nothing(Guarded):
@@ -97,51 +135,60 @@ class Nothing(Guarded):
 class Page(Guarded):
     """The page itself."""
 
+    open_to_all = True
+
     def get(self) -> None:
-        """Send it."""
+        """Send it, to who is logged in."""
         self.set_header("Cache-Control", "no-store")
-        self.finish(self.server.site.page())
+        token = self.get_query_argument("token", None)
+        address = address_of_page(self.request.query)
+        if self.login is None and token is not None and self.server.key.is_token:
+            self.enter(token, address)
+        elif self.login is None:
+            self.redirect("/login" if address == "/" else f"/login?{urlencode({'next': address})}")
+        elif token is not None:
+            self.redirect(address)
+        else:
+            self.finish(self.server.site.page())
 
 
 class Login(Guarded):
-    """Where the password is asked for."""
+    """Where the password or token is asked for."""
 
     open_to_all = True
 
-    def set_default_headers(self) -> None:
-        """Let the form state its origin, which "no-referrer" hides."""
-        super().set_default_headers()
-        self.set_header("Referrer-Policy", "same-origin")
-        self.set_header("Cache-Control", "no-store")
-
     def get(self) -> None:
-        """Ask."""
-        if self.server.settings.password is None:
-            self.redirect("/")
+        """Ask who is not logged in."""
+        leads_to = own_page(self.get_query_argument("next", "/"))
+        if self.login is None:
+            self.ask_for_key("", leads_to)
         else:
-            self.finish(self.server.site.login_page(""))
+            self.redirect(leads_to)
 
     def post(self) -> None:
         """Check what was given."""
-        password = self.server.settings.password
-        if password is None:
-            self.redirect("/")
-        elif not self.server.visitors.may_try(self.address):
-            self.set_status(429)
-            self.finish(self.server.site.login_page("Too many tries: wait a minute."))
-        elif passwords_match(self.get_body_argument("password", "", strip=False), password):
-            self.set_signed_cookie(
-                _COOKIE,
-                self.request.host.lower(),
-                expires_days=_DAYS,
-                httponly=True,
-                samesite="Strict",
-                secure=self.request.protocol == "https",
-            )
-            self.redirect("/", status=303)
-        else:
-            self.set_status(403)
-            self.finish(self.server.site.login_page("This is not the password."))
+        given = "token" if self.server.key.is_token else "password"
+        leads_to = own_page(self.get_body_argument("next", "/"))
+        self.enter(self.get_body_argument(given, "", strip=False), leads_to)
+
+
+class Logout(Guarded):
+    """Where a browser logs out."""
+
+    def post(self) -> None:
+        """End its login, and with it all its pages."""
+        self.server.logins.end(self.login_name)
+        self.clear_cookie(cookie_name(self.request.host))
+        self.redirect("/login", status=303)
+
+
+class Here(Guarded):
+    """Where a page asks whether its browser is still logged in."""
+
+    def get(self) -> None:
+        """Say yes; who is not logged in was refused before."""
+        self.set_header("Cache-Control", "no-store")
+        self.set_status(204)
 
 
 class Parts(Guarded, StaticFileHandler):

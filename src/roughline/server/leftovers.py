@@ -16,21 +16,25 @@ _NAME = re.compile(_PREFIX + r"(?P<pid>\d+)-\w+")
 
 
 @contextmanager
-def folder_of_files() -> Iterator[Path]:
-    """Give a folder that only its owner may enter, and delete it with all that is in it."""
-    remove_leftovers()
-    root = Path(tempfile.mkdtemp(prefix=f"{_PREFIX}{os.getpid()}-"))
+def folder_of_files(parent: Path | None = None) -> Iterator[Path]:
+    """Give a folder that only its owner may enter, and delete it with all that is in it.
+
+    It lies among the system's temporary files, or in `parent`.
+    """
+    parent = parent or Path(tempfile.gettempdir())
+    remove_leftovers(parent)
+    root = Path(tempfile.mkdtemp(prefix=f"{_PREFIX}{os.getpid()}-", dir=parent))
     try:
         yield root
     finally:
         shutil.rmtree(root, ignore_errors=True)
 
 
-def remove_leftovers() -> None:
+def remove_leftovers(parent: Path) -> None:
     """Delete the folders of servers that no longer run; folders of other users are left alone."""
     import psutil  # here because it is wanted once
 
-    for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
+    for folder in parent.glob(f"{_PREFIX}*"):
         named = _NAME.fullmatch(folder.name)
         with suppress(OSError):
             if named and _is_own_folder(folder) and not psutil.pid_exists(int(named["pid"])):

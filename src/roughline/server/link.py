@@ -13,6 +13,7 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from roughline._version import __version__
 from roughline.server.access import Allowance, origin_is_ours
 from roughline.server.handlers import Guarded
+from roughline.server.logins import Login
 from roughline.server.session import Session
 
 MOST_BYTES = 2**16
@@ -26,6 +27,7 @@ class Link(Guarded, WebSocketHandler):
     """The websocket of one page."""
 
     session: Session | None = None
+    _login: Login | None = None
 
     def prepare(self) -> None:
         """Refuse requests without an origin: every browser states it."""
@@ -46,6 +48,11 @@ class Link(Guarded, WebSocketHandler):
         if not self.server.has_place(self.address):
             self.close(1013, "no more pages may be open at once: close one, or come back later")
             return
+        self._login = self.login
+        if self._login is None:
+            self.close(1008, "log in first")
+            return
+        self._login.on_end.add(self.logged_out)
         self.session = self.server.open_session(self.address, self._send, self._send_answer)
         self._send({"session": self.session.token, "version": __version__})
 
@@ -72,8 +79,17 @@ class Link(Guarded, WebSocketHandler):
         else:
             self._ask(slot, said)
 
+    def logged_out(self) -> None:
+        """Close the page and end its session, because its login has ended."""
+        self.close(1008, "this browser is no longer logged in: reload the page to log in")
+        if self.session is not None:
+            self.server.close_session(self.session)
+            self.session = None
+
     def on_close(self) -> None:
         """End the session with its page."""
+        if self._login is not None:
+            self._login.on_end.discard(self.logged_out)
         if self.session is not None:
             self.server.close_session(self.session)
             self.session = None

@@ -25,7 +25,9 @@ from roughline.server.access import Visitors
 from roughline.server.empty_figures import EmptyFigures
 from roughline.server.handlers import (
     Figures,
+    Here,
     Login,
+    Logout,
     Nothing,
     Page,
     Parts,
@@ -36,6 +38,7 @@ from roughline.server.handlers import (
 from roughline.server.lanes import Lane
 from roughline.server.leftovers import folder_of_files
 from roughline.server.link import MOST_BYTES, Link
+from roughline.server.logins import Key, Logins
 from roughline.server.requests import Limits
 from roughline.server.session import Session
 from roughline.server.settings import ServerSettings
@@ -65,7 +68,7 @@ class Server:
     def __init__(self, site: Site, settings: ServerSettings, root: Path) -> None:
         self.site, self.settings, self.root = site, settings, root
         self.sessions: dict[str, Session] = {}
-        self.visitors = Visitors()
+        self.visitors, self.key, self.logins = Visitors(), Key.of(settings.password), Logins()
         self.figures = EmptyFigures(site.figures)
         self.quick, self.slow = _lanes(settings)
         self._is_closing = False
@@ -76,6 +79,8 @@ class Server:
             [
                 (r"/", Page),
                 (r"/login", Login),
+                (r"/logout", Logout),
+                (r"/here", Here),
                 (r"/link", Link),
                 (r"/upload", Uploads),
                 (rf"/figures/({'|'.join(self.site.figures)})", Figures),
@@ -167,7 +172,7 @@ def serve(
     settings : ServerSettings
         What to listen to, and the limits of a session.
     ready : callable
-        Told the address of the page as soon as it can be opened.
+        Told the address of the page, with its token if it has one, as soon as it can be opened.
     interrupted : callable
         Says whether Ctrl-C came before the server listens to it.
 
@@ -205,7 +210,7 @@ async def _serve(
         with suppress(TimeoutError):
             await asyncio.wait_for(asyncio.shield(preparing), _READY)
         if not stopped.is_set():
-            ready(_address(server.settings, sockets[0]))
+            ready(_address(server, sockets[0]))
         await stopped.wait()
     finally:
         listening.stop()
@@ -237,8 +242,9 @@ def _listening(settings: ServerSettings) -> list[socket.socket]:
     return sockets
 
 
-def _address(settings: ServerSettings, listening: socket.socket) -> str:
-    """The address of the page."""
-    port = listening.getsockname()[1]
-    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(settings.host, settings.host)
-    return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+def _address(server: Server, listening: socket.socket) -> str:
+    """The address of the page, with the token if there is one."""
+    port, host = listening.getsockname()[1], server.settings.host
+    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
+    page = f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+    return f"{page}?token={server.key.secret}" if server.key.is_token else page

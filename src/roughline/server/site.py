@@ -18,7 +18,8 @@ class Site:
     page : callable
         Gives the page, as HTML.
     login_page : callable
-        Gives the page that asks for the password, with a word on what was wrong.
+        Gives the page that asks for the token, or else for the password, from that choice, a word
+        on what was wrong, and the address to go on to.
     parts : Path
         Folder of scripts and styles.
     figures : mapping of str to str
@@ -31,7 +32,7 @@ class Site:
     """
 
     page: Callable[[], str]
-    login_page: Callable[[str], str]
+    login_page: Callable[[bool, str, str], str]
     parts: Path
     figures: Mapping[str, str]
     tasks: Mapping[str, Place]

@@ -86,6 +86,12 @@ help.addEventListener("click", () => {
 const copyLink = document.querySelector("#copy-link");
 copyLink.addEventListener("click", () => copy(location.href, copyLink));
 
+// The server ends the login and closes all its pages; this one goes where one logs in.
+document.querySelector("#log-out").addEventListener("click", async () => {
+  await fetch("/logout", {method: "POST"}).catch(() => {});
+  location.assign("/login");
+});
+
 document.querySelectorAll(".drawer").forEach((drawer) => {
   const controls = document.querySelector(`#${drawer.getAttribute("aria-controls")}`);
   drawer.addEventListener("click", () => {
