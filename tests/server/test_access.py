@@ -1,5 +1,9 @@
 """Who may speak to the lab."""
 
+import os
+import shlex
+import sys
+
 import pytest
 
 from roughline.errors import InputError
@@ -113,9 +117,47 @@ def test_this_machine_alone_needs_no_password(host):
 def test_a_password_is_the_first_line_of_its_file(tmp_path):
     file = tmp_path / "password"
     file.write_text("correct horse\nbattery\n")
+    file.chmod(0o600)
     assert password_in(file) == "correct horse"
+    link = tmp_path / "link"
+    link.symlink_to(file)
+    assert password_in(link) == "correct horse"
+    file.write_text("größer als acht \r\n")
+    assert password_in(file) == "größer als acht"
     file.write_text("\n")
     with pytest.raises(InputError, match="no password in its first line"):
         password_in(file)
     with pytest.raises(InputError, match="it cannot be read"):
         password_in(tmp_path / "missing")
+    with file.open("wb") as opened:
+        opened.truncate(10**12)  # of zeros, which take no room
+    with pytest.raises(InputError, match="at most 1000 bytes"):
+        password_in(file)
+    file.write_bytes(b"\xff" * 20)
+    with pytest.raises(InputError, match="it is no text"):
+        password_in(file)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="who may read a file is said otherwise there")
+def test_a_password_that_others_may_read_is_refused(tmp_path, monkeypatch):
+    file, link = tmp_path / "pass word", tmp_path / "link"
+    file.write_text("correct horse")
+    link.symlink_to(file)
+    for mode in (0o640, 0o604, 0o620, 0o602, 0o644):
+        file.chmod(mode)
+        for name in (file, link):
+            with pytest.raises(InputError) as refusal:
+                password_in(name)
+            assert str(refusal.value).endswith(f"chmod 600 {shlex.quote(str(name))}")
+    file.chmod(0o400)
+    assert password_in(file) == "correct horse"
+    os.mkfifo(tmp_path / "pipe", 0o600)
+    for no_file in (tmp_path / "pipe", tmp_path):
+        with pytest.raises(InputError, match="it is no file"):
+            password_in(no_file)
+    if os.geteuid() == 0:
+        os.chown(file, 12345, -1)
+    else:  # what belongs to root is taken
+        monkeypatch.setattr("os.geteuid", lambda: file.stat().st_uid + 1)
+    with pytest.raises(InputError, match="it belongs to somebody else"):
+        password_in(file)

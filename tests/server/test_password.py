@@ -17,6 +17,7 @@ def closed_lab(tmp_path_factory):
     """A lab with a password."""
     temporary = tmp_path_factory.mktemp("closed")
     (temporary / "password").write_text(f"{PASSWORD}\n")
+    (temporary / "password").chmod(0o600)
     options = ("--host", "0.0.0.0", "--password-file", str(temporary / "password"))
     with running_lab(*options, temporary=temporary) as running:
         yield running

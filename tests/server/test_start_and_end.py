@@ -92,6 +92,8 @@ def test_what_a_killed_server_leaves_is_removed_by_the_next(tmp_path):
         (("--password-file", "missing"), '--password-file is "missing"; it cannot be read'),
         (("--password-file", "empty"), "no password in its first line"),
         (("--password-file", "short"), "fewer than 8"),
+        (("--password-file", "read by all"), "others may read or change it: chmod 600 'read by"),
+        (("--password-file", "."), '--password-file is "."; it is no file'),
         (("--port", "70000"), "--port is 70000"),
         (("--max-upload", "0"), "--max-upload is 0.0; a positive, finite number"),
         (("--max-upload", "nan"), "--max-upload is nan; a positive, finite number"),
@@ -102,9 +104,11 @@ def test_what_a_killed_server_leaves_is_removed_by_the_next(tmp_path):
 )
 def test_options_that_make_no_sense_are_one_line(invoke, tmp_path, monkeypatch, options, said):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "password").write_text(PASSWORD)
-    (tmp_path / "empty").write_text("")
-    (tmp_path / "short").write_text("1234567")
+    for name, content in {"password": PASSWORD, "empty": "", "short": "1234567"}.items():
+        (tmp_path / name).write_text(content)
+        (tmp_path / name).chmod(0o600)
+    (tmp_path / "read by all").write_text(PASSWORD)
+    (tmp_path / "read by all").chmod(0o644)
     code, out, errors = invoke("lab", "--no-browser", *options)
     gc.collect()
     assert code == 2

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+import os
+import shlex
+import stat
 from dataclasses import dataclass
 from ipaddress import ip_address
 from pathlib import Path
@@ -11,6 +14,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 
 LOOPBACK = "127.0.0.1"
+_LONGEST_PASSWORD = 1000  # [bytes]
 _LEAST_MEMORY = 500_000_000  # of a task [bytes]
 
 
@@ -84,19 +88,48 @@ class ServerSettings:
 
 
 def password_in(file: Path) -> str:
-    """Read a password: the first line of a file.
+    """Read a password: the first line of a file that only its owner may read.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or has nothing in it.
+        If the file cannot be read, others may read or change it, or it has no password in it.
     """
     try:
-        lines = file.read_text(encoding="utf-8").splitlines()
+        first = (_start_of(file).splitlines() or [b""])[0].strip()
+        if len(first) > _LONGEST_PASSWORD:
+            refuse("password_file", str(file), f"at most {_LONGEST_PASSWORD} bytes are a password")
+        password = first.decode().strip()
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "it is no text"
         needed = f"it cannot be read ({why}): give a file whose first line is the password"
         raise InputError(f"is {shown(str(file))}; {needed}", "password_file") from error
-    if not lines or not lines[0].strip():
+    if not password:
         refuse("password_file", str(file), "it has no password in its first line: write one there")
-    return lines[0].strip()
+    return password
+
+
+def _start_of(file: Path) -> bytes:
+    """Read the start of a file of ours; a pipe is not waited for."""
+    modes = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    descriptor = os.open(file, modes)
+    try:
+        _check_owner(file, os.fstat(descriptor))
+        return os.read(descriptor, _LONGEST_PASSWORD + 1)
+    finally:
+        os.close(descriptor)
+
+
+def _check_owner(file: Path, found: os.stat_result) -> None:
+    """Refuse what is no file, or what others may read or change; Windows does not say who may."""
+    if not stat.S_ISREG(found.st_mode):
+        refuse(
+            "password_file", str(file), "it is no file: give one whose first line is the password"
+        )
+    if os.name != "posix":
+        return
+    if found.st_uid not in (0, os.geteuid()):
+        refuse("password_file", str(file), "it belongs to somebody else: give a file of your own")
+    if found.st_mode & 0o077:
+        needed = f"others may read or change it: chmod 600 {shlex.quote(str(file))}"
+        refuse("password_file", str(file), needed)
