@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from contextlib import asynccontextmanager, contextmanager, suppress
+from functools import partial
 from http.client import HTTPConnection
 from pathlib import Path
 from urllib.parse import urlencode, urlsplit
@@ -20,9 +21,14 @@ PATIENCE = 30  # [s]
 
 
 @contextmanager
-def running_lab(*options, temporary, closes=True):
-    """Run a lab with options and a folder for its files; give its address, process and output."""
-    command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0", *options]
+def running_lab(*options, temporary, closes=True, files=None, statements=()):
+    """Run a lab with options and a folder for its files; give its address, process and output.
+
+    It may open a number of files, and does some statements before anything else.
+    """
+    program = ["-c", "; ".join([*statements, "from roughline.cli import main", "main()"])]
+    program = program if statements else ["-m", "roughline"]
+    command = [sys.executable, *program, "lab", "--no-browser", "--port", "0", *options]
     log = Path(temporary) / "errors.txt"
     with (
         log.open("w") as errors,
@@ -32,6 +38,7 @@ def running_lab(*options, temporary, closes=True):
             stderr=errors,
             text=True,
             env=os.environ | {"TMPDIR": str(temporary)},
+            preexec_fn=partial(_allow_files, files) if files else None,
         ) as process,
     ):
         try:
@@ -42,6 +49,13 @@ def running_lab(*options, temporary, closes=True):
         finally:
             process.send_signal(signal.SIGINT if closes else signal.SIGKILL)
             process.wait(PATIENCE)
+
+
+def _allow_files(number):
+    """Let this process open a number of files."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_NOFILE, (number, number))
 
 
 class Lab:

@@ -21,6 +21,7 @@ from roughline.server.access import (
     own_page,
     visitor,
 )
+from roughline.server.connections import Connection, Stage
 from roughline.server.logins import DAYS
 from roughline.server.logins import Login as LoggedIn
 from roughline.server.session import Session, Upload
@@ -59,6 +60,12 @@ class Guarded(RequestHandler):
         """The browser's login, for the name by which the server is called now."""
         return self.server.logins.of(self.login_name, self.request.host.lower())
 
+    def note(self, stage: Stage) -> None:
+        """Note what the connection of the request does from now on."""
+        connection = getattr(self.request.connection, "stream", None)
+        if isinstance(connection, Connection):
+            connection.enter(stage)
+
     def set_default_headers(self) -> None:
         """Say what a browser may do with the answer."""
         for name, value in HEADERS.items():
@@ -67,6 +74,7 @@ class Guarded(RequestHandler):
 
     def prepare(self) -> None:
         """Refuse names that are not ours, pages of other servers, and who has not logged in."""
+        self.note(Stage.IS_SERVED)
         settings = self.server.settings
         if not host_is_ours(self.request.host, settings):
             raise HTTPError(403, reason="This is not a name of this server")
@@ -247,6 +255,7 @@ class Uploads(Guarded):
         self._session = session
         self._key, self._upload = session.new_upload(name, int(length))
         self._file = self._upload.path.open("wb")
+        self.note(Stage.BRINGS)
 
     def data_received(self, chunk: bytes) -> None:
         """Write what has come, as long as somebody wants it."""
@@ -263,6 +272,7 @@ class Uploads(Guarded):
 
     def post(self) -> None:
         """Tell the page what its file is called here."""
+        self.note(Stage.IS_SERVED)
         if self._session is None or self._upload is None or self._file is None:
             raise HTTPError(410, reason="The page of this file is closed, or sent too many files")
         try:

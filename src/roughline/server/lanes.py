@@ -95,6 +95,11 @@ class Lane:
         busy = [job.process.pid for job in self._jobs if job.process is not None]
         return [process.pid for process in self._idle] + busy
 
+    @property
+    def most(self) -> int:
+        """Largest number of its processes that compute at once."""
+        return self._limits.most
+
     async def prepare(self) -> None:
         """Start processes ahead of the first request."""
         await self._begin(self._fill())

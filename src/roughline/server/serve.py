@@ -14,7 +14,6 @@ from ipaddress import ip_address
 from pathlib import Path
 from typing import Any
 
-from tornado.httpserver import HTTPServer
 from tornado.netutil import bind_sockets
 from tornado.web import Application
 
@@ -22,6 +21,7 @@ from roughline.computing.cores import available_cores
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.server.access import Visitors
+from roughline.server.connections import Connections, most_connections
 from roughline.server.empty_figures import EmptyFigures
 from roughline.server.handlers import (
     Figures,
@@ -50,6 +50,7 @@ _PING = 20  # a page that does not answer within this time is gone [s]
 _READY = 1.5  # that the first page waits for what it will need first [s]
 _MOST_BODY = 2**16  # of a request that brings no file [bytes]
 _MOST_HEADERS = 2**14  # [bytes]
+_MOST_KNOCKING = 1024  # connections that wait to be taken
 
 
 class Server:
@@ -200,8 +201,12 @@ async def _serve(
             asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
     if interrupted():
         stopped.set()
-    listening = HTTPServer(
-        server.application(), max_body_size=_MOST_BODY, max_header_size=_MOST_HEADERS
+    listening = Connections(
+        server.application(),
+        most=most_connections(server.quick.most + server.slow.most),
+        proxies=lambda address: False,
+        max_body_size=_MOST_BODY,
+        max_header_size=_MOST_HEADERS,
     )
     preparing = asyncio.create_task(server.prepare())
     try:
@@ -221,7 +226,7 @@ async def _serve(
 def _listening(settings: ServerSettings) -> list[socket.socket]:
     """Sockets on the address of the settings."""
     try:
-        sockets = bind_sockets(settings.port, settings.host)
+        sockets = bind_sockets(settings.port, settings.host, backlog=_MOST_KNOCKING)
     except socket.gaierror as error:
         raise InputError(
             f"is {shown(settings.host)}, which is no address of this machine: give one, or "
