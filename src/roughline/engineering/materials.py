@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields, replace
 from importlib import resources
 
 from roughline.errors import InputError, UnitError
+from roughline.errors.checks import shown
 from roughline.errors.public import public
 from roughline.units import in_si, refuse_decimal_comma
 
@@ -149,15 +150,15 @@ def material(description: str) -> Material:
     if not name:
         if not {"E", "nu"} <= given.keys():
             raise InputError(
-                f'the material "{description}" needs both E and nu, such as "E=70 GPa nu=0.33"'
+                f'the material {shown(description)} needs both E and nu, such as "E=70 GPa nu=0.33"'
             )
         return Material("given", **given)  # type: ignore[arg-type]
     if name not in known:
         near = difflib.get_close_matches(name, known, 1)
         hint = f'; did you mean "{near[0]}"?' if near else "."
         raise InputError(
-            f'no material is called "{name}"{hint} Known are {", ".join(known)}; others are given '
-            'as "E=70 GPa nu=0.33"'
+            f"no material is called {shown(name)}{hint} Known are {', '.join(known)}; others are "
+            'given as "E=70 GPa nu=0.33"'
         )
     changed = ", ".join(given)
     source = f"{known[name].source}; {changed} given" if given else known[name].source
@@ -171,21 +172,21 @@ def _settings(text: str, description: str) -> dict[str, float]:
     rest = _SETTING.sub("", text).replace(";", "").strip()
     if rest:
         raise InputError(
-            f'"{rest}" in the material "{description}" is not of the form "name=value"'
+            f'{shown(rest)} in the material {shown(description)} is not of the form "name=value"'
         )
     for name, value in _SETTING.findall(text):
         if name in given:
-            raise InputError(f'the material "{description}" gives {name} twice')
+            raise InputError(f"the material {shown(description)} gives {name} twice")
         if name == "nu":
             refuse_decimal_comma(value, name)
             try:
                 given[name] = float(value)
             except ValueError:
-                raise UnitError(f'nu is "{value}"; a number such as 0.3 is needed') from None
+                raise UnitError(f"nu is {shown(value)}; a number such as 0.3 is needed") from None
         elif name in _UNITS:
             given[name] = in_si(value, _UNITS[name], name)
         else:
-            raise InputError(f'a material has no "{name}"; it has nu, {", ".join(_UNITS)}')
+            raise InputError(f"a material has no {shown(name)}; it has nu, {', '.join(_UNITS)}")
     return given
 
 

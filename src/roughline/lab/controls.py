@@ -13,6 +13,9 @@ from roughline.units import refuse_decimal_comma
 VERSION = "1"
 """Of the addresses; one of another version is refused."""
 
+STRANGE = "this question is not one of the lab: reload the page"
+"""What is said of a question that no page of this lab asks."""
+
 _OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of a view's state
 
 
@@ -133,6 +136,28 @@ class Choice:
                 f'{self.name} is "{str(text)[:40]}"; allowed are {allowed}', self.key
             )
         return str(text)
+
+
+def texts_of(arguments: Mapping[str, Any]) -> Mapping[str, str]:
+    """Return the texts of the controls by their keys, as a page sends them.
+
+    Parameters
+    ----------
+    arguments : mapping
+        Of a task; "state" holds the texts.
+
+    Raises
+    ------
+    ControlError
+        If it does not; at the control whose text is none.
+    """
+    said = arguments.get("state")
+    if not isinstance(said, Mapping):
+        raise ControlError(STRANGE)
+    for key, text in said.items():
+        if not isinstance(text, str):
+            raise ControlError(STRANGE, key)
+    return said
 
 
 def refuse_strange(said: Mapping[str, str], known: Collection[str]) -> None:

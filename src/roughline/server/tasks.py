@@ -60,12 +60,13 @@ class Outcome:
 
 
 def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
-    """Do a task; a refusal and a failure become sentences, without names of files and folders."""
+    """Do a task; a refusal and a failure become one line, without names of files and folders."""
     try:
         task: Task = getattr(import_module(place.module), place.function)
         return Outcome(task(arguments, progress))
     except RoughlineError as error:
-        return Outcome(error=without_paths(str(error), arguments), at=getattr(error, "at", ""))
+        sentence = " ".join(without_paths(str(error), arguments).split())
+        return Outcome(error=sentence, at=getattr(error, "at", ""))
     except MemoryError:
         return Outcome(
             error="this needs more memory than one session may have: take fewer points or a "

@@ -7,12 +7,14 @@ from collections.abc import Mapping
 from dataclasses import fields, replace
 
 import roughline as rl
+from roughline.errors.checks import shortened
 from roughline.lab.controls import Control, ControlError, refuse_strange
 from roughline.lab.explore import controls as c
 from roughline.lab.explore.bodies import most_force_bar, rms_height, rms_slope
 from roughline.lab.explore.state import ExploreState
 from roughline.units import engineering, in_si, load_in_newtons
 
+_MOST = 1e30  # of a side and a modulus, in SI units; the reciprocal of the least
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
 _HAS_UNIT = re.compile(r"[-+.\d]+(e[-+]?\d+)?\s*[^\W\d]", re.IGNORECASE)
 
@@ -105,8 +107,11 @@ def _quantity(text: str, unit: str, key: str, name: str) -> str:
         value = in_si(text, unit, name)
     except rl.UnitError as error:
         raise ControlError(str(error), key) from None
-    if not 0 < value < 1e30:
-        raise ControlError(f"{name} is {text}; a positive one is needed", key)
+    if not 1 / _MOST <= value <= _MOST:
+        raise ControlError(
+            f"{name} is {shortened(text)}; give one from {1 / _MOST:g} {unit} to {_MOST:g} {unit}",
+            key,
+        )
     return text.strip()
 
 
@@ -129,7 +134,7 @@ def _in_scales(text: str, control: Control, unit: str, scale: float, called: str
     except ControlError:
         low, high = (engineering(end * scale, unit, 3) for end in (control.low, control.high))
         raise ControlError(
-            f"{control.name} is {text.strip()}; give one from {low} to {high}, which is "
+            f"{control.name} is {shortened(text)}; give one from {low} to {high}, which is "
             f"{control.range} {called}",
             control.key,
         ) from None
@@ -156,8 +161,8 @@ def _force_bar(text: str, state: ExploreState) -> float:
     except ControlError:
         low, high = (engineering(end * scale, "N", 3) for end in (c.FORCE.low, c.FORCE.high))
         raise ControlError(
-            f"the load {text.strip()} is F̄ = {force / scale:.3g}; give one from {low} to {high}, "
-            f"which is F̄ {c.FORCE.range}",
+            f"the load {shortened(text)} is F̄ = {force / scale:.3g}; give one from {low} to "
+            f"{high}, which is F̄ {c.FORCE.range}",
             c.FORCE.key,
         ) from None
 

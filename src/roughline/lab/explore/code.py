@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from roughline.assessment.question import UNLOADING
+from roughline.lab.controls import texts_of
 from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import hardness, rms_height
 from roughline.lab.explore.state import ExploreState
@@ -21,7 +22,7 @@ print("largest indentation over rms height", curve.indentation[0] / surface.rms_
 
 def code(arguments: Mapping[str, Any], progress: Progress) -> bytes:
     """The code of a state: `which` says in what language."""
-    state = state_of(arguments["state"], arguments["session"]["max_points"])
+    state = state_of(texts_of(arguments), arguments["session"]["max_points"])
     text = as_python(state) if arguments.get("which") == "python" else as_command(state)
     return frame({"text": text})
 

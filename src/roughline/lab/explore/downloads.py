@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import roughline as rl
-from roughline.lab.controls import ControlError
+from roughline.lab.controls import ControlError, texts_of
 from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import hardness, rms_height, surface_of
 from roughline.lab.frames import frame
@@ -28,7 +28,7 @@ def download(arguments: Mapping[str, Any], progress: Progress) -> bytes:
     name = arguments.get("name")
     if name not in FILES:
         raise ControlError(f"there is no such file; there are {', '.join(FILES)}")
-    state = state_of(arguments["state"], arguments["session"]["max_points"])
+    state = state_of(texts_of(arguments), arguments["session"]["max_points"])
     folder = Path(arguments["session"]["folder"]) / "results"
     folder.mkdir(parents=True, exist_ok=True)
     surface = surface_of(state, state.n)

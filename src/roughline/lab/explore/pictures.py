@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
+from roughline.lab.controls import texts_of
 from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import (
     LINES,
@@ -169,7 +170,7 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
 
 
 def _state(arguments: Arguments) -> ExploreState:
-    return state_of(arguments["state"], arguments["session"]["max_points"])
+    return state_of(texts_of(arguments), arguments["session"]["max_points"])
 
 
 def _is_first_step(arguments: Arguments) -> bool:

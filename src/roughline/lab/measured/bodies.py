@@ -11,7 +11,7 @@ from roughline.assessment.hardness import Hardness, hardness_of
 from roughline.assessment.notes import meaning_of_loads
 from roughline.assessment.question import DEFAULT_LOADS, Question
 from roughline.engineering.limits import left_out
-from roughline.lab.controls import ControlError
+from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import (
     Arguments,
@@ -81,7 +81,7 @@ def _flat(sides: Any) -> Body | None:
         or len(sides) not in (1, 2)
         or not all(isinstance(side, float | int) and 0 < side < math.inf for side in sides)
     ):
-        raise ControlError("this question is not one of the lab: reload the page")
+        raise ControlError(STRANGE)
     if len(sides) == 1:
         return Line(np.zeros(2), sides[0], "m", kind="profile")
     return Surface(np.zeros((2, 2)), (sides[0], sides[1]), "m")

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from roughline.lab.controls import texts_of
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
 from roughline.lab.published.ensembles import one_dimension
@@ -52,7 +53,7 @@ def exponents(arguments: Arguments, progress: Progress) -> bytes:
 
 def area(arguments: Arguments, progress: Progress) -> bytes:
     """The real area over force, and κ of eq. 4 with its intervals and two theories."""
-    state = state_of(arguments["state"])
+    state = state_of(texts_of(arguments))
     kappas = [_kappas(dimension) for dimension in c.DIMENSIONS]
     header = ["D_f", "κ", "A ~ F^", "κ in cells", "A in cells ~ F^"]
     rows = [

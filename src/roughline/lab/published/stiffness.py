@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from roughline.contact import scaling
+from roughline.lab.controls import texts_of
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
 from roughline.lab.published.ensembles import (
@@ -40,7 +41,7 @@ Arguments = Mapping[str, Any]
 
 def curves(arguments: Arguments, progress: Progress) -> bytes:
     """Mean stiffness over force of both models, for the chosen fractal dimensions."""
-    state = state_of(arguments["state"])
+    state = state_of(texts_of(arguments))
     return frame(
         {
             "state": state.address(),
@@ -52,7 +53,7 @@ def curves(arguments: Arguments, progress: Progress) -> bytes:
 
 def fits(arguments: Arguments, progress: Progress) -> bytes:
     """The power laws of one model in its window, with what the paper states beside them."""
-    state = state_of(arguments["state"])
+    state = state_of(texts_of(arguments))
     model = model_of(arguments.get("model"))
     laws = {dimension: law_of(state, model, dimension) for dimension in state.dimensions}
     low, high = state.windows[model]

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.comparison.trust import Difference, TrustMap, trust_map
+from roughline.lab.controls import texts_of
 from roughline.lab.frames import frame
 from roughline.lab.published.state import PublishedState, state_of
 from roughline.paper.trust_page import trust_cell
@@ -45,7 +46,7 @@ def trust(arguments: Arguments, progress: Progress) -> bytes:
 
 def point(arguments: Arguments, progress: Progress) -> bytes:
     """What a point of the map says, in one sentence."""
-    state = state_of(arguments["state"])
+    state = state_of(texts_of(arguments))
     difference = trust_map().at(state.map_D_f, state.map_F, state.roll_off)
     return frame(
         {
