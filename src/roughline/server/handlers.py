@@ -29,6 +29,7 @@ from roughline.server.session import Session, Upload
 if TYPE_CHECKING:
     from roughline.server.serve import Server
 
+_MOST_DIGITS = 15  # of the size of a file that is to come
 _LATER = 3600  # that a browser keeps the parts of the page [s]
 _DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml", "application/xml")
 
@@ -249,7 +250,7 @@ class Uploads(Guarded):
         length = self.request.headers.get("Content-Length", "")
         if not (length.isascii() and length.isdigit()):
             raise HTTPError(411, reason="The size of the file must be stated first")
-        if int(length) > most:
+        if len(length) > _MOST_DIGITS or int(length) > most:
             raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
         name = self.get_query_argument("name", "file")
         self._session = session

@@ -85,7 +85,7 @@ class Server:
                 (r"/link", Link),
                 (r"/upload", Uploads),
                 (rf"/figures/({'|'.join(self.site.figures)})", Figures),
-                (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]+)", Results),
+                (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", Results),
                 (r"/lab/(.*)", Parts, {"path": str(self.site.parts)}),
                 (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", Parts, {"path": str(bokeh_folder())}),
             ],
