@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from dataclasses import fields, replace
 
 import roughline as rl
-from roughline.errors.checks import shortened
 from roughline.lab.controls import Control, ControlError, refuse_strange
 from roughline.lab.explore import controls as c
 from roughline.lab.explore.bodies import most_force_bar, rms_height, rms_slope
@@ -109,7 +108,7 @@ def _quantity(text: str, unit: str, key: str, name: str) -> str:
         raise ControlError(str(error), key) from None
     if not 1 / _MOST <= value <= _MOST:
         raise ControlError(
-            f"{name} is {shortened(text)}; give one from {1 / _MOST:g} {unit} to {_MOST:g} {unit}",
+            f"{name} is {text.strip()[:40]}; give one from {1 / _MOST:g} to {_MOST:g} {unit}",
             key,
         )
     return text.strip()
@@ -134,7 +133,7 @@ def _in_scales(text: str, control: Control, unit: str, scale: float, called: str
     except ControlError:
         low, high = (engineering(end * scale, unit, 3) for end in (control.low, control.high))
         raise ControlError(
-            f"{control.name} is {shortened(text)}; give one from {low} to {high}, which is "
+            f"{control.name} is {text.strip()[:40]}; give one from {low} to {high}, which is "
             f"{control.range} {called}",
             control.key,
         ) from None
@@ -161,7 +160,7 @@ def _force_bar(text: str, state: ExploreState) -> float:
     except ControlError:
         low, high = (engineering(end * scale, "N", 3) for end in (c.FORCE.low, c.FORCE.high))
         raise ControlError(
-            f"the load {shortened(text)} is F̄ = {force / scale:.3g}; give one from {low} to "
+            f"the load {text.strip()[:40]} is F̄ = {force / scale:.3g}; give one from {low} to "
             f"{high}, which is F̄ {c.FORCE.range}",
             c.FORCE.key,
         ) from None

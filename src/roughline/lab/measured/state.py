@@ -16,7 +16,6 @@ from roughline.assessment.nominal import area_of_joint
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.engineering.materials import Material, material
-from roughline.errors.checks import shown
 from roughline.lab.controls import ControlError, texts_of
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import path_of
@@ -195,7 +194,7 @@ def bodies_of(said: Said) -> dict[str, Any]:
             modulus = in_si(said["E"], "Pa", "contact modulus")
             if not 0 < modulus < math.inf:
                 raise ControlError(
-                    f"contact modulus is {shown(said['E'])}; give a positive one", "E"
+                    f'contact modulus is "{said["E"][:40]}"; give a positive one', "E"
                 )
         return {"E_star": modulus}
     pair: list[Material] = []
@@ -227,7 +226,7 @@ def loads_of(said: Said) -> tuple[str, ...]:
     with at("loads"):
         for load in loads:
             if not 0 < load_in_newtons(load, 1.0) < math.inf:
-                raise ControlError(f"load is {shown(load)}; give positive ones", "loads")
+                raise ControlError(f'load is "{load[:40]}"; give positive ones', "loads")
         if len(loads) > c.MOST_LOADS:
             raise ControlError(f"{len(loads)} loads; give up to {c.MOST_LOADS}", "loads")
     return loads
@@ -261,7 +260,7 @@ def _share(text: str | None) -> float:
         share = share / 100 if text.endswith("%") else share
         if not 0 <= share < 1:
             raise ControlError(
-                f"most missing is {shown(text)}; give a share such as 20 %, below 100 %",
+                f'most missing is "{text[:40]}"; give a share such as 20 %, below 100 %',
                 "most_missing",
             )
         return share
@@ -274,7 +273,7 @@ def _number(text: str | None, name: str) -> float | None:
     try:
         return float(text)
     except ValueError:
-        raise ControlError(f"{name} is {shown(text)}; give a number such as 0.3") from None
+        raise ControlError(f'{name} is "{text[:40]}"; give a number such as 0.3') from None
 
 
 def _whole(text: str | None, key: str, name: str, least: int, most: int) -> int | None:
@@ -282,6 +281,6 @@ def _whole(text: str | None, key: str, name: str, least: int, most: int) -> int 
         return None
     if not text.isdecimal() or not least <= int(text) <= most:
         raise ControlError(
-            f"{name} is {shown(text)}; give a whole number from {least} to {most}", key
+            f'{name} is "{text[:40]}"; give a whole number from {least} to {most}', key
         )
     return int(text)
