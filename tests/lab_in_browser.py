@@ -100,7 +100,7 @@ class Pages:
     def __init__(self, browser, address):
         self._browser, self._opened = browser, address
         self._host = urlsplit(address).netloc
-        self.address = f"http://{self._host}/"
+        self.address = f"{urlsplit(address).scheme}://{self._host}/"
         self._contexts = []
         self.complaints = []
 

@@ -10,12 +10,15 @@ from roughline.errors import InputError
 from roughline.server.access import (
     Allowance,
     Visitors,
+    comes_through_proxy,
     host_is_ours,
+    is_encrypted,
     neighbourhood,
     origin_is_ours,
     passwords_match,
+    visitor,
 )
-from roughline.server.settings import ServerSettings, password_in
+from roughline.server.settings import ServerSettings, networks_in, password_in
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1:5107", "localhost", "LOCALHOST:1", "[::1]:5107"])
@@ -83,6 +86,72 @@ def test_a_customer_with_many_addresses_counts_once():
     assert neighbourhood("") == ""
 
 
+class Asked:
+    """A request as a server sees it."""
+
+    protocol = "http"
+
+    def __init__(self, remote_ip, **headers):
+        self.remote_ip = remote_ip
+        self.headers = {name.replace("_", "-"): each for name, each in headers.items()}
+
+
+BEHIND = ServerSettings(
+    host="0.0.0.0", password="long enough", proxies=networks_in("127.0.0.1, 10.0.0.0/8,fd00::/8")
+)
+
+
+@pytest.mark.parametrize(
+    ("peer", "said", "who"),
+    [
+        ("127.0.0.1", "192.0.2.7", "192.0.2.7"),
+        ("127.0.0.1", "198.51.100.1, 192.0.2.7", "192.0.2.7"),
+        ("127.0.0.1", "198.51.100.1,192.0.2.7 ,10.1.2.3", "192.0.2.7"),
+        ("127.0.0.1", "192.0.2.7:5123", "192.0.2.7"),
+        ("127.0.0.1", "[2001:db8:1:2:3::4]:443", "2001:db8:1:2::"),
+        ("127.0.0.1", "2001:db8:1:2:3::4", "2001:db8:1:2::"),
+        ("127.0.0.1", "::ffff:192.0.2.7", "192.0.2.7"),
+        ("::ffff:127.0.0.1", "192.0.2.7", "192.0.2.7"),
+        ("fd00::1", "192.0.2.7", "192.0.2.7"),
+        ("127.0.0.1", "10.0.0.9, 10.0.0.8", "10.0.0.9"),  # within the trusted network
+        ("127.0.0.1", "junk, 10.0.0.9", "10.0.0.9"),
+        ("127.0.0.1", "192.0.2.7, junk", "127.0.0.1"),
+        ("127.0.0.1", "192.0.2.7,", "127.0.0.1"),
+        ("127.0.0.1", "\u0661.2.3.4", "127.0.0.1"),
+        ("127.0.0.1", "[", "127.0.0.1"),
+        ("127.0.0.1", "", "127.0.0.1"),
+        ("192.0.2.9", "198.51.100.1", "192.0.2.9"),
+        ("2001:db8:1:2:3::4", "198.51.100.1", "2001:db8:1:2::"),
+        ("", "198.51.100.1", ""),
+    ],
+)
+def test_a_visitor_is_who_the_trusted_proxies_say(peer, said, who):
+    assert visitor(Asked(peer, X_Forwarded_For=said), BEHIND) == who
+
+
+def test_nobody_is_believed_where_no_proxy_is_named():
+    asked = Asked("127.0.0.1", X_Forwarded_For="192.0.2.7", X_Forwarded_Proto="https")
+    assert visitor(asked, ServerSettings()) == "127.0.0.1"
+    assert not is_encrypted(asked, ServerSettings())
+    assert not comes_through_proxy(asked, ServerSettings())
+
+
+def test_only_a_proxy_says_that_the_way_is_encrypted():
+    for said, is_so in {"https": True, "HTTPS ": True, "http": False, "https, http": False}.items():
+        assert is_encrypted(Asked("10.0.0.1", X_Forwarded_Proto=said), BEHIND) is is_so
+    assert not is_encrypted(Asked("10.0.0.1"), BEHIND)
+    assert not is_encrypted(Asked("192.0.2.9", X_Forwarded_Proto="https"), BEHIND)
+    assert not comes_through_proxy(Asked("192.0.2.9"), BEHIND)
+
+
+def test_any_name_leads_through_a_proxy():
+    behind = ServerSettings(password="long enough", proxies=networks_in("127.0.0.1"))
+    assert host_is_ours("lab.example.org", behind)
+    assert behind.is_local
+    assert behind.lets_others_in
+    assert BEHIND.names_of_proxies == "127.0.0.1,10.0.0.0/8,fd00::/8"
+
+
 def test_passwords_of_any_letters_are_compared():
     assert passwords_match("größer als acht", "größer als acht")
     assert not passwords_match("größer als ach", "größer als acht")
@@ -95,6 +164,11 @@ def test_passwords_of_any_letters_are_compared():
         ({"host": "::"}, "lets other machines in"),
         ({"host": "laboratory.example"}, "lets other machines in"),
         ({"host": ""}, "host is empty"),
+        ({"proxies": networks_in("127.0.0.1")}, "behind_proxy is .* put a password into a file"),
+        (
+            {"proxies": networks_in("10.0.0.5"), "password": "long enough"},
+            "proxies on other machines do not reach 127.0.0.1",
+        ),
         ({"password": "short"}, "fewer than 8"),
         ({"port": 65536}, "port is 65536"),
         ({"max_upload": 0}, "max_upload is 0; a positive"),
@@ -107,6 +181,18 @@ def test_passwords_of_any_letters_are_compared():
 def test_a_lab_that_makes_no_sense_is_refused(options, said):
     with pytest.raises(InputError, match=said):
         ServerSettings(**options)
+
+
+@pytest.mark.parametrize("text", ["", "proxy.example", "10.0.0.1,", "10.0.0.0/99", "1.2.3.4:80"])
+def test_proxies_are_addresses_or_networks(text):
+    with pytest.raises(InputError, match="addresses or networks are needed"):
+        networks_in(text)
+
+
+@pytest.mark.parametrize("text", ["0.0.0.0/0", "127.0.0.1,::/0"])
+def test_not_everybody_is_a_proxy(text):
+    with pytest.raises(InputError, match="this trusts everybody"):
+        networks_in(text)
 
 
 @pytest.mark.parametrize("host", ["127.0.0.1", "127.8.8.8", "::1", "localhost"])

@@ -50,6 +50,7 @@ _FLAGS = {
     "host": "--host",
     "port": "--port",
     "password_file": "--password-file",
+    "behind_proxy": "--behind-proxy",
     "max_upload": "--max-upload",
     "max_points": "--max-points",
     "max_seconds": "--max-seconds",

@@ -23,6 +23,14 @@ def lab(
     password_file: Annotated[
         Path | None, typer.Option(help="File whose first line is the password for the page.")
     ] = None,
+    behind_proxy: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS,...",
+            help="Addresses or networks of the proxies that lead here, such as 127.0.0.1; they are "
+            "believed who comes, and nobody else is let in. Needs a password.",
+        ),
+    ] = None,
     max_upload: Annotated[
         float, typer.Option(help="Largest file that can be uploaded. [MB]")
     ] = 200,
@@ -41,14 +49,14 @@ def lab(
 
     The server runs on this machine until Ctrl-C, needs no network, and can be reached from this
     machine only, by who has the address with its token. With --host other machines can reach it;
-    it then asks for a password.
+    it then asks for a password, as it does behind a proxy.
     """
     from contextlib import ExitStack
 
     from roughline.server.interrupts import noted_interrupts
     from roughline.server.opening import open_page
     from roughline.server.process import start_forking
-    from roughline.server.settings import ServerSettings, password_in
+    from roughline.server.settings import ServerSettings, networks_in, password_in
 
     for name, megabytes in (("max_upload", max_upload), ("max_memory", max_memory)):
         positive(name, megabytes, "a positive, finite number of MB is needed")
@@ -56,6 +64,7 @@ def lab(
         host=host,
         port=port,
         password=password_in(password_file) if password_file else None,
+        proxies=networks_in(behind_proxy) if behind_proxy is not None else (),
         max_upload=max_upload * _MB,
         max_points=max_points,
         max_seconds=max_seconds,
@@ -64,14 +73,20 @@ def lab(
 
     def ready(address: str) -> None:
         typer.echo(f"The lab is open at {address} - Ctrl-C closes it.")
-        if not settings.is_local:
+        may = f"has the password can upload files up to {max_upload:g} MB and compute here."
+        if settings.proxies:
             typer.echo(
-                f"It listens on {settings.host}: whoever reaches that port of this machine and has "
-                f"the password can upload files up to {max_upload:g} MB and compute here. The "
-                "connection is not encrypted: use it in a network that you trust, or behind a "
-                "proxy or tunnel that encrypts."
+                f"It answers only what comes through {settings.names_of_proxies}, and "
+                "believes from there who asks (X-Forwarded-For) and whether the way is encrypted "
+                f"(X-Forwarded-Proto). Whoever reaches that proxy and {may}"
             )
-        if browser:
+        elif not settings.is_local:
+            typer.echo(
+                f"It listens on {settings.host}: whoever reaches that port of this machine and "
+                f"{may} The connection is not encrypted: use it in a network that you trust, or "
+                "behind a proxy that encrypts (--behind-proxy), or a tunnel."
+            )
+        if browser and not settings.proxies:  # people open the proxy's address
             open_page(address, opened)
 
     with ExitStack() as opened, noted_interrupts() as interrupted:

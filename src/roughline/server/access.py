@@ -7,7 +7,7 @@ import re
 import time
 from collections import OrderedDict
 from dataclasses import dataclass, field
-from ipaddress import IPv6Address, ip_address
+from ipaddress import IPv4Address, IPv6Address, ip_address
 from urllib.parse import SplitResult, parse_qsl, urlencode, urlsplit
 
 from tornado.httputil import HTTPServerRequest
@@ -41,6 +41,7 @@ RESULTS_POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; 
 """Documents that tasks have written run no program, and load nothing."""
 
 _PAGE = re.compile(r"/(\?[!-~]*)?")  # with what is set in it
+_WITH_PORT = re.compile(r"\[(.*)\](?::\d*)?|([0-9.]+):\d*")
 _OWN_NAMES = ("localhost", "127.0.0.1", "::1")
 
 
@@ -53,7 +54,7 @@ def host_is_ours(host: str, settings: ServerSettings) -> bool:
     name = _split(f"//{host}").hostname
     if name is None:
         return False
-    return not settings.is_local or name in (*_OWN_NAMES, settings.host)
+    return settings.lets_others_in or name in (*_OWN_NAMES, settings.host)
 
 
 def origin_is_ours(origin: str | None, host: str) -> bool:
@@ -89,9 +90,50 @@ def own_page(address: str) -> str:
     return address if _PAGE.fullmatch(address) else "/"
 
 
-def visitor(request: HTTPServerRequest) -> str:
-    """Return who asks: one address, or one customer's network."""
-    return neighbourhood(request.remote_ip or "")
+def comes_through_proxy(request: HTTPServerRequest, settings: ServerSettings) -> bool:
+    """Whether a request comes from one of our proxies."""
+    return is_proxy(request.remote_ip or "", settings)
+
+
+def is_proxy(peer: str, settings: ServerSettings) -> bool:
+    """Whether a connection from an address is one of our proxies'."""
+    address = _address(peer)
+    return address is not None and settings.is_proxy(address)
+
+
+def visitor(request: HTTPServerRequest, settings: ServerSettings) -> str:
+    """Return who asks: one address, or one customer's network.
+
+    Each proxy adds at the right from whom it has the request. What stands left of the first address
+    that is no proxy of ours can be invented.
+    """
+    address = _address(request.remote_ip or "")
+    if address is None:
+        return request.remote_ip or ""
+    for hop in reversed(request.headers.get("X-Forwarded-For", "").split(",")):
+        further = _address(hop)
+        if further is None or not settings.is_proxy(address):
+            break
+        address = further
+    return neighbourhood(str(address))
+
+
+def is_encrypted(request: HTTPServerRequest, settings: ServerSettings) -> bool:
+    """Whether the way from the browser is encrypted, as our proxy says."""
+    if not comes_through_proxy(request, settings):
+        return request.protocol == "https"
+    said = request.headers.get("X-Forwarded-Proto", "")
+    return said.rpartition(",")[2].strip().lower() == "https"
+
+
+def _address(text: str) -> IPv4Address | IPv6Address | None:
+    """An address, which may have a port; None if it is none."""
+    bare = _WITH_PORT.fullmatch(text.strip())
+    try:
+        number = ip_address((bare[1] or bare[2]) if bare else text.strip())
+    except ValueError:
+        return None
+    return getattr(number, "ipv4_mapped", None) or number
 
 
 def passwords_match(given: str, wanted: str) -> bool:

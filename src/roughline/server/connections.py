@@ -195,7 +195,7 @@ class Connections(HTTPServer):
     def _take(self, taken: socket.socket, name: tuple[Any, ...]) -> None:
         """Begin with a connection if there is a place for it."""
         address = neighbourhood(name[0])
-        if not self._has_place(address):
+        if not self._has_place(address, is_proxy=self._proxies(name[0])):
             taken.close()
             return
         try:
@@ -213,10 +213,10 @@ class Connections(HTTPServer):
         if not held:
             del self._held[address]
 
-    def _has_place(self, address: str) -> bool:
+    def _has_place(self, address: str, *, is_proxy: bool) -> bool:
         """Whether an address may have one more connection; another one may have to go for it."""
         own = len(self._held.get(address, ()))
-        if own >= self._most_of_one and not self._proxies(address):
+        if own >= self._most_of_one and not is_proxy:
             return self._drop(address, Stage.WAITS)
         if sum(map(len, self._held.values())) < self._most:
             return True

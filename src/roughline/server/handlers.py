@@ -15,8 +15,10 @@ from roughline.server.access import (
     HEADERS,
     RESULTS_POLICY,
     address_of_page,
+    comes_through_proxy,
     cookie_name,
     host_is_ours,
+    is_encrypted,
     origin_is_ours,
     own_page,
     visitor,
@@ -48,7 +50,7 @@ class Guarded(RequestHandler):
     @property
     def address(self) -> str:
         """Where the request comes from."""
-        return visitor(self.request)
+        return visitor(self.request, self.server.settings)
 
     @property
     def login_name(self) -> str:
@@ -74,9 +76,11 @@ class Guarded(RequestHandler):
         self.set_header("Server", "roughline")
 
     def prepare(self) -> None:
-        """Refuse names that are not ours, pages of other servers, and who has not logged in."""
+        """Refuse other ways than ours, pages of other servers, and who has not logged in."""
         self.note(Stage.IS_SERVED)
         settings = self.server.settings
+        if settings.proxies and not comes_through_proxy(self.request, settings):
+            raise HTTPError(403, reason="This lab is reached through its proxy only")
         if not host_is_ours(self.request.host, settings):
             raise HTTPError(403, reason="This is not a name of this server")
         origin = self.request.headers.get("Origin")
@@ -112,7 +116,7 @@ class Guarded(RequestHandler):
                 expires_days=DAYS,
                 httponly=True,
                 samesite="Strict",
-                secure=self.request.protocol == "https",
+                secure=is_encrypted(self.request, self.server.settings),
             )
             self.redirect(leads_to, status=303)
         elif not may_try:

@@ -20,7 +20,7 @@ from tornado.web import Application
 from roughline.computing.cores import available_cores
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
-from roughline.server.access import Visitors
+from roughline.server.access import Visitors, is_proxy
 from roughline.server.connections import Connections, most_connections
 from roughline.server.empty_figures import EmptyFigures
 from roughline.server.handlers import (
@@ -102,7 +102,9 @@ class Server:
         """Whether one more page may be open there; from afar, an address has half of all places."""
         most = self.settings.max_sessions
         own = sum(session.address == address for session in self.sessions.values())
-        return len(self.sessions) < most and (self.settings.is_local or own < max(1, most // 2))
+        return len(self.sessions) < most and (
+            not self.settings.lets_others_in or own < max(1, most // 2)
+        )
 
     def open_session(
         self,
@@ -204,7 +206,7 @@ async def _serve(
     listening = Connections(
         server.application(),
         most=most_connections(server.quick.most + server.slow.most),
-        proxies=lambda address: False,
+        proxies=lambda peer: is_proxy(peer, server.settings),
         max_body_size=_MOST_BODY,
         max_header_size=_MOST_HEADERS,
     )

@@ -7,7 +7,7 @@ import os
 import shlex
 import stat
 from dataclasses import dataclass
-from ipaddress import ip_address
+from ipaddress import IPv4Address, IPv4Network, IPv6Address, IPv6Network, ip_address, ip_network
 from pathlib import Path
 
 from roughline.errors import InputError
@@ -29,7 +29,10 @@ class ServerSettings:
     port : int
         0 takes a free one.
     password : str or None
-        Asked of every page; None asks for none.
+        Asked of every browser; None takes a new token instead.
+    proxies : tuple of IPv4Network and IPv6Network
+        Proxies that other machines come through, which are believed who comes; if there are any,
+        nobody comes another way.
     max_upload : float
         Largest file that is taken. [bytes]
     max_points : int
@@ -50,6 +53,7 @@ class ServerSettings:
     host: str = LOOPBACK
     port: int = 5107
     password: str | None = None
+    proxies: tuple[IPv4Network | IPv6Network, ...] = ()
     max_upload: float = 200_000_000
     max_points: int = 1024
     max_seconds: float = 600.0
@@ -65,6 +69,8 @@ class ServerSettings:
                 "and give it too (password_file=)",
                 "host",
             )
+        if self.proxies:
+            self._check_proxies()
         if self.password is not None and len(self.password) < 8:
             raise InputError("the password has fewer than 8 characters; take a longer one")
         if not 0 <= self.port < 65536:
@@ -78,13 +84,60 @@ class ServerSettings:
                 f"least {_LEAST_MEMORY / 1e6:g} MB"
             )
 
+    def _check_proxies(self) -> None:
+        """Refuse proxies without a password, and those that cannot reach the server."""
+        if not self.password:
+            needed = "through a proxy other machines get in: put a password into a file and give it"
+            refuse("behind_proxy", self.names_of_proxies, f"{needed} too (password_file=)")
+        if self.is_local and not any(_has_this_machine(each) for each in self.proxies):
+            needed = f"proxies on other machines do not reach {self.host}: give an address that"
+            refuse("behind_proxy", self.names_of_proxies, f"{needed} they reach too (host=)")
+
+    @property
+    def lets_others_in(self) -> bool:
+        """Whether other machines can reach it, directly or through a proxy."""
+        return not self.is_local or bool(self.proxies)
+
+    @property
+    def names_of_proxies(self) -> str:
+        """The proxies as one writes them."""
+        named = (each[0] if each.num_addresses == 1 else each for each in self.proxies)
+        return ",".join(map(str, named))
+
+    def is_proxy(self, address: IPv4Address | IPv6Address) -> bool:
+        """Whether an address is one of the proxies."""
+        return any(address in each for each in self.proxies)
+
     @property
     def is_local(self) -> bool:
-        """Whether only this machine can reach it."""
+        """Whether it listens to this machine only."""
         try:
             return ip_address(self.host).is_loopback
         except ValueError:
             return self.host == "localhost"
+
+
+def _has_this_machine(network: IPv4Network | IPv6Network) -> bool:
+    """Whether an address of this machine alone is in a network."""
+    return any(ip_address(each) in network for each in ("127.0.0.1", "::1"))
+
+
+def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
+    """Read addresses and networks of proxies, separated by commas.
+
+    Raises
+    ------
+    InputError
+        If one of them is none, or is everybody.
+    """
+    needed = "addresses or networks are needed, such as 127.0.0.1 or 10.0.0.0/8,fd00::/8"
+    try:
+        networks = tuple(ip_network(each.strip(), strict=False) for each in text.split(","))
+    except ValueError:
+        refuse("behind_proxy", text, needed)
+    if any(each.prefixlen == 0 for each in networks):
+        refuse("behind_proxy", text, "this trusts everybody: name the proxies, such as 127.0.0.1")
+    return networks
 
 
 def password_in(file: Path) -> str:
