@@ -9,8 +9,8 @@ import pytest
 from tornado.httpclient import HTTPClientError
 
 from roughline.server import opening
-from roughline.server.logins import Key
-from server.serving import entered, run, running_lab, upload
+from roughline.server.logins import Key, Logins
+from server.serving import becomes, entered, run, running_lab, upload
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 STATE = "view=explore&n=64&theories=a%2Cb"
@@ -158,13 +158,32 @@ def test_who_logs_out_closes_the_pages_of_that_login_and_a_stolen_cookie_is_wort
             assert (out.code, out.headers["Location"]) == (303, "/login")
             assert await page.heard() is None
             assert page.socket.close_code == 1008
-            assert not (lab.folder / page.token).exists()
+            await becomes(lambda: not (lab.folder / page.token).exists())
             assert (await lab.fetch("/here", headers=cookie)).code == 401
             with pytest.raises(HTTPClientError, match="401"):
                 async with lab.page(cookie):
                     pass
             await other.ask("explore.code", state={"n": "64"})
             assert (await other.answer())[0] == 1
+
+    run(scenario)
+
+
+def test_logins_end_with_time_and_their_number_is_bounded(monkeypatch):
+    monkeypatch.setattr("roughline.server.logins.DAYS", 0.2 / 86_400)
+    monkeypatch.setattr("roughline.server.logins._MOST", 3)
+
+    async def scenario():
+        logins, closed = Logins(), []
+        names = [logins.begin("a:1") for _ in range(3)]
+        for name in names:
+            logins.of(name, "a:1").on_end.add(lambda name=name: closed.append(name))
+        assert logins.of(names[0], "b:1") is None
+        logins.of(names[0], "a:1")  # it is used, so the next is the oldest
+        logins.begin("a:1")
+        assert closed == [names[1]]
+        await becomes(lambda: set(closed) == set(names))
+        assert not any(logins.of(name, "a:1") for name in names)
 
     run(scenario)
 
