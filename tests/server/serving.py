@@ -98,20 +98,22 @@ class Lab:
         return response
 
     @asynccontextmanager
-    async def page(self, headers=None):
-        """Open a page."""
+    async def page(self, headers=None, before=""):
+        """Open a page; `before` is the token of the session that it had before."""
+        query = f"?{urlencode({'session': before})}" if before else ""
         request = HTTPRequest(
-            f"ws{self.address.removeprefix('http')}/link",
+            f"ws{self.address.removeprefix('http')}/link{query}",
             headers={"Cookie": self.cookie}
             | ({"Origin": self.address} if headers is None else headers),
         )
         socket = await websocket_connect(request, max_message_size=2**28)
         page = Page(socket)
-        page.token = json.loads(await page.heard())["session"]
+        page.said = json.loads(await page.heard())
+        page.token = page.said["session"]
         try:
             yield page
         finally:
-            socket.close()
+            socket.close(1001, "left, as browsers say")
             while not page.is_closed and await page.heard() is not None:
                 pass
 
@@ -144,6 +146,14 @@ class Page:
     async def say(self, text):
         """Send a text, or bytes."""
         await self.socket.write_message(text, binary=isinstance(text, bytes))
+
+    async def forget(self):
+        """Delete its files."""
+        await self.say(json.dumps({"slot": "files", "forget": True}))
+
+    def drop(self):
+        """Be gone without a word."""
+        self.socket.protocol.stream.close()
 
     async def ask(self, task, slot="slot", **arguments):
         """Send a question; returns its number."""
@@ -230,15 +240,6 @@ def alive(lab):
             if "forkserver" in " ".join(each.cmdline()):
                 found.append(each)
     return found[1:]  # the first is the one that the others are forked from
-
-
-def busy(process):
-    """Whether a process computes just now."""
-    with suppress(psutil.Error):
-        before = sum(process.cpu_times()[:2])
-        time.sleep(0.1)
-        return sum(process.cpu_times()[:2]) - before > 0.02
-    return False
 
 
 def alive_still(process):

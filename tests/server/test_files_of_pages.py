@@ -20,7 +20,7 @@ from server.serving import (
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 
 
-def test_uploads_lie_under_random_names_and_are_gone_with_the_page(lab):
+def test_uploads_lie_under_random_names_and_are_gone_when_the_page_says_so(lab):
     async def scenario():
         async with lab.page() as page:
             name = "<b>n\u00e4me</b>\n../../\x00 100%25.TXT"
@@ -36,7 +36,12 @@ def test_uploads_lie_under_random_names_and_are_gone_with_the_page(lab):
             long = await upload(lab, page.token, b"1", "n" * 5000)
             assert len(json.loads(long.body)["name"]) == 100
             folder = lab.folder / page.token
-        await becomes(lambda: not folder.exists())
+            await page.forget()
+            await becomes(lambda: not list(lab.folder.glob(f"{page.token}*")))
+            again = await upload(lab, page.token, b"1 2\n3 4\n", name)
+            assert json.loads(again.body)["digest"] == said["digest"] != ""
+            await page.forget()
+            await becomes(lambda: not folder.exists())
         assert (await upload(lab, page.token, b"1", "late")).code == 404
 
     run(scenario)
@@ -137,8 +142,8 @@ def test_a_file_that_is_read_on_windows_is_forgotten_and_goes_with_the_page(tmp_
     def refuses(path, **options):
         raise PermissionError(13, "used by another process", str(path))
 
-    unused = dict.fromkeys(("site", "quick", "slow", "send", "send_answer"))
-    page = Session("here", tmp_path, settings=ServerSettings(), **unused)
+    unused = dict.fromkeys(("site", "quick", "slow", "line"))
+    page = Session("here", "", tmp_path, settings=ServerSettings(), **unused)
     key, upload = page.new_upload("a.txt", 1)
     upload.path.write_text("1")
     monkeypatch.setattr(Path, "unlink", refuses)

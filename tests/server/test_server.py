@@ -12,8 +12,6 @@ from tornado.httpclient import HTTPClientError
 
 from server.serving import (
     alive,
-    becomes,
-    busy,
     held,
     run,
     upload,
@@ -236,16 +234,6 @@ def test_a_page_that_does_not_read_is_not_sent_more_and_more(lab):
     run(scenario)
 
 
-def test_a_page_that_closes_stops_what_it_asked_for(lab):
-    async def scenario():
-        async with lab.page() as page:
-            await page.ask("explore.curve", state={"n": "256", "boundary": "free", "h": "0.1"})
-            await asyncio.sleep(0.1)
-        await becomes(lambda: sum(busy(child) for child in alive(lab)) == 0, 5)
-
-    run(scenario)
-
-
 def test_a_killed_process_is_one_sentence_and_the_next_question_is_answered(lab):
     async def scenario():
         async with lab.page() as page:
@@ -280,6 +268,7 @@ def test_fifty_pages_opened_and_closed_leave_no_memory_and_no_files(lab):
             await page.ask("explore.full", state={"n": "128", "seed": str(seed)})
             await page.answer()
             await upload(lab, page.token, b"1 2\n3 4\n", "a.txt")
+            await page.forget()
 
     async def scenario():
         for first in (0, 10):

@@ -170,6 +170,7 @@ def test_ctrl_c_while_modules_are_loaded_is_not_lost():
 
 def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
     monkeypatch.setattr("roughline.server.serve._PING", 0.3)
+    monkeypatch.setattr("roughline.server.serve._WAITS", 0.3)
 
     async def scenario():
         lab = Server(site(), ServerSettings(), tmp_path)

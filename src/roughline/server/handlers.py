@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import mimetypes
 from contextlib import suppress
+from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 from urllib.parse import urlencode
@@ -25,13 +27,13 @@ from roughline.server.access import (
 )
 from roughline.server.connections import Connection, Stage
 from roughline.server.logins import DAYS
-from roughline.server.logins import Login as LoggedIn
 from roughline.server.session import Session, Upload
 
 if TYPE_CHECKING:
     from roughline.server.serve import Server
 
 _MOST_DIGITS = 15  # of the size of a file that is to come
+_DIGEST = 12  # letters of the digest by which a page knows a file again
 _LATER = 3600  # that a browser keeps the parts of the page [s]
 _DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml", "application/xml")
 
@@ -59,9 +61,9 @@ class Guarded(RequestHandler):
         return (said or b"").decode()
 
     @property
-    def login(self) -> LoggedIn | None:
-        """The browser's login, for the name by which the server is called now."""
-        return self.server.logins.of(self.login_name, self.request.host.lower())
+    def is_logged_in(self) -> bool:
+        """Whether the browser is, for the name by which the server is called now."""
+        return self.server.logins.know(self.login_name, self.request.host.lower())
 
     def note(self, stage: Stage) -> None:
         """Note what the connection of the request does from now on."""
@@ -87,7 +89,7 @@ class Guarded(RequestHandler):
         reads = self.request.method in ("GET", "HEAD")
         if (origin is not None or not reads) and not origin_is_ours(origin, self.request.host):
             raise HTTPError(403, reason="Requests from pages of other servers are refused")
-        if not self.open_to_all and self.login is None:
+        if not self.open_to_all and not self.is_logged_in:
             raise HTTPError(401, reason="Log in first")
 
     def write_error(self, status_code: int, **kwargs: Any) -> None:
@@ -98,7 +100,7 @@ class Guarded(RequestHandler):
     def session_of(self, token: str) -> Session:
         """Return the session with a token."""
         session = self.server.sessions.get(token)
-        if session is None:
+        if session is None or session.login != self.login_name:
             raise HTTPError(404, reason="This page is no longer connected: reload it")
         return session
 
@@ -155,9 +157,9 @@ class Page(Guarded):
         self.set_header("Cache-Control", "no-store")
         token = self.get_query_argument("token", None)
         address = address_of_page(self.request.query)
-        if self.login is None and token is not None and self.server.key.is_token:
+        if not self.is_logged_in and token is not None and self.server.key.is_token:
             self.enter(token, address)
-        elif self.login is None:
+        elif not self.is_logged_in:
             self.redirect("/login" if address == "/" else f"/login?{urlencode({'next': address})}")
         elif token is not None:
             self.redirect(address)
@@ -173,7 +175,7 @@ class Login(Guarded):
     def get(self) -> None:
         """Ask who is not logged in."""
         leads_to = own_page(self.get_query_argument("next", "/"))
-        if self.login is None:
+        if not self.is_logged_in:
             self.ask_for_key("", leads_to)
         else:
             self.redirect(leads_to)
@@ -261,6 +263,7 @@ class Uploads(Guarded):
         self._key, self._upload = session.new_upload(name, int(length))
         self._file = self._upload.path.open("wb")
         self.note(Stage.BRINGS)
+        self._digest = sha256()
 
     def data_received(self, chunk: bytes) -> None:
         """Write what has come, as long as somebody wants it."""
@@ -272,6 +275,7 @@ class Uploads(Guarded):
             return
         try:
             self._file.write(chunk)
+            self._digest.update(chunk)
         except OSError:
             self._is_full = True
 
@@ -286,8 +290,11 @@ class Uploads(Guarded):
             self._is_full = True
         if self._is_full:
             raise HTTPError(507, reason="The lab has no room for this file")
+        digest = self._digest.hexdigest()[:_DIGEST]
+        if self._key in self._session.uploads:  # it was not forgotten meanwhile
+            self._session.uploads[self._key] = replace(self._upload, digest=digest)
         self._session = None  # the file is whole, and stays
-        self.finish({"file": self._key, "name": self._upload.name})
+        self.finish({"file": self._key, "name": self._upload.name, "digest": digest})
 
     def on_finish(self) -> None:
         """Delete what came of a file that was refused or could not be written."""

@@ -1,4 +1,4 @@
-"""The websocket of a page: questions come in, answers go out, and the session ends with it."""
+"""The websocket of a page: questions come in, answers go out; the session may outlive it."""
 
 from __future__ import annotations
 
@@ -13,48 +13,46 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 from roughline._version import __version__
 from roughline.server.access import Allowance, origin_is_ours
 from roughline.server.handlers import Guarded
-from roughline.server.logins import Login
-from roughline.server.session import Session
+from roughline.server.session import Session, Visit
 
 MOST_BYTES = 2**16
 """Longest message of a page; files come another way."""
 _SLOT_LENGTH, _TEXT_LENGTH, _MOST_DEPTH = 40, 2000, 6
 _MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
 _MOST_HELD = 16
+_LEFT = 1001  # with which a browser closes the websocket of a page that is left or loaded again
+_ELSEWHERE = 4001  # with which a websocket is closed whose session another page has taken over
 
 
 class Link(Guarded, WebSocketHandler):
     """The websocket of one page."""
 
     session: Session | None = None
-    _login: Login | None = None
 
     def prepare(self) -> None:
         """Refuse requests without an origin: every browser states it."""
         super().prepare()
         if self.request.headers.get("Origin") is None:
             raise HTTPError(403, reason="Only pages of this server may ask")
+        self._before = self.get_query_argument("session", "")
 
     def check_origin(self, origin: str) -> bool:
         """Refuse pages of other servers."""
         return origin_is_ours(origin, self.request.host)
 
     def open(self, *args: str, **kwargs: str) -> None:
-        """Begin a session."""
+        """Begin a session, or go on with the one that the page had before."""
         self.set_nodelay(True)
         self._unsent, self._refusals = 0, Allowance(rate=1, most=300)
         self._held: dict[str, dict[str, Any]] = {}
         self._sending: set[asyncio.Task[None]] = set()
-        if not self.server.has_place(self.address):
+        visit = Visit(self.address, self.login_name, self._before)
+        self.session, resumed = self.server.session_for(self, visit)
+        if self.session is None:
             self.close(1013, "no more pages may be open at once: close one, or come back later")
             return
-        self._login = self.login
-        if self._login is None:
-            self.close(1008, "log in first")
-            return
-        self._login.on_end.add(self.logged_out)
-        self.session = self.server.open_session(self.address, self._send, self._send_answer)
-        self._send({"session": self.session.token, "version": __version__})
+        said = {"session": self.session.token, "resumed": resumed, "files": self.session.files()}
+        self.send({**said, "version": __version__})
 
     def on_message(self, message: str | bytes) -> None:
         """Take a question, or the wish to stop one."""
@@ -72,6 +70,8 @@ class Link(Guarded, WebSocketHandler):
         elif said.get("stop") is True:
             self._held.pop(slot, None)
             self.session.withdraw(slot)
+        elif said.get("forget") is True:
+            self.session.forget_files()
         elif not isinstance(task, str) or task not in self.server.site.tasks:
             self._refuse(number, "the lab has no such task: reload the page")
         elif not isinstance(said.get("arguments"), dict) or not _is_plain(said["arguments"]):
@@ -79,20 +79,21 @@ class Link(Guarded, WebSocketHandler):
         else:
             self._ask(slot, said)
 
-    def logged_out(self) -> None:
-        """Close the page and end its session, because its login has ended."""
+    def give_way(self) -> None:
+        """Close, because another page goes on with the session."""
+        self.session = None
+        self.close(_ELSEWHERE, "another page goes on with this one's file")
+
+    def log_out(self) -> None:
+        """Close, because the login of the browser has ended, and the session with it."""
+        self.session = None
         self.close(1008, "this browser is no longer logged in: reload the page to log in")
-        if self.session is not None:
-            self.server.close_session(self.session)
-            self.session = None
 
     def on_close(self) -> None:
-        """End the session with its page."""
-        if self._login is not None:
-            self._login.on_end.discard(self.logged_out)
-        if self.session is not None:
-            self.server.close_session(self.session)
-            self.session = None
+        """Let the session wait for its page."""
+        if self.session is not None and self.session.line is self:
+            self.server.line_closed(self.session, is_left=self.close_code == _LEFT)
+        self.session = None
 
     def _ask(self, slot: str, said: dict[str, Any]) -> None:
         """Ask, or hold a question until a page has taken what it was sent; the latest counts."""
@@ -107,12 +108,14 @@ class Link(Guarded, WebSocketHandler):
             self._refuse(number, "too many requests of this page wait: let some end first")
 
     def _refuse(self, number: int, why: str) -> None:
-        self._send({"id": number, "error": why, "at": ""})
+        self.send({"id": number, "error": why, "at": ""})
 
-    def _send(self, content: dict[str, Any]) -> None:
+    def send(self, content: dict[str, Any]) -> None:
+        """Send plain content."""
         self._write(json.dumps(content))
 
-    def _send_answer(self, number: int, answer: bytes) -> None:
+    def send_answer(self, number: int, answer: bytes) -> None:
+        """Send an answer with the number of its question."""
         self._write(number.to_bytes(8, "little") + answer)
 
     def _write(self, message: str | bytes) -> None:

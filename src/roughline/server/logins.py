@@ -7,7 +7,7 @@ import re
 import secrets
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from roughline.server.access import passwords_match
 
@@ -47,48 +47,36 @@ class Key:
         return passwords_match(given, self.secret)
 
 
-@dataclass
-class Login:
-    """A browser that has logged in.
+class Logins:
+    """All logins, by a random name that only the browser's cookie has besides.
 
-    Attributes
+    Parameters
     ----------
-    host : str
-        Name and port by which it called the server.
-    on_end : set of callable
-        Called when the login ends; they close its pages.
+    ended : callable
+        Told the name of a login that has ended, to close its pages.
     """
 
-    host: str
-    on_end: set[Callable[[], None]] = field(default_factory=set)
-
-
-class Logins:
-    """All logins, by a random name that only the browser's cookie has besides."""
-
-    def __init__(self) -> None:
-        self._known: OrderedDict[str, Login] = OrderedDict()
+    def __init__(self, ended: Callable[[str], None]) -> None:
+        self._ended = ended
+        self._known: OrderedDict[str, str] = OrderedDict()  # their hosts
 
     def begin(self, host: str) -> str:
         """Begin a login, which ends by itself after some days; returns its name."""
         while len(self._known) >= _MOST:
             self.end(next(iter(self._known)))
         name = secrets.token_urlsafe(16)
-        self._known[name] = Login(host)
+        self._known[name] = host
         asyncio.get_running_loop().call_later(DAYS * 86_400, self.end, name)
         return name
 
-    def of(self, name: str, host: str) -> Login | None:
-        """Return the login of a name, for the host that is called now; None if there is none."""
-        login = self._known.get(name)
-        if login is None or login.host != host:
-            return None
+    def know(self, name: str, host: str) -> bool:
+        """Whether there is a login of a name, for the host that is called now."""
+        if self._known.get(name) != host:
+            return False
         self._known.move_to_end(name)  # the oldest unused one goes first
-        return login
+        return True
 
     def end(self, name: str) -> None:
         """End a login, and close its pages."""
-        login = self._known.pop(name, None)
-        if login is not None:
-            for close in list(login.on_end):
-                close()
+        if self._known.pop(name, None) is not None:
+            self._ended(name)

@@ -8,11 +8,10 @@ import os
 import secrets
 import signal
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, suppress
 from ipaddress import ip_address
 from pathlib import Path
-from typing import Any
 
 from tornado.netutil import bind_sockets
 from tornado.web import Application
@@ -40,13 +39,16 @@ from roughline.server.leftovers import folder_of_files
 from roughline.server.link import MOST_BYTES, Link
 from roughline.server.logins import Key, Logins
 from roughline.server.requests import Limits
-from roughline.server.session import Session
+from roughline.server.session import Line, Session, Visit
 from roughline.server.settings import ServerSettings
 from roughline.server.site import Site
 
 _QUICK_SECONDS, _QUICK_MEMORY = 20.0, 1_000_000_000
 _MOST_SLOW = 20  # processes for tasks that take long
 _PING = 20  # a page that does not answer within this time is gone [s]
+_WAITS = 600.0  # that a session waits for its page [s]
+_RELOADS = 20.0  # that tasks go on when a page was left, as it may be loaded again [s]
+_MOST_WAITING = 20  # sessions of one address that wait for their pages
 _READY = 1.5  # that the first page waits for what it will need first [s]
 _MOST_BODY = 2**16  # of a request that brings no file [bytes]
 _MOST_HEADERS = 2**14  # [bytes]
@@ -69,9 +71,11 @@ class Server:
     def __init__(self, site: Site, settings: ServerSettings, root: Path) -> None:
         self.site, self.settings, self.root = site, settings, root
         self.sessions: dict[str, Session] = {}
-        self.visitors, self.key, self.logins = Visitors(), Key.of(settings.password), Logins()
+        self.visitors, self.key = Visitors(), Key.of(settings.password)
+        self.logins = Logins(self.end_login)
         self.figures = EmptyFigures(site.figures)
         self.quick, self.slow = _lanes(settings)
+        self._waiting: dict[str, list[asyncio.TimerHandle]] = {}  # of sessions without a page
         self._is_closing = False
 
     def application(self) -> Application:
@@ -106,31 +110,91 @@ class Server:
             not self.settings.lets_others_in or own < max(1, most // 2)
         )
 
-    def open_session(
-        self,
-        address: str,
-        send: Callable[[dict[str, Any]], None],
-        send_answer: Callable[[int, bytes], None],
-    ) -> Session:
-        """Begin a session."""
+    def session_for(self, line: Line, visit: Visit) -> tuple[Session | None, bool]:
+        """The session of a page that opens, and whether it is the one that the page had before.
+
+        There is none where all places are taken by open pages. Those that wait for their pages give
+        way, of the same address first.
+        """
+        before = self.sessions.get(visit.token)
+        if before is not None and before.login == visit.login:
+            for timer in self._waiting.pop(before.token, ()):
+                timer.cancel()
+            before.go_on(line)
+            return before, True
+        while not self.has_place(visit.address):
+            is_full = len(self.sessions) >= self.settings.max_sessions
+            if not (self.end_waiting(visit.address) or (is_full and self.end_waiting())):
+                return None, False
         session = Session(
-            address,
+            visit.address,
+            visit.login,
             self.root,
             self.site,
             self.settings,
             self.quick,
             self.slow,
-            send,
-            send_answer,
+            line,
         )
         self.sessions[session.token] = session
-        return session
+        return session, False
 
-    def close_session(self, session: Session) -> None:
+    def line_closed(self, session: Session, *, is_left: bool) -> None:
+        """Let a session wait for its page, if it has something to wait with.
+
+        What runs goes on while a line is down. If the page was left, which may be to load it
+        again, it is stopped soon.
+        """
+        session.line = None
+        if not session.has_something:
+            self.end_session(session)
+            return
+        later = asyncio.get_running_loop().call_later
+        timers = self._waiting[session.token] = [later(_WAITS, self.end_session, session)]
+        if is_left:
+            timers.append(later(_RELOADS, self._stop_work, session))
+        if len(list(self._waiting_sessions(session.address))) > _MOST_WAITING:
+            self.end_waiting(session.address)
+        self._renew()
+
+    def end_waiting(self, address: str | None = None) -> bool:
+        """End the session that has waited longest for its page, if one waits at an address."""
+        for session in self._waiting_sessions(address):
+            self.end_session(session)
+            return True
+        return False
+
+    def end_session(self, session: Session) -> None:
         """End a session, and all that it has."""
+        for timer in self._waiting.pop(session.token, ()):
+            timer.cancel()
         self.sessions.pop(session.token, None)
         session.close()
-        if not self.sessions and not self._is_closing:
+        self._renew()
+
+    def end_login(self, name: str) -> None:
+        """End the sessions of a browser that has logged out."""
+        for session in [each for each in self.sessions.values() if each.login == name]:
+            if session.line is not None:
+                session.line.log_out()
+            self.end_session(session)
+
+    def _waiting_sessions(self, address: str | None) -> Iterator[Session]:
+        """Sessions that wait for their pages, at an address or anywhere, the longest first."""
+        for session in [self.sessions[token] for token in self._waiting]:
+            if address in (None, session.address):
+                yield session
+
+    def _stop_work(self, session: Session) -> None:
+        """Stop what nobody came back for."""
+        session.withdraw()
+        if not session.has_something:
+            self.end_session(session)
+
+    def _renew(self) -> None:
+        """Give memory back when no page is open."""
+        is_open = any(session.line is not None for session in self.sessions.values())
+        if not is_open and not self._is_closing:
             self.quick.renew()
             self.slow.renew()
 
@@ -145,7 +209,7 @@ class Server:
         self._is_closing = True
         self.figures.close()
         for session in list(self.sessions.values()):
-            self.close_session(session)
+            self.end_session(session)
         await asyncio.gather(self.quick.close(), self.slow.close())
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from roughline.assessment.comparison import compare_models
 from roughline.lab.frames import frame
+from roughline.lab.measured.kept import kept
 from roughline.lab.measured.state import Arguments, at, reading_of, said_of, source_of
 from roughline.lab.measured.words import in_controls
 from roughline.report.comparison_table import comparison_table, verdict_in_words
@@ -16,7 +17,12 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
     source = source_of(said, arguments["session"])
     reading = reading_of(said, source.name)
     with at("compare"):
-        found = compare_models(source.path, reading=reading, progress=progress)
+        found = kept(
+            arguments["session"],
+            "comparison",
+            (source.key, reading),
+            lambda: compare_models(source.path, reading=reading, progress=progress),
+        )
     result = found.comparison
     header, rows = comparison_table(found)
     star = "" if result.resolved.all() else "* fewer than ten cells in contact: the grid decides"

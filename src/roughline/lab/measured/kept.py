@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 Value = TypeVar("Value")
 
-_MOST = {"assessment": 1, "body": 3, "measurement": 3}
+_MOST = {"assessment": 1, "body": 3, "comparison": 1, "measurement": 3}
 """How many are kept of each kind."""
 
 
@@ -29,7 +29,7 @@ def kept(
     ----------
     session : mapping
         Of the page.
-    kind : {"measurement", "body", "assessment"}
+    kind : {"measurement", "body", "assessment", "comparison"}
         What it is; the oldest ones go.
     asked : object
         What it depends on; two that print alike are the same.

@@ -63,8 +63,6 @@ class Explore {
 
   shown() { this.#address.write("explore", this.#last?.state ?? {}); }
 
-  reconnected() { this.#askNow(); this.#sharpen(); }
-
   #missed = []; // answers that came before the plots were there
   #draw(action) { if (this.#plots) action(); else this.#missed.push(action); }
 

@@ -7,12 +7,40 @@ const VIEWS = ["explore", "measured", "published"];
 const FIRST = "explore";
 const opened = new Map();
 
-const link = new Link((isOpen, isNew, reason) => {
-  const place = document.querySelector("#connection");
-  place.hidden = isOpen;
-  place.textContent = reason || "The lab does not answer: it was closed, or the connection is lost. Trying again.";
-  if (isNew) for (const view of opened.values()) view.then((each) => each.reconnected?.());
+const connection = document.querySelector("#connection");
+const link = new Link({
+  open({isAgain, resumed, isElsewhere, version}) {
+    const own = document.body.dataset.version, isOfOther = version !== own;
+    tell(...(isOfOther ? [`This lab is now of version ${version}, and this page of ${own}: load it again.`] : []));
+    if (!isAgain) return;
+    for (const view of opened.values()) view.then((each) => each.reconnected?.(resumed, isElsewhere));
+  },
+  closed(reason, isLoggedOut) {
+    if (isLoggedOut) {
+      tell("This lab was started anew, or its login has ended. ", loginLink(), ", or open the address that its terminal shows: "
+        + "this page then goes on. What it shows stays until then.");
+    } else {
+      tell(reason ? `The lab says: ${reason}. Trying again.`
+        : "The lab does not answer: it was closed, or the connection is lost. Trying again; what is shown stays.");
+    }
+  },
 });
+
+// Say how the connection is; without a word it is well.
+function tell(...words) {
+  connection.hidden = words.length === 0;
+  const before = connection.textContent;
+  const said = words.map((each) => each.textContent ?? each).join("");
+  if (before !== said) connection.replaceChildren(...words); // else a screen reader would say it again
+}
+
+function loginLink() {
+  const anchor = Object.assign(document.createElement("a"), {target: "_blank", rel: "noopener", textContent: "Log in again in a new tab"});
+  const lead = () => { anchor.href = `/login?${new URLSearchParams({next: `/${location.search}`})}`; };
+  lead();
+  for (const kind of ["focus", "pointerenter", "click"]) anchor.addEventListener(kind, lead);
+  return anchor;
+}
 
 const RARE = 300; // between two changes of the address; browsers stop pages that change it more often [ms]
 let later = null, written = 0;

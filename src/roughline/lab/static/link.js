@@ -1,14 +1,28 @@
-// The websocket to the server: questions go out, answers come back to who asked.
-const LATER = 1500; // until it is tried again [ms]
+// The websocket to the server: questions go out, answers come back to who asked. When it drops it is
+// opened again, the session goes on, and what still waits is asked again.
+import {recall, remember} from "./remember.js";
+
+const SOON = 1500, LATER = 15_000; // until it is tried again, at first and at most [ms]
+const PATIENCE = 10_000; // with a server that does not say whether it is there [ms]
+const ELSEWHERE = 4001; // another tab, made as a copy of this one, goes on with the session
+const REFUSED = [1008, 1009]; // what the page said was too much
 
 export class Link {
-  #socket; #waiting = new Map(); #number = 0; #told; #queue = [];
+  #socket = null; #waiting = new Map(); #stopped = new Set(); #number = 0; #told; #opened;
+  #delay = SOON; #timer = null; #isElsewhere = false;
   session = null;
 
-  // told(isOpen, isNew) says whether the page is connected, and whether its session is a new one.
+  // Resolves when the page is connected first, to {resumed, files}: whether its session is the one
+  // that it had before it was loaded again, and names and digests of the files in it by their keys.
+  ready = new Promise((resolve) => { this.#opened = resolve; });
+
+  // told.open({isAgain, resumed, files, isElsewhere, version}) when the page is connected, and
+  // told.closed(reason, isLoggedOut) when it is not.
   constructor(told) {
     this.#told = told;
     this.#open();
+    addEventListener("online", () => this.#tryNow());
+    document.addEventListener("visibilitychange", () => { if (!document.hidden) this.#tryNow(); });
   }
 
   // Ask for a task. A newer question with the same slot takes the place of an older one.
@@ -18,8 +32,10 @@ export class Link {
       if (asked.slot === slot && asked.replaced) this.#waiting.delete(old);
       else if (asked.slot === slot) asked.replaced = true;
     }
-    this.#waiting.set(id, {slot, answer, error, progress});
-    this.#send({id, slot, task, arguments: args});
+    const message = {id, slot, task, arguments: args};
+    this.#waiting.set(id, {slot, message, answer, error, progress});
+    this.#stopped.delete(slot);
+    this.#send(message);
     return id;
   }
 
@@ -29,40 +45,81 @@ export class Link {
     for (const [id, each] of this.#waiting) {
       if (each.slot === slot) { this.#waiting.delete(id); asked = true; }
     }
-    if (asked) this.#send({slot, stop: true});
+    if (asked && !this.#send({slot, stop: true})) this.#stopped.add(slot);
   }
+
+  // Delete the files of the page, and what was made of them; tells whether that is done at once.
+  forgetFiles() {
+    this.#forgets = !this.#send({slot: "files", forget: true});
+    return !this.#forgets;
+  }
+  #forgets = false;
 
   isWaiting(slot) {
     return [...this.#waiting.values()].some((each) => each.slot === slot && !each.replaced);
   }
 
+  // Send a message if the page is connected; what is asked is asked again when it is.
   #send(message) {
-    const text = JSON.stringify(message);
-    if (this.#socket.readyState === WebSocket.OPEN) this.#socket.send(text);
-    else this.#queue.push(text);
+    const isOpen = this.#socket?.readyState === WebSocket.OPEN && this.session !== null;
+    if (isOpen) this.#socket.send(JSON.stringify(message));
+    return isOpen;
   }
 
   #open() {
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-    this.#socket = new WebSocket(`${scheme}//${location.host}/link`);
+    const before = recall("session");
+    const query = before ? `?${new URLSearchParams({session: before})}` : "";
+    this.#socket = new WebSocket(`${scheme}//${location.host}/link${query}`);
     this.#socket.binaryType = "arraybuffer";
     this.#socket.onmessage = ({data}) => (typeof data === "string" ? this.#said(JSON.parse(data)) : this.#answered(data));
-    this.#socket.onclose = (event) => {
+    this.#socket.onclose = (event) => this.#closed(event);
+  }
+
+  #closed({code, reason}) {
+    if (code === ELSEWHERE) {
+      remember("session", null);
+      this.#isElsewhere = true;
+      this.#open();
+      return;
+    }
+    this.#told.closed(reason, false);
+    if (REFUSED.includes(code)) {
       const lost = [...this.#waiting.values()];
       this.#waiting.clear();
-      this.#queue = [];
-      this.#told(false, false, event.reason);
-      for (const each of lost) each.error?.("the connection was lost: ask again when it is back", "");
-      setTimeout(() => this.#open(), LATER);
-    };
+      for (const each of lost) each.error?.("the lab refused the connection: ask again when it is back", "");
+    }
+    this.#tryLater();
+  }
+
+  #tryLater() {
+    this.#timer = setTimeout(() => this.#again(), this.#delay);
+    this.#delay = Math.min(LATER, 1.6 * this.#delay);
+  }
+
+  #tryNow() {
+    if (this.#timer === null) return;
+    clearTimeout(this.#timer);
+    this.#delay = SOON;
+    this.#again();
+  }
+
+  // Open it again if the server is there and this browser is logged in, which a websocket cannot tell.
+  async #again() {
+    this.#timer = null;
+    const status = await fetch("/here", {cache: "no-store", signal: AbortSignal.timeout(PATIENCE)})
+      .then((reply) => reply.status, () => 0);
+    if (status === 0 || status === 401) {
+      this.#told.closed("", status === 401);
+      this.#tryLater();
+    } else {
+      this.#open();
+    }
   }
 
   #said(message) {
     if (message.session) {
-      const again = this.session !== null;
-      this.session = message.session;
-      for (const text of this.#queue.splice(0)) this.#socket.send(text);
-      this.#told(true, again, "");
+      this.#connected(message);
       return;
     }
     const asked = this.#waiting.get(message.id);
@@ -73,6 +130,23 @@ export class Link {
     } else {
       asked.progress?.(message);
     }
+  }
+
+  #connected({session, resumed, files, version}) {
+    const isAgain = this.session !== null, isElsewhere = this.#isElsewhere;
+    this.session = session;
+    this.#isElsewhere = false;
+    this.#delay = SOON;
+    remember("session", session);
+    this.#told.open({isAgain, resumed, isElsewhere, version});
+    if (this.#forgets) this.forgetFiles();
+    for (const slot of this.#stopped) this.#send({slot, stop: true});
+    this.#stopped.clear();
+    for (const [id, {message, replaced}] of this.#waiting) {
+      if (replaced) this.#waiting.delete(id);
+      else this.#send(message);
+    }
+    this.#opened({resumed, files});
   }
 
   #answered(buffer) {

@@ -1,13 +1,16 @@
 // Answers of My surface: pressing, both models, the report, and code that repeats it.
 import {fillList} from "./measured-pictures.js";
 import {fillTable} from "./plots.js";
+import {recall, remember} from "./remember.js";
 import {Waiting} from "./waiting.js";
 
 const TASKS = ["answers", "compare", "report"];
 const VERDICTS = {confirmed: "good", refuted: "error", undecided: "doubt"};
 
 export class Answers {
-  #link; #view; #part; #waiting = {}; #contact = null; #arrays = {}; #isAnswered = false;
+  #link; #view; #part; #waiting = {}; #contact = null; #arrays = {};
+  #answered = null; // what was set for the answers that are shown
+  #asked = recall("asked") ?? {}; // what was asked or is shown, for when the page is loaded again
   pictures = null;
 
   constructor(link, view, part) {
@@ -18,6 +21,7 @@ export class Answers {
       this.#waiting[name] = new Waiting(view.find(`[data-waiting="${name}"]`), () => {
         link.stop(`measured ${name}`);
         this.#end(name, "stopped");
+        this.#note(name, null);
       });
     }
     view.find("[data-press]").addEventListener("click", () => this.#press());
@@ -25,7 +29,7 @@ export class Answers {
     view.find("[data-report]").addEventListener("click", () => this.#report());
     for (const button of view.findAll("[data-code]")) button.addEventListener("click", () => this.#code(button.dataset.code));
     view.find("[data-shown]").addEventListener("change", () => this.#drawField());
-    view.find("[data-part-map]").addEventListener("change", ({target}) => this.#press(Number(target.value)));
+    view.find("[data-part-map]").addEventListener("change", ({target}) => this.#press({map: Number(target.value)}));
     view.find("[data-copy]").addEventListener("click", () => navigator.clipboard?.writeText(view.find("[data-code-dialog] pre").textContent));
   }
 
@@ -42,38 +46,76 @@ export class Answers {
     this.changed();
   }
 
-  // Something was set: what is shown is of what was set before.
+  // Something was set: what is shown may be of what was set before.
   changed() {
-    this.#view.find("[data-changed]").hidden = !this.#isAnswered;
-    this.#view.find('[data-result="answers"]').classList.toggle("dimmed", this.#isAnswered);
-    this.#view.find("[data-links]").replaceChildren();
+    const isOther = this.#answered !== null && this.#answered !== this.#view.settings;
+    this.#view.find("[data-changed]").hidden = !isOther;
+    this.#view.find('[data-result="answers"]').classList.toggle("dimmed", isOther || this.#link.isWaiting("measured answers"));
+    if (this.#asked.report?.settings !== this.#view.settings) this.#view.find("[data-links]").replaceChildren();
   }
 
   forget() {
-    for (const name of TASKS) {
-      this.#link.stop(`measured ${name}`);
-      this.#end(name, "");
-    }
-    this.#isAnswered = false;
+    this.lose();
+    this.#answered = null;
     this.#view.find('[data-empty="answers"]').hidden = false;
     this.ready();
   }
 
-  #ask(task, name, done, extra = {}) {
+  // What was asked is asked no more, and the session has nothing of it any longer.
+  lose() {
+    for (const name of TASKS) {
+      this.#link.stop(`measured ${name}`);
+      this.#end(name, "");
+      this.#note(name, null);
+    }
+    this.changed();
+  }
+
+  loseReport() {
+    this.#note("report", null);
+    this.changed();
+  }
+
+  // Ask again for what was shown or asked for when the page was loaded again: it is kept, or goes on.
+  restore() {
+    const {file, example} = this.#view.state;
+    const isOfIt = ([, asked]) => asked && asked.state.file === file && asked.state.example === example;
+    const {answers, compare, report} = Object.fromEntries(Object.entries(this.#asked).filter(isOfIt));
+    if (answers) this.#press(answers);
+    if (compare) this.#compare(compare);
+    if (report?.files) this.#showLinks(report.files);
+    else if (report) this.#report(report);
+  }
+
+  #note(name, asked) {
+    this.#asked[name] = asked;
+    remember("asked", this.#asked);
+  }
+
+  #ask(task, name, asked, done) {
     this.#view.refuse("", name);
     this.#waiting[name].begin();
     this.#say(name, "");
-    this.#link.ask(task, `measured ${name}`, {state: this.#view.state, ...extra}, {
+    this.#note(name, asked);
+    const {settings, ...question} = asked;
+    this.#link.ask(task, `measured ${name}`, question, {
       answer: (answer) => { this.#end(name, ""); done(answer); },
-      error: (sentence, at) => { this.#end(name, ""); this.#view.refuse(sentence, at || name); },
+      error: (sentence, at) => { this.#end(name, ""); this.#note(name, null); this.#view.refuse(sentence, at || name); },
       progress: (message) => this.#waiting[name].progress(message),
     });
   }
 
+  // A question of what is set now, less what is given.
+  #now(given = {}) {
+    const {state, settings} = this.#view;
+    return {state, settings, ...given};
+  }
+
   // Press the body, or all maps of a part, of which one is shown alone.
-  #press(map = 0) {
+  #press(given = {}) {
     this.#view.find('[data-result="answers"]').classList.add("dimmed");
-    this.#ask("measured.answer", "answers", (answer) => this.#show(answer), {presses: this.#presses(), map});
+    const asked = this.#now({presses: this.#presses(), map: 0, ...given});
+    this.#ask("measured.answer", "answers", asked, (answer) => this.#show(answer, asked.settings));
   }
 
   // How often a body is pressed: again where points were filled, for the larger surface, and, where it
@@ -86,14 +128,12 @@ export class Answers {
     return ((isFilled ? 2 : 1) + (yields ? 3 : 0)) * (again ? 2 : 1);
   }
 
-  #show(answer) {
+  #show(answer, settings) {
     const view = this.#view;
-    this.#isAnswered = true;
+    this.#answered = settings;
     view.find('[data-empty="answers"]').hidden = true;
     view.find('[data-result="answers"]').hidden = false;
     this.changed();
-    view.find("[data-changed]").hidden = true;
-    view.find('[data-result="answers"]').classList.remove("dimmed");
     this.#part.show(answer.part ?? null, this.pictures);
     view.find("[data-modulus]").textContent = answer.modulus;
     fillTable("measured-answers", ...(answer.answers ?? answer.curve));
@@ -114,8 +154,8 @@ export class Answers {
   get #shown() { return this.#view.find("[data-shown]").value; }
   #drawField() { if (this.#contact) this.pictures.drawField(this.#contact, this.#arrays, this.#shown); }
 
-  #compare() {
-    this.#ask("measured.compare", "compare", (found) => {
+  #compare(given = {state: this.#view.stateOfMap}) {
+    this.#ask("measured.compare", "compare", this.#now(given), (found) => {
       const view = this.#view;
       view.find('[data-empty="answers"]').hidden = true;
       view.find('[data-result="compare"]').hidden = false;
@@ -127,23 +167,29 @@ export class Answers {
       for (const cell of view.findAll('[data-table="measured-models"] td')) {
         if (cell.textContent in VERDICTS) cell.className = VERDICTS[cell.textContent];
       }
-    }, {state: this.#view.stateOfMap});
+    });
   }
 
-  #report() {
-    this.#ask("measured.report", "report", ({files}) => {
-      const links = Object.entries(files).map(([name, place]) => {
-        const item = document.createElement("li"), anchor = document.createElement("a");
-        const isPage = name.endsWith(".html");
-        anchor.href = `/results/${this.#link.session}/${place}${isPage ? "" : "?save=1"}`;
-        anchor.textContent = `${name}${isPage ? ", opens in a new tab" : ", to save"}`;
-        if (isPage) Object.assign(anchor, {target: "_blank", rel: "noopener"});
-        else anchor.download = place;
-        item.append(anchor);
-        return item;
-      });
-      this.#view.find("[data-links]").replaceChildren(...links);
-    }, {presses: this.#presses()});
+  #report(given = {}) {
+    const asked = this.#now({presses: this.#presses(), ...given});
+    this.#ask("measured.report", "report", asked, ({files}) => {
+      this.#note("report", {...asked, files});
+      this.#showLinks(files);
+    });
+  }
+
+  #showLinks(files) {
+    const links = Object.entries(files).map(([name, place]) => {
+      const item = document.createElement("li"), anchor = document.createElement("a");
+      const isPage = name.endsWith(".html");
+      anchor.href = `/results/${this.#link.session}/${place}${isPage ? "" : "?save=1"}`;
+      anchor.textContent = `${name}${isPage ? ", opens in a new tab" : ", to save"}`;
+      if (isPage) Object.assign(anchor, {target: "_blank", rel: "noopener"});
+      else anchor.download = place;
+      item.append(anchor);
+      return item;
+    });
+    this.#view.find("[data-links]").replaceChildren(...links);
   }
 
   #code(which) {
@@ -159,9 +205,7 @@ export class Answers {
   #end(name, text) {
     this.#waiting[name].end();
     this.#say(name, text);
-    if (name === "answers" && !this.#view.find("[data-changed]").hidden === false) {
-      this.#view.find('[data-result="answers"]').classList.remove("dimmed");
-    }
+    if (name === "answers") this.changed();
   }
 
   #say(name, text) { this.#view.find(`[data-waiting="${name}"] [data-said]`).textContent = text; }

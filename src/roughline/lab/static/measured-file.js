@@ -22,6 +22,7 @@ export class Source {
         view.takeSource({example: button.dataset.example});
       });
     }
+    view.find("[data-forget-file]").addEventListener("click", () => { this.stop(); view.deleteFiles(); });
     const root = view.find("#measured-step-file");
     const over = (isOver) => drop.classList.toggle("over", isOver);
     root.addEventListener("dragover", (event) => { event.preventDefault(); over(true); });
@@ -59,13 +60,13 @@ export class Source {
     this.#waiting.begin();
     for (const [i, file] of files.entries()) {
       const of = files.length > 1 ? ` (${i + 1} of ${files.length})` : "";
-      const {key, refusal} = await this.#sent(file, of);
+      const {refusal, ...brought} = await this.#sent(file, of);
       if (turn !== this.#turn) return; // stopped
-      if (key) came.push(key);
+      if (brought.key) came.push(brought);
       else refused.push(refusal);
     }
     this.stop();
-    if (came.length) this.#view.takeSource({file: [...before, ...came].join(",")});
+    if (came.length) this.#view.takeSource({file: [...before, ...came.map(({key}) => key)].join(",")}, came);
     this.#view.refuse(refused.join(" "), "file");
   }
 
@@ -80,8 +81,9 @@ export class Source {
         this.#said(`bringing ${file.name}${of}: ${(loaded / 1e6).toFixed(0)} of ${(total / 1e6).toFixed(0)} MB`);
       });
       request.addEventListener("load", () => {
-        if (request.status === 200) done({key: JSON.parse(request.responseText).file});
-        else done({refusal: sentence(request)});
+        if (request.status !== 200) { done({refusal: sentence(request)}); return; }
+        const {file: key, digest} = JSON.parse(request.responseText);
+        done({key, digest, name: file.name});
       });
       request.addEventListener("abort", () => done({refusal: ""}));
       request.addEventListener("error", () => done({

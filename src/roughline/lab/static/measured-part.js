@@ -23,8 +23,8 @@ export class Part {
   check() {
     const isPart = this.#files.length > 1;
     this.#view.find("[data-part]").hidden = !isPart;
-    this.#view.find("[data-add-maps]").hidden = this.#view.files.length === 0;
-    if (!isPart) { this.#link.stop("measured maps"); this.#waiting.end(); this.#view.look(); return; }
+    for (const name of ["add-maps", "forget-file"]) this.#view.find(`[data-${name}]`).hidden = this.#view.files.length === 0;
+    if (!isPart) { this.stop(); this.#view.look(); return; }
     this.#waiting.begin();
     this.#link.ask("measured.maps", "measured maps", {state: this.#view.state}, {
       answer: ({maps}) => {
@@ -39,6 +39,12 @@ export class Part {
       error: (sentence, at) => { this.#waiting.end(); this.#view.refuse(sentence, at || "file"); },
       progress: (message) => this.#waiting.progress(message),
     });
+  }
+
+  // Stop checking the maps.
+  stop() {
+    this.#link.stop("measured maps");
+    this.#waiting.end();
   }
 
   // Show the table of the maps, whether or not one can be read.

@@ -26,6 +26,8 @@ class Measured {
   #read = null; // what the file holds, as last read
   #prepared = null; // the same, prepared
   #isAwaited = false; // a file that came before the pictures were there
+  #brought = new Map(); // digests and names of the files that are on the server, by their keys
+  #wanted = []; // digests and names of files that have to be chosen, by a link or once more
 
   constructor(link, address) {
     this.#link = link;
@@ -49,28 +51,53 @@ class Measured {
   find(selector) { return this.#root.querySelector(selector); }
   findAll(selector) { return [...this.#root.querySelectorAll(selector)]; }
 
-  async open({view, theme, ...said}) {
+  async open({view, theme, file, of, ...said}) {
+    this.#wanted = filesIn(of ?? "");
     this.#take({...DEFAULTS, ...said});
     this.#askBodies();
     if (said.example) this.look();
+    this.#link.ready.then((opened) => this.#find(opened));
     this.#pictures = new Pictures(this, await embedded("measured"));
     this.#answers.pictures = this.#pictures;
     this.#pictures.onBox((crop) => this.set("crop", crop));
     if (this.#isAwaited) this.look();
+    this.#link.ready.then(({resumed}) => { if (resumed && this.hasSource) this.#answers.restore(); });
   }
 
   shown() { this.#write(); }
 
-  // A new session has none of the files of the old one.
-  reconnected() {
-    this.#answers.forget();
-    if (this.#controls.said.example) { this.look(); return; }
+  // The connection is back. What is drawn stays, also where another session has begun without the files.
+  reconnected(resumed, isElsewhere) {
+    if (resumed) return;
+    if (!this.files.length) { this.#answers.loseReport(); return; }
+    this.#answers.lose();
+    this.#wanted = this.#of;
     const {file, ...kept} = this.#controls.said;
-    if (!file) return;
     this.#take(kept);
-    this.#forgetFile();
+    for (const name of ["file", "preparation"]) { this.#link.stop(`measured ${name}`); this.#end(name); }
+    this.#part.stop();
+    this.#answers.ready();
+    this.note(isElsewhere
+      ? `${named(this.#wanted)}: now with the other tab of this page. Go on there, or choose ${them(this.#wanted)} here again.`
+      : `${named(this.#wanted)} went with the old session: choose ${them(this.#wanted)} again. All that is set is kept.`);
+  }
+
+  // Find the files that the address names among those that are still on the server, or ask for them.
+  #find({files}) {
+    if (!this.#wanted.length || this.files.length) return;
+    const left = Object.entries(files);
+    const keys = this.#wanted.map(({digest}) => {
+      const i = left.findIndex(([, each]) => each.digest === digest);
+      return i < 0 ? null : left.splice(i, 1)[0][0];
+    });
+    if (keys.includes(null)) {
+      this.note(`This link is of ${named(this.#wanted)}: choose ${them(this.#wanted)}. All else is set as the link says.`);
+      return;
+    }
+    for (const [i, key] of keys.entries()) this.#brought.set(key, this.#wanted[i]);
+    this.#wanted = [];
+    this.#take({...this.#controls.said, file: keys.join(",")});
     this.#part.check();
-    this.refuse("The connection was lost, and the file went with it: choose it again.", "file");
   }
 
   // All that is set, as the server reads it.
@@ -80,19 +107,51 @@ class Measured {
   get files() { return (this.#controls.said.file ?? "").split(",").filter(Boolean); }
   get yields() { return this.#yields; }
   #yields = false;
-  get body() { return this.#prepared?.body ?? null; }
+  get hasSource() { return this.files.length > 0 || Boolean(this.#controls.said.example); }
+  get body() { return this.hasSource ? this.#prepared?.body ?? null : null; }
   get name() { return this.#read?.name ?? ""; }
   get isFilled() { return (this.#prepared?.missing ?? 0) > 0; }
 
-  // Take a file that has come, or an example.
-  takeSource(source) {
-    const {file, example, ...kept} = this.#controls.said;
-    const isOther = !(source.file ?? "").split(",").some((each) => this.files.includes(each));
-    if (isOther) for (const key of [...OF_FILE, "crop"]) delete kept[key];
-    this.#take({...kept, ...source});
-    this.#forgetFile();
-    this.#part.check();
+  // Digests and names of the files that all is set for, whether they are here or have to be chosen.
+  get #of() { return this.files.length ? this.files.map((key) => this.#brought.get(key)) : this.#wanted; }
+
+  // All that is set, as the address says it.
+  get #set() {
+    const {file, ...said} = this.#controls.said;
+    const of = textOf(this.#of);
+    const set = Object.entries(said).filter(([key, text]) => text !== "" || key in DEFAULTS);
+    if (!of && set.every(([key, text]) => text === DEFAULTS[key])) return {};
+    return {v: VERSION, ...Object.fromEntries(set.sort()), ...(of ? {of} : {})};
   }
+  get settings() { return JSON.stringify(this.#set); }
+
+  // Take files that have come, of which some may have been here before, or an example, or nothing.
+  takeSource(source, came = []) {
+    for (const {key, ...each} of came) this.#brought.set(key, each);
+    const {file, example, ...kept} = this.#controls.said;
+    const before = this.#of, wanted = this.#wanted;
+    const now = (source.file ?? "").split(",").filter(Boolean).map((key) => this.#brought.get(key));
+    const isOther = !now.some(({digest}) => before.some((each) => each.digest === digest));
+    if (isOther) for (const key of [...OF_FILE, "crop"]) delete kept[key];
+    this.#wanted = [];
+    this.#take({...kept, ...source});
+    this.note(isOther && now.length && wanted.length
+      ? `This is not ${named(wanted)}: unit, channel, size and crop are asked anew; all else stays as it was set.` : "");
+    if (!now.length || digests(now) !== digests(wanted)) this.#forgetFile(); // else what is drawn is of the same
+    this.#part.check();
+    this.#write();
+  }
+
+  // Delete the files, and what was made of them.
+  deleteFiles() {
+    this.#brought.clear();
+    this.takeSource({});
+    this.note(this.#link.forgetFiles() ? "The file and all that was made of it are deleted."
+      : "The file and all that was made of it are deleted as soon as the lab answers again.");
+  }
+
+  // Say what is to be known about the file.
+  note(sentence) { this.find('[data-note="file"]').textContent = sentence; }
 
   set(key, text) {
     this.#take({...this.#controls.said, [key]: text});
@@ -123,7 +182,8 @@ class Measured {
     this.refuse("", "");
     this.#write();
     if (key === "bodies") this.#take(this.#controls.said);
-    if (OF_READING.includes(key)) this.#part.check();
+    if (!this.hasSource) { /* what is drawn stays */ }
+    else if (OF_READING.includes(key)) this.#part.check();
     else if (OF_PREPARATION.includes(key)) {
       if (this.#part.shown) this.#part.check();
       else this.#prepare();
@@ -133,9 +193,7 @@ class Measured {
   }
 
   #write() {
-    const {file, ...said} = this.#controls.said;
-    const told = Object.entries(said).filter(([key, text]) => text !== "" && text !== DEFAULTS[key]);
-    this.#address.write("measured", told.length ? {v: VERSION, ...Object.fromEntries(told)} : {});
+    if (!this.#root.hidden) this.#address.write("measured", this.#set);
   }
 
   #forgetFile() {
@@ -269,3 +327,22 @@ class Measured {
     }
   }
 }
+
+const LONGEST = 600; // that names of files may be together in an address
+
+// Files as an address says them: the digest of each and its name, with slashes between, which no name has.
+function textOf(files) {
+  const most = Math.floor(LONGEST / files.length);
+  const short = (name) => (name.length > most ? `${name.slice(0, most - 21)}…${name.slice(-20)}` : name);
+  return files.map(({digest, name}) => `${digest}/${short(name)}`).join("/");
+}
+
+function filesIn(text) {
+  const files = [];
+  for (const [, digest, name] of text.matchAll(/([0-9a-f]{12})\/([^/]+)(?:\/|$)/g)) files.push({digest, name});
+  return files;
+}
+
+function digests(files) { return files.map(({digest}) => digest).sort().join(); }
+function named(files) { return files.map(({name}) => name).join(", "); }
+function them(files) { return files.length > 1 ? "these files" : "that file"; }

@@ -57,8 +57,6 @@ class Published {
 
   shown() { this.#address.write("published", this.#state); }
 
-  reconnected() { this.#askAll(); }
-
   #askAll() {
     for (const model of MODELS) this.#askFits(model);
     this.#askCurves();

@@ -1,0 +1,255 @@
+"""A line that drops, a page that is loaded again, a lab that is started anew: nothing is lost."""
+
+import re
+from contextlib import contextmanager
+from urllib.parse import parse_qs, urlsplit
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from lab.relay import Relay
+from lab_in_browser import Pages, RunningLab
+
+NAME = "Ausschnitt, große Fläche; 1 (β).npy"
+OTHER = "another place.npy"
+NO_LINE = r"ERR_|WebSocket|Failed to load"  # what a browser says of a line that drops
+SHOWN = '[data-result="answers"]:not(.dimmed) [data-table="measured-answers"] tbody tr'
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Two files that leave their unit and size open, by their names."""
+    folder = tmp_path_factory.mktemp("files")
+    for seed, name in enumerate((NAME, OTHER)):
+        surface = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-6).surface(64, seed)
+        np.save(folder / name, surface.heights * 1e6)
+    return {name: folder / name for name in (NAME, OTHER)}
+
+
+@pytest.fixture(scope="module")
+def relay(lab):
+    """A relay to the lab."""
+    made = Relay(lab.address)
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="module")
+def pages(browser, relay):
+    """Return what opens pages of the lab through the relay."""
+    opened = Pages(browser, relay.address)
+    yield opened
+    opened.close()
+
+
+def choose(page, file):
+    """Choose a file by the button, as a person does."""
+    with page.expect_file_chooser() as coming:
+        page.click("[data-choose]")
+    coming.value.set_files(file)
+
+
+def fill(page, **texts):
+    for key, text in texts.items():
+        page.fill(f"#measured-{key}-text", text)
+        page.press(f"#measured-{key}-text", "Tab")
+
+
+def said(page):
+    """What is said of the file."""
+    return page.inner_text('[data-note="file"]')
+
+
+def is_set(page):
+    keys = ("unit", "size", "loads", "low_pass")
+    return {key: page.input_value(f"#measured-{key}-text") for key in keys}
+
+
+def answers(page):
+    page.locator(SHOWN).first.wait_for()
+    return page.inner_text('[data-table="measured-answers"]')
+
+
+def begin_long_press(page):
+    """Press the whole curve, and wait until it is on its way."""
+    page.click("[data-press]:not([disabled])")
+    page.wait_for_selector('[data-waiting="answers"] .cancel')
+
+
+@contextmanager
+def dropped(pages, relay, page):
+    """Drop the line of a page, and let the browser complain of it."""
+    relay.drop()
+    page.locator("#connection", has_text="does not answer").wait_for()
+    yield
+    pages.complaints = [each for each in pages.complaints if not re.search(NO_LINE, each)]
+
+
+SET = {"unit": "um", "size": "100 um", "loads": "1 MPa; 3 MPa", "low_pass": "4 um"}
+
+
+@pytest.fixture(scope="module")
+def pressed(pages, files):
+    """A page with a file, settings and answers; and these answers."""
+    page = pages.open("?view=measured")
+    page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")
+    choose(page, files[NAME])
+    page.wait_for_selector('[data-asked="unit"]')
+    fill(page, **SET)
+    page.click("[data-press]:not([disabled])")
+    return page, answers(page)
+
+
+def test_a_line_that_drops_loses_nothing_and_a_press_goes_on(pressed, pages, relay):
+    page, before = pressed
+    fill(page, loads="")
+    page.locator("[data-changed]").wait_for()
+    begin_long_press(page)
+    with dropped(pages, relay, page):
+        assert page.is_visible("[data-prepared-numbers]")
+        assert page.inner_text('[data-table="measured-answers"]') == before
+        fill(page, loads="2 MPa")  # what is set meanwhile is asked as well
+        fill(page, loads="")
+        relay.restore()
+        page.wait_for_selector("#connection", state="hidden")
+    page.wait_for_selector('[data-waiting="answers"] .cancel', state="hidden")
+    assert answers(page) != before
+    assert said(page) == ""
+    fill(page, loads=SET["loads"])
+    page.click("[data-press]:not([disabled])")
+    page.wait_for_selector("[data-changed]", state="hidden")
+    assert answers(page) == before
+
+
+def test_a_page_that_is_loaded_again_shows_file_settings_answers_and_report(pressed):
+    page, before = pressed
+    page.wait_for_selector('[data-result="answers"]:not(.dimmed)')
+    page.click("[data-report]")
+    links = page.locator("[data-links] a")
+    links.first.wait_for()
+    page.click("[data-compare]")
+    page.wait_for_selector('[data-result="compare"]')
+    page.reload()
+    assert answers(page) == before
+    page.wait_for_selector('[data-result="compare"]')
+    page.locator("[data-name]", has_text="Ausschnitt_ große Fläche_ 1 (β).npy").wait_for()
+    page.wait_for_selector('[data-result="preparation"]')
+    assert is_set(page) == SET
+    assert not page.is_visible("[data-changed]")
+    assert said(page) == ""
+    href = page.evaluate("(link) => link.href", links.last.element_handle())
+    assert page.request.get(href).status == 200
+    fill(page, loads="")
+    begin_long_press(page)
+    page.reload()  # in the middle of a press, which goes on
+    assert answers(page) != before
+    fill(page, loads=SET["loads"])
+    page.click("[data-press]:not([disabled])")
+    page.wait_for_selector("[data-changed]", state="hidden")
+
+
+def test_a_link_has_all_that_is_set_and_asks_for_the_file_by_its_name(pressed, pages, files):
+    page, before = pressed
+    link = urlsplit(page.url).query
+    of = parse_qs(link)["of"][0]
+    assert of.endswith(f"/{NAME}")
+    assert {key: parse_qs(link)[key][0] for key in SET} == SET
+    for file, is_same in ((OTHER, False), (NAME, True)):
+        opened = pages.open(f"?{link}")
+        opened.locator('[data-note="file"]', has_text=f"{NAME}: choose that file").wait_for()
+        choose(opened, files[file])
+        opened.wait_for_selector('[data-result="file"]')
+        if is_same:
+            assert is_set(opened) == SET
+            assert said(opened) == ""
+            opened.click("[data-press]:not([disabled])")
+            assert answers(opened) == before
+        else:
+            assert f"This is not {NAME}: unit" in said(opened)
+            assert is_set(opened) == SET | {"unit": "", "size": ""}
+        opened.context.close()
+
+
+def test_a_copy_of_a_tab_takes_the_file_and_the_first_keeps_what_it_shows(pressed, files):
+    page, before = pressed
+    with page.context.expect_page() as coming:
+        page.evaluate("open(location.href)")
+    copied = coming.value
+    assert answers(copied) == before
+    page.locator('[data-note="file"]', has_text="now with the other tab").wait_for()
+    assert page.inner_text('[data-table="measured-answers"]') == before
+    assert page.is_disabled("[data-press]")
+    copied.wait_for_timeout(2000)  # neither takes it from the other again
+    assert not copied.is_visible("#connection")
+    copied.wait_for_selector("[data-press]:not([disabled])")
+    choose(page, files[NAME])
+    page.click("[data-press]:not([disabled])")
+    page.wait_for_selector('[data-result="answers"]:not(.dimmed)')
+    assert answers(page) == before
+    copied.click("[data-forget-file]")
+    copied.locator('[data-note="file"]', has_text="are deleted").wait_for()
+    assert copied.is_disabled("[data-press]")
+    copied.wait_for_url(lambda address: "of=" not in address)
+    copied.close()
+
+
+def test_a_lab_that_is_started_anew_asks_for_the_file_and_keeps_the_rest(
+    pressed, pages, relay, lab, files, tmp_path
+):
+    page, before = pressed
+    other = RunningLab(tmp_path / "log")
+    try:
+        with dropped(pages, relay, page):
+            relay.lead_to(other.address)
+            relay.restore()
+            page.locator("#connection", has_text="open the address that its terminal").wait_for()
+            page.context.request.get(relay.through(other.address))  # which logs in
+            page.locator('[data-note="file"]', has_text="choose that file again").wait_for()
+        assert NAME in said(page)
+        assert page.inner_text('[data-table="measured-answers"]') == before
+        assert page.is_disabled("[data-press]")
+        choose(page, files[NAME])
+        page.wait_for_selector("[data-press]:not([disabled])")
+        assert is_set(page) == SET
+        assert said(page) == ""
+        assert not page.is_visible("[data-changed]")
+        assert page.inner_text('[data-table="measured-answers"]') == before
+    finally:
+        relay.lead_to(lab.address)
+        assert other.close() == (0, "")
+
+
+def test_a_page_finds_out_that_a_lab_started_anew_wants_its_password_again(browser, tmp_path):
+    password = tmp_path / "password"
+    password.write_text("correct horse")
+    password.chmod(0o600)
+    labs = [RunningLab(tmp_path / f"log {i}", "--password-file", str(password)) for i in (0, 1)]
+    relay = Relay(labs[0].address)
+    pages = Pages(browser, relay.address)
+
+    def log_in(page):
+        page.fill("#password", password.read_text())
+        page.click("button")
+
+    page = pages.open("?view=published&low_1D=0.002")
+    log_in(page)
+    page.goto(relay.address + "?view=published&low_1D=0.002")
+    page.wait_for_selector('#published .strip [data-answer="exponent_1D"]')
+    shown = page.inner_text("#published .strip")
+    with dropped(pages, relay, page):
+        relay.lead_to(labs[1].address)
+        relay.restore()
+        page.locator("#connection", has_text="started anew").wait_for()
+    assert page.inner_text("#published .strip") == shown
+    with page.context.expect_page() as coming:
+        page.click("#connection a")
+    again = coming.value
+    assert parse_qs(urlsplit(again.url).query)["next"] == [f"/?{urlsplit(page.url).query}"]
+    log_in(again)
+    again.wait_for_selector("#connection", state="hidden")
+    page.bring_to_front()
+    page.wait_for_selector("#connection", state="hidden", timeout=20_000)
+    pages.close()
+    relay.close()
+    assert [each.close() for each in labs] == [(0, ""), (0, "")]
