@@ -1,5 +1,6 @@
 """A lab behind a real nginx with TLS, set up as the guide to the lab says."""
 
+import asyncio
 import re
 import shutil
 import socket
@@ -161,6 +162,21 @@ def test_pages_of_others_are_refused_through_it_too(proxied):
             headers = {"Origin": origin}
             answer = await proxied.fetch("/login", method="POST", body="", headers=headers)
             assert answer.code == 403
+
+    run(scenario)
+
+
+def test_a_proxy_may_have_more_connections_than_one_visitor(proxied):
+    port = int(proxied.lab.address.rpartition(":")[2])
+
+    async def scenario():
+        opened = [await asyncio.open_connection("127.0.0.1", port) for _ in range(230)]
+        assert (await proxied.fetch("/login")).code == 200
+        first = opened[0][0]
+        with pytest.raises(TimeoutError):  # it was not closed for the others
+            await asyncio.wait_for(first.read(1), 0.1)
+        for _, writer in opened:
+            writer.close()
 
     run(scenario)
 

@@ -63,8 +63,27 @@ def test_the_password_opens_the_lab_and_its_cookie_only_this_name_of_it(closed_l
     run(scenario)
 
 
+def test_a_login_leads_to_what_was_linked_though_the_first_password_was_wrong(closed_lab):
+    linked = "/?view=explore&D_f=2.4"
+
+    async def scenario():
+        asked = await closed_lab.fetch(linked)
+        assert asked.headers["Location"] == "/login?next=%2F%3Fview%3Dexplore%26D_f%3D2.4"
+        for answer in (
+            await closed_lab.fetch(asked.headers["Location"]),
+            await log_in(closed_lab, "wrong password", linked),
+        ):
+            assert b'name="next" value="/?view=explore&amp;D_f=2.4"' in answer.body
+        right = await log_in(closed_lab, PASSWORD, linked)
+        assert (right.code, right.headers["Location"]) == (303, linked)
+
+    run(scenario)
+
+
 def test_wrong_passwords_are_counted(closed_lab):
     async def scenario():
+        for _ in range(8):  # right ones are not
+            assert (await log_in(closed_lab, PASSWORD)).code == 303
         codes = [(await log_in(closed_lab, f"wrong {i}")).code for i in range(6)]
         assert codes[0] == 403
         assert codes[-1] == 429

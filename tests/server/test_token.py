@@ -202,7 +202,7 @@ def test_the_browser_is_opened_without_telling_other_users_the_token(tmp_path, m
     address = "http://127.0.0.1:5107/?token=f00d"
     for parent in (tmp_path / "temporary", tmp_path / "home"):
         parent.mkdir()
-    monkeypatch.setattr(opening.Path, "home", lambda: tmp_path / "home")
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
     for has_snaps in (False, True):
         monkeypatch.setattr(opening, "_SNAPS", tmp_path if has_snaps else tmp_path / "none")

@@ -58,25 +58,28 @@ class Logins:
 
     def __init__(self, ended: Callable[[str], None]) -> None:
         self._ended = ended
-        self._known: OrderedDict[str, str] = OrderedDict()  # their hosts
+        # the host by which each called the server, and what ends it when its time is over
+        self._known: OrderedDict[str, tuple[str, asyncio.TimerHandle]] = OrderedDict()
 
     def begin(self, host: str) -> str:
         """Begin a login, which ends by itself after some days; returns its name."""
         while len(self._known) >= _MOST:
             self.end(next(iter(self._known)))
         name = secrets.token_urlsafe(16)
-        self._known[name] = host
-        asyncio.get_running_loop().call_later(DAYS * 86_400, self.end, name)
+        timer = asyncio.get_running_loop().call_later(DAYS * 86_400, self.end, name)
+        self._known[name] = host, timer
         return name
 
     def know(self, name: str, host: str) -> bool:
         """Whether there is a login of a name, for the host that is called now."""
-        if self._known.get(name) != host:
+        if name not in self._known or self._known[name][0] != host:
             return False
         self._known.move_to_end(name)  # the oldest unused one goes first
         return True
 
     def end(self, name: str) -> None:
         """End a login, and close its pages."""
-        if self._known.pop(name, None) is not None:
+        known = self._known.pop(name, None)
+        if known is not None:
+            known[1].cancel()
             self._ended(name)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import html
+import os
 import webbrowser
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 from roughline.server.leftovers import folder_of_files
@@ -24,14 +25,19 @@ def open_page(address: str, opened: ExitStack) -> None:
     opened : ExitStack
         Deletes the file when it is closed.
     """
-    # browsers that are snaps have a temporary folder of their own, and see only the user's files
-    parent = Path.home() if _SNAPS.is_dir() else None
-    page = opened.enter_context(folder_of_files(parent)) / "open.html"
-    page.touch(mode=0o600)
     to = html.escape(address)
-    page.write_text(
+    content = (
         '<!doctype html><meta charset="utf-8"><title>roughline</title>'
-        f'<meta http-equiv="refresh" content="0;url={to}"><a href="{to}">Open the lab</a>\n',
-        encoding="utf-8",
+        f'<meta http-equiv="refresh" content="0;url={to}"><a href="{to}">Open the lab</a>\n'
     )
-    webbrowser.open(page.as_uri())
+    with suppress(OSError):  # such as a full disk; the address is printed besides
+        page = opened.enter_context(folder_of_files(_parent())) / "open.html"
+        page.touch(mode=0o600)
+        page.write_text(content, encoding="utf-8")
+        webbrowser.open(page.as_uri())
+
+
+def _parent() -> Path | None:
+    """The user's own folder if browsers are snaps, which see no other; else None."""
+    home = os.environ.get("HOME", "")
+    return Path(home) if _SNAPS.is_dir() and os.access(home, os.W_OK) else None
