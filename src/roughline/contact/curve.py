@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
+from roughline.computing.disk import write_dataset
 from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation
@@ -289,7 +290,7 @@ class Curve:
         data = self.to_dataset()
         try:
             if path.suffix == ".nc":
-                data.to_netcdf(path, engine="h5netcdf")
+                write_dataset(data, path)
                 return
             over_loads = data.drop_dims(["field_load", "x", "y"], errors="ignore")
             table = over_loads.to_dataframe().reset_index()

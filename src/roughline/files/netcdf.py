@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from roughline.computing.disk import write_dataset
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, RoughlineError, StoreError
 from roughline.errors.public import public
@@ -67,7 +68,7 @@ def write(body: Body, path: str | Path) -> None:
     dimensions = ("x", "y")[: body.heights.ndim]
     heights = (dimensions, body.heights, {"units": body.unit or "length", "long_name": "height"})
     try:
-        xarray.Dataset({"heights": heights}, attrs=attrs).to_netcdf(path, engine="h5netcdf")
+        write_dataset(xarray.Dataset({"heights": heights}, attrs=attrs), path)
     except OSError as error:
         raise StoreError(f"cannot write {path} ({error}): choose another place") from error
 
