@@ -15,7 +15,7 @@ from roughline.campaign.layout import variables_of
 from roughline.campaign.plan import Ensemble, Plan
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
-from roughline.computing.memory import refuse_beyond_memory
+from roughline.computing.memory import free_memory, refuse_beyond_memory
 from roughline.contact import estimates
 from roughline.errors import InputError, StoreError
 
@@ -208,9 +208,7 @@ def workers_that_fit(memory: int, wanted: int | None) -> int:
     InputError
         If the memory does not suffice for one, or for as many as are wanted.
     """
-    import psutil
-
-    free = psutil.virtual_memory().available
+    free = free_memory()
     fitting = int(0.95 * free // memory)
     if fitting < (wanted or 1):
         raise InputError(
