@@ -142,7 +142,7 @@ def test_a_file_that_is_read_on_windows_is_forgotten_and_goes_with_the_page(tmp_
     def refuses(path, **options):
         raise PermissionError(13, "used by another process", str(path))
 
-    unused = dict.fromkeys(("site", "quick", "slow", "line"))
+    unused = dict.fromkeys(("site", "quick", "slow", "room", "line"))
     page = Session("here", "", tmp_path, settings=ServerSettings(), **unused)
     key, upload = page.new_upload("a.txt", 1)
     upload.path.write_text("1")

@@ -19,7 +19,10 @@ from server import doings
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 LIMITS = Limits(count=2, most=4, per_session=2, seconds=20.0, memory=1e9)
-SESSION = {"names": {"/tmp/roughline-lab-1/x/0123.txt": "my file.txt"}}
+SESSION = {
+    "folder": "/tmp/roughline-lab-1/3F9r-token",
+    "names": {"/tmp/roughline-lab-1/3F9r-token/0123.txt": "my file.txt"},
+}
 
 
 class Asker:
@@ -104,7 +107,10 @@ def test_questions_are_answered(lasting):
         ("refuse_at", "too rough", "h"),
         ("die", "ended unexpectedly", ""),
         ("take_memory", "more memory than one session may have", ""),
-        ("write_file", "for a reason that the lab does not know", ""),
+        ("write_file", "the lab has no room for the files of this now", ""),
+        ("need_memory", "more than one computation may have here, 1 GB: take less", ""),
+        ("name_folders", "cannot read a file of the lab, nor a file of the lab (its name)", ""),
+        ("fail_to_open", "could not be read or written (No such file or directory): ask", ""),
     ],
 )
 def test_what_goes_wrong_is_one_sentence_and_the_next_question_is_answered(

@@ -41,6 +41,13 @@ def lab(
     max_memory: Annotated[
         float, typer.Option(help="Largest memory of one computation. [MB]")
     ] = 4000,
+    max_disk: Annotated[
+        float | None,
+        typer.Option(
+            help="Room for the files of all pages. [MB] Default: half of what is free, at most "
+            "20000."
+        ),
+    ] = None,
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
     ] = True,
@@ -53,13 +60,18 @@ def lab(
     """
     from contextlib import ExitStack
 
+    from roughline.server.budget import memory_for_tasks, memory_of_one
     from roughline.server.interrupts import noted_interrupts
     from roughline.server.opening import open_page
     from roughline.server.process import start_forking
     from roughline.server.settings import ServerSettings, networks_in, password_in
 
-    for name, megabytes in (("max_upload", max_upload), ("max_memory", max_memory)):
-        positive(name, megabytes, "a positive, finite number of MB is needed")
+    sizes = (("max_upload", max_upload), ("max_memory", max_memory), ("max_disk", max_disk))
+    for name, megabytes in sizes:
+        if megabytes is not None:
+            positive(name, megabytes, "a positive, finite number of MB is needed")
+    memory = memory_for_tasks()
+    of_one = memory_of_one(memory, max_memory * _MB)
     settings = ServerSettings(
         host=host,
         port=port,
@@ -68,7 +80,9 @@ def lab(
         max_upload=max_upload * _MB,
         max_points=max_points,
         max_seconds=max_seconds,
-        max_memory=max_memory * _MB,
+        max_memory=of_one,
+        memory=memory,
+        max_disk=None if max_disk is None else max_disk * _MB,
     )
 
     def ready(address: str) -> None:
@@ -85,6 +99,11 @@ def lab(
                 f"It listens on {settings.host}: whoever reaches that port of this machine and "
                 f"{may} The connection is not encrypted: use it in a network that you trust, or "
                 "behind a proxy that encrypts (--behind-proxy), or a tunnel."
+            )
+        if of_one < max_memory * _MB:
+            typer.echo(
+                f"One computation may take {of_one / _MB:.0f} MB of memory here, and not the "
+                f"{max_memory:g} MB of --max-memory: no more is free."
             )
         if browser and not settings.proxies:  # people open the proxy's address
             open_page(address, opened)

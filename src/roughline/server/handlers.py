@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 _MOST_DIGITS = 15  # of the size of a file that is to come
 _DIGEST = 12  # letters of the digest by which a page knows a file again
 _LATER = 3600  # that a browser keeps the parts of the page [s]
+_NO_ROOM = "The lab has no room for this file now: close other pages of it, or come back later"
 _DOCUMENTS = ("text/html", "image/svg+xml", "application/xhtml+xml", "text/xml", "application/xml")
 
 
@@ -246,7 +247,7 @@ class Uploads(Guarded):
     _is_full = False
 
     def prepare(self) -> None:
-        """Refuse a file that is too large before it comes."""
+        """Refuse a file that is too large before it comes, or that there is no room for."""
         super().prepare()
         session = self.session_of(self.get_query_argument("session", ""))
         most = self.server.settings.max_upload
@@ -258,12 +259,18 @@ class Uploads(Guarded):
             raise HTTPError(411, reason="The size of the file must be stated first")
         if len(length) > _MOST_DIGITS or int(length) > most:
             raise HTTPError(413, reason=f"The file is larger than {most / 1e6:g} MB")
+        self.note(Stage.BRINGS)
+        if not self.server.has_room(int(length)):
+            self._is_full = True  # said when the file has come, as browsers listen only then
+            return
         name = self.get_query_argument("name", "file")
         self._session = session
-        self._key, self._upload = session.new_upload(name, int(length))
-        self._file = self._upload.path.open("wb")
-        self.note(Stage.BRINGS)
         self._digest = sha256()
+        try:
+            self._key, self._upload = session.new_upload(name, int(length))
+            self._file = self._upload.path.open("wb")
+        except OSError:
+            self._is_full = True
 
     def data_received(self, chunk: bytes) -> None:
         """Write what has come, as long as somebody wants it."""
@@ -282,14 +289,15 @@ class Uploads(Guarded):
     def post(self) -> None:
         """Tell the page what its file is called here."""
         self.note(Stage.IS_SERVED)
-        if self._session is None or self._upload is None or self._file is None:
-            raise HTTPError(410, reason="The page of this file is closed, or sent too many files")
         try:
-            self._file.close()
+            if self._file is not None:
+                self._file.close()
         except OSError:
             self._is_full = True
         if self._is_full:
-            raise HTTPError(507, reason="The lab has no room for this file")
+            raise HTTPError(507, reason=_NO_ROOM)
+        if self._session is None or self._upload is None:
+            raise HTTPError(410, reason="The page of this file is closed, or sent too many files")
         digest = self._digest.hexdigest()[:_DIGEST]
         if self._key in self._session.uploads:  # it was not forgotten meanwhile
             self._session.uploads[self._key] = replace(self._upload, digest=digest)

@@ -21,7 +21,7 @@ from roughline.server.tasks import Outcome, Place, outcome_of
 _FORKS = "forkserver" in multiprocessing.get_all_start_methods()
 _CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
 _loaded_first: str | None = None
-_LARGEST_FILE = 2_000_000_000  # that a task may write [bytes]
+_LARGEST_FILE = 2_000_000_000  # that a task may ever write [bytes]
 _LOW, LOWEST = 3, 15
 """Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
 
@@ -165,6 +165,7 @@ def _serve(connection: Connection, memory: float, warm: str | None) -> None:
         while True:
             place, arguments = connection.recv()
             connection.send(None)
+            _limit_files(arguments.get("session", {}).get("room", _LARGEST_FILE))
             outcome = outcome_of(place, arguments, lambda *steps: connection.send(steps))
             connection.send(outcome)
 
@@ -179,13 +180,20 @@ def _end_with_server() -> None:
 
 def _limit(memory: float) -> None:
     """Refuse more memory than allowed beside what is loaded, and huge files, where possible."""
-    if sys.platform != "linux":
-        return
-    import resource
+    from roughline.computing.memory import limit_process  # here because the server needs it not
 
-    import psutil
+    limit_process(int(memory))
+    if sys.platform == "linux":
+        import resource
 
-    most = psutil.Process().memory_info().vms + int(memory)
-    resource.setrlimit(resource.RLIMIT_AS, (most, most))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def _limit_files(most: float) -> None:
+    """Refuse larger files from now on, where possible."""
+    if sys.platform == "linux":
+        import resource
+
+        size = int(min(max(0, most), _LARGEST_FILE))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, _LARGEST_FILE))

@@ -16,10 +16,10 @@ from pathlib import Path
 from tornado.netutil import bind_sockets
 from tornado.web import Application
 
-from roughline.computing.cores import available_cores
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.server.access import Visitors, is_proxy
+from roughline.server.budget import Disk, limits_within
 from roughline.server.connections import Connections, most_connections
 from roughline.server.empty_figures import EmptyFigures
 from roughline.server.handlers import (
@@ -38,13 +38,10 @@ from roughline.server.lanes import Lane
 from roughline.server.leftovers import folder_of_files
 from roughline.server.link import MOST_BYTES, Link
 from roughline.server.logins import Key, Logins
-from roughline.server.requests import Limits
 from roughline.server.session import Line, Session, Visit
 from roughline.server.settings import ServerSettings
 from roughline.server.site import Site
 
-_QUICK_SECONDS, _QUICK_MEMORY = 20.0, 1_000_000_000
-_MOST_SLOW = 20  # processes for tasks that take long
 _PING = 20  # a page that does not answer within this time is gone [s]
 _WAITS = 600.0  # that a session waits for its page [s]
 _RELOADS = 20.0  # that tasks go on when a page was left, as it may be loaded again [s]
@@ -74,7 +71,9 @@ class Server:
         self.visitors, self.key = Visitors(), Key.of(settings.password)
         self.logins = Logins(self.end_login)
         self.figures = EmptyFigures(site.figures)
-        self.quick, self.slow = _lanes(settings)
+        quick, slow = limits_within(settings.memory, settings.max_memory, settings.max_seconds)
+        self.quick, self.slow = Lane(quick, lasting=True), Lane(slow, lasting=False)
+        self._disk, self._writers = Disk(root, settings.max_disk), quick.most + slow.most
         self._waiting: dict[str, list[asyncio.TimerHandle]] = {}  # of sessions without a page
         self._is_closing = False
 
@@ -134,6 +133,7 @@ class Server:
             self.settings,
             self.quick,
             self.slow,
+            self.room_of_task,
             line,
         )
         self.sessions[session.token] = session
@@ -198,6 +198,34 @@ class Server:
             self.quick.renew()
             self.slow.renew()
 
+    def has_room(self, size: float) -> bool:
+        """Whether there is room on the disk for files of a size. [bytes]
+
+        Sessions that wait for their pages give way, those first that have waited longest.
+        """
+        if self._room() < size:
+            self._disk.look()
+        return self._has_made_room(size)
+
+    def room_of_task(self) -> float:
+        """Size of the largest file that a task may write: all tasks may write at once. [bytes]"""
+        self._has_made_room(self.settings.max_upload)
+        return self._room() / self._writers
+
+    def _has_made_room(self, size: float) -> bool:
+        while self._room() < size:
+            if size > self._disk.most or not self.end_waiting():
+                return False
+        return True
+
+    def _room(self) -> float:
+        coming = {
+            upload.path: upload.size
+            for session in self.sessions.values()
+            for upload in session.uploads.values()
+        }
+        return self._disk.room(self.sessions, coming)
+
     async def prepare(self) -> None:
         """Start processes ahead of the first page."""
         await self.quick.prepare()
@@ -211,17 +239,6 @@ class Server:
         for session in list(self.sessions.values()):
             self.end_session(session)
         await asyncio.gather(self.quick.close(), self.slow.close())
-
-
-def _lanes(settings: ServerSettings) -> tuple[Lane, Lane]:
-    """Processes for quick tasks, and for the others: as many as have memory, at least two."""
-    import psutil  # here because it is wanted once
-
-    cores = available_cores()
-    most = min(_MOST_SLOW, int(psutil.virtual_memory().total / settings.max_memory))
-    quick = Limits(cores, 2 * cores + 2, cores, _QUICK_SECONDS, _QUICK_MEMORY)
-    slow = Limits(cores, max(cores + 1, most), 2, settings.max_seconds, settings.max_memory)
-    return Lane(quick, lasting=True), Lane(slow, lasting=False)
 
 
 def serve(

@@ -7,7 +7,7 @@ import re
 import secrets
 import shutil
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -133,6 +133,8 @@ class Session:
         Limits.
     quick, slow : Lane
         Processes for what takes some milliseconds, and for the rest.
+    room : callable
+        Tells how large a file a task may write. [bytes]
     line : Line or None
         The connection to its page; None while it waits for one.
     """
@@ -144,6 +146,7 @@ class Session:
     settings: ServerSettings
     quick: Lane
     slow: Lane
+    room: Callable[[], float]
     line: Line | None
     token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
     uploads: dict[str, Upload] = field(default_factory=dict)
@@ -284,7 +287,7 @@ class Session:
             "files": {key: str(each.path) for key, each in self.uploads.items()},
             "names": {str(each.path): each.name for each in self.uploads.values()},
             "max_points": self.settings.max_points,
-            "max_memory": self.settings.max_memory,
+            "room": self.room(),
         }
 
 

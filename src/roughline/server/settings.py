@@ -6,16 +6,16 @@ import math
 import os
 import shlex
 import stat
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from ipaddress import IPv4Address, IPv4Network, IPv6Address, IPv6Network, ip_address, ip_network
 from pathlib import Path
 
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
+from roughline.server.budget import LEAST_MEMORY, memory_for_tasks
 
 LOOPBACK = "127.0.0.1"
 _LONGEST_PASSWORD = 1000  # [bytes]
-_LEAST_MEMORY = 500_000_000  # of a task [bytes]
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,11 @@ class ServerSettings:
         Longest time of one task. [s]
     max_memory : float
         Most memory of one task, beside the program. [bytes]
+    memory : float
+        Most memory of all tasks together. [bytes]
+    max_disk : float or None
+        Most that the files of all sessions may take together; None takes half of what is free, at
+        most 20 GB. [bytes]
     max_sessions : int
         Most pages that are open at once.
 
@@ -58,6 +63,8 @@ class ServerSettings:
     max_points: int = 1024
     max_seconds: float = 600.0
     max_memory: float = 4_000_000_000
+    memory: float = field(default_factory=memory_for_tasks)
+    max_disk: float | None = None
     max_sessions: int = 100
 
     def __post_init__(self) -> None:
@@ -75,13 +82,14 @@ class ServerSettings:
             raise InputError("the password has fewer than 8 characters; take a longer one")
         if not 0 <= self.port < 65536:
             refuse("port", self.port, "0 (any free one) to 65535 is allowed")
-        for name in ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions"):
+        limits = ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions")
+        for name in (*limits, *(() if self.max_disk is None else ("max_disk",))):
             if not 0 < getattr(self, name) < math.inf:
                 refuse(name, getattr(self, name), "a positive, finite number is needed")
-        if self.max_memory < _LEAST_MEMORY:
+        if self.max_memory < LEAST_MEMORY:
             raise InputError(
                 f"{self.max_memory / 1e6:g} MB of memory is too little: give a max_memory= of at "
-                f"least {_LEAST_MEMORY / 1e6:g} MB"
+                f"least {LEAST_MEMORY / 1e6:g} MB"
             )
 
     def _check_proxies(self) -> None:

@@ -3,14 +3,29 @@
 from __future__ import annotations
 
 import ntpath  # takes both kinds of slash
+import os
+import re
 import sys
 import traceback
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
+from roughline.computing.disk import is_full
 from roughline.errors import RoughlineError
+
+_NO_ROOM = (
+    "the lab has no room for the files of this now: close other pages of it, or come back later"
+)
+_UNKNOWN = (
+    "the computation failed for a reason that the lab does not know; the terminal in which the lab "
+    "was started shows more. Change a setting and ask again"
+)
+_PROGRAM = (str(Path(__file__).parents[1]), sys.prefix)
+"""Folders of the program, whose names concern nobody who uses a page."""
 
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
@@ -64,24 +79,40 @@ def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -
     try:
         task: Task = getattr(import_module(place.module), place.function)
         return Outcome(task(arguments, progress))
-    except RoughlineError as error:
-        sentence = " ".join(without_paths(str(error), arguments).split())
-        return Outcome(error=sentence, at=getattr(error, "at", ""))
+    except (RoughlineError, OSError, RuntimeError) as error:
+        if is_full(error):
+            return Outcome(error=_NO_ROOM)
+        if isinstance(error, RoughlineError):
+            sentence = " ".join(without_paths(str(error), arguments).split())
+            return Outcome(error=sentence, at=getattr(error, "at", ""))
+        if isinstance(error, OSError) and error.errno:
+            why = os.strerror(error.errno)
+            return _failure(f"a file of the lab could not be read or written ({why}): ask again")
+        return _failure()
     except MemoryError:
         return Outcome(
             error="this needs more memory than one session may have: take fewer points or a "
             "smaller piece"
         )
     except Exception:
+        return _failure()
+
+
+def _failure(sentence: str = _UNKNOWN) -> Outcome:
+    """The outcome of a task that failed as nobody expected; the terminal shows why."""
+    with suppress(OSError):  # the terminal is a file, and there is no room for more
         traceback.print_exc(file=sys.stderr)
-        return Outcome(
-            error="the computation failed for a reason that the lab does not know; the terminal "
-            "in which the lab was started shows more. Change a setting and ask again"
-        )
+    return Outcome(error=sentence)
 
 
 def without_paths(text: str, arguments: Mapping[str, Any]) -> str:
-    """Replace the lab's own names of files by the names that the user knows."""
-    for path, name in arguments["session"]["names"].items():
+    """Replace the lab's own names of files by those that the user knows, or by none."""
+    session = arguments["session"]
+    for path, name in session["names"].items():
         text = text.replace(path, name).replace(ntpath.basename(path), name)
-    return text
+    own = session.get("folder", "")
+    root = ntpath.dirname(own)
+    for folder in (own, root, ntpath.dirname(root), *_PROGRAM):
+        if len(folder) > 1:
+            text = re.sub(re.escape(folder) + r"""[^\s'":;,()]*""", "a file of the lab", text)
+    return text.replace(ntpath.basename(own), "a page") if own else text

@@ -1,4 +1,4 @@
-"""What a page has had computed, kept in its folder for its next question."""
+"""What a page has had computed, kept in its folder for its next question if there is room."""
 
 from __future__ import annotations
 
@@ -45,13 +45,14 @@ def kept(
         os.utime(place)
         return found
     made = make()
-    folder.mkdir(parents=True, exist_ok=True)
     begun = place.with_suffix(f".{os.getpid()}")
-    begun.write_bytes(pickle.dumps(made, protocol=5))
     try:
+        folder.mkdir(parents=True, exist_ok=True)
+        begun.write_bytes(pickle.dumps(made, protocol=5))
         begun.replace(place)
-    except PermissionError:  # of Windows, while another process reads what is in its place
-        begun.unlink()
+    except OSError:  # no room, or, on Windows, another process reads what is in its place
+        with suppress(OSError):
+            begun.unlink()
         return made
     by_age = sorted(folder.glob(f"{kind}-*.pickle"), key=lambda each: each.stat().st_mtime)
     for older in by_age[: -(most or _MOST[kind])]:
