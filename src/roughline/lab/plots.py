@@ -9,11 +9,18 @@ from bokeh.document import Document
 from bokeh.embed.util import standalone_docs_json_and_render_items
 from bokeh.models import (
     BoxAnnotation,
+    BoxZoomTool,
     ColorBar,
     ColumnDataSource,
     LinearColorMapper,
     NoOverlap,
+    PanTool,
     Range1d,
+    ResetTool,
+    SaveTool,
+    Tool,
+    ZoomInTool,
+    ZoomOutTool,
 )
 from bokeh.palettes import Cividis256, Viridis256
 from bokeh.plotting import figure
@@ -21,7 +28,7 @@ from bokeh.plotting import figure
 from roughline.lab.frames import frame
 
 _BORDERS = (62, 84)  # for numbers and a colour bar, of maps [pixel]
-_TOOLS = "pan,wheel_zoom,box_zoom,reset,save"
+_ZOOM = 0.25  # of a click on a tool, in sides of the plot
 
 
 def embedded(plots: Mapping[str, figure]) -> bytes:
@@ -73,8 +80,7 @@ def linear_figure(
 def _empty(x_label: str, y_label: str, x_range: tuple[float, float], **axes: Any) -> figure:
     plot = figure(
         x_range=x_range,
-        tools=_TOOLS,
-        active_scroll="wheel_zoom",
+        tools=tools(),
         sizing_mode="stretch_both",
         **axes,
     )
@@ -101,8 +107,7 @@ def empty_map(name: str, x_range: Range1d, y_range: Range1d, *, rgba: bool, labe
     plot = figure(
         x_range=x_range,
         y_range=y_range,
-        tools=_TOOLS,
-        active_scroll="wheel_zoom",
+        tools=tools(),
         sizing_mode="stretch_both",
     )
     source = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []}, name=name)
@@ -121,6 +126,18 @@ def empty_map(name: str, x_range: Range1d, y_range: Range1d, *, rgba: bool, labe
     plot.xaxis.axis_label, plot.yaxis.axis_label = "x / L", "y / L"
     _plain(plot)
     return plot
+
+
+def tools(*, match_aspect: bool = False) -> list[Tool]:
+    """Return the tools of a plot, for the mouse; the wheel is left to the page.
+
+    Parameters
+    ----------
+    match_aspect : bool
+        Whether a box that is zoomed to keeps the ratio of the axes.
+    """
+    zooms = [ZoomInTool(factor=_ZOOM), ZoomOutTool(factor=_ZOOM)]
+    return [PanTool(), BoxZoomTool(match_aspect=match_aspect), *zooms, ResetTool(), SaveTool()]
 
 
 def themed(**colours: str) -> list[Any]:

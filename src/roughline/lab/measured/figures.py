@@ -8,7 +8,6 @@ from bokeh.models import (
     BasicTickFormatter,
     BoxAnnotation,
     BoxSelectTool,
-    BoxZoomTool,
     ColorBar,
     ColumnDataSource,
     DataRange1d,
@@ -22,9 +21,8 @@ from bokeh.models import (
 from bokeh.palettes import Cividis256
 from bokeh.plotting import figure
 
-from roughline.lab.plots import embedded, log_figure
+from roughline.lab.plots import embedded, log_figure, tools
 
-_TOOLS = "pan,wheel_zoom,reset,save"
 _FORCE = "force F [N]"
 _BORDERS = {"min_border_left": 72, "min_border_right": 96, "min_border_bottom": 54}
 """Of maps, so wide that axes and colour bars fit: maps beside each other have frames alike. [px]"""
@@ -69,12 +67,10 @@ def _map(name: str, x_range: DataRange1d, y_range: DataRange1d, *, rings: str = 
         x_range=x_range,
         y_range=y_range,
         match_aspect=True,
-        tools=_TOOLS,
-        active_scroll="wheel_zoom",
+        tools=tools(match_aspect=True),
         sizing_mode="stretch_both",
         **_BORDERS,
     )
-    plot.add_tools(BoxZoomTool(match_aspect=True))
     source = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []}, name=name)
     mapper = LinearColorMapper(
         palette=Cividis256,
@@ -115,9 +111,7 @@ def _take_boxes(plot: figure) -> None:
 
 def _lines(name: str, shown: dict[str, str], *, marks: bool = False) -> figure:
     """Heights along a line; `shown` are the sources, and their colours."""
-    plot = figure(
-        tools=f"{_TOOLS},box_zoom", active_scroll="wheel_zoom", sizing_mode="stretch_both"
-    )
+    plot = figure(tools=tools(), sizing_mode="stretch_both")
     for each, colour in shown.items():
         source = ColumnDataSource({"x": [], "y": []}, name=f"{name} {each}")
         legend = {"legend_label": each} if len(shown) > 1 else {}
@@ -221,8 +215,7 @@ def _part() -> figure:
         x_range=FactorRange(),
         y_axis_type="log",
         y_range=Range1d(0.1, 10),
-        tools=_TOOLS,
-        active_scroll="wheel_zoom",
+        tools=tools(),
         sizing_mode="stretch_both",
     )
     whole = BoxAnnotation(name="part interval", fill_alpha=0.2, line_alpha=0.0, level="underlay")

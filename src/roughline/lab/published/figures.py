@@ -19,7 +19,6 @@ _HATCH = {
     "hatch_scale": 7,
     "hatch_weight": 0.8,
 }
-_MAP_TOOLS = "pan,wheel_zoom,reset,save"
 
 
 def figures() -> bytes:
@@ -41,7 +40,6 @@ def _stiffness(model: str) -> figure:
     plot = log_figure(_FORCE, "stiffness k̄", _FORCES[model], _STIFFNESSES[model])
     plot.add_tools(BoxSelectTool(dimensions="width", renderers=[]))
     plot.toolbar.active_drag = plot.tools[-1]
-    plot.toolbar.active_scroll = plot.tools[1]
     plot.add_layout(_window(f"window {model}", editable=True))
     plot.add_layout(_dotted("width", f"saturated {model}"))
     name = f"stiffness {model}"
@@ -128,7 +126,6 @@ def _draw_with_intervals(
 def _area() -> figure:
     """The real contact area over force."""
     plot = log_figure(_FORCE, "real contact area A / A_0", (1e-3, 10), (1e-6, 1.3))
-    plot.toolbar.active_scroll = plot.tools[1]
     plot.add_layout(_window("window area", editable=False))
     _draw_curves(plot, "area")
     plot.tags = [_colours()]
@@ -167,9 +164,7 @@ def _trust(roll_off: str, forces: Range1d, dimensions: Range1d) -> figure:
         x_axis_type="log",
         x_range=forces,
         y_range=dimensions,
-        tools=_MAP_TOOLS,
-        active_scroll="wheel_zoom",
-        active_drag=None,
+        tools="",
         sizing_mode="stretch_both",
         title=f"q_r/q_0 = {roll_off}",
     )

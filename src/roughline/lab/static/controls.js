@@ -1,4 +1,6 @@
 // Sliders, their text fields and choices of one view, and the texts that they stand for.
+import {letScroll} from "./hands.js";
+
 const STEPS = 1000; // of a slider on a logarithmic scale
 
 export class Controls {
@@ -20,7 +22,9 @@ export class Controls {
         if (choice.type !== "radio" || choice.checked) this.set(choice.dataset.key, choice.value, true);
       });
     }
-    root.addEventListener("submit", (event) => event.preventDefault());
+    root.addEventListener("submit", (event) => {
+      if (event.target.method !== "dialog") event.preventDefault();
+    });
     for (const choice of root.querySelectorAll('select[data-key], input[type="radio"][data-key]')) {
       if (choice.type !== "radio" || choice.defaultChecked) this.#defaults[choice.dataset.key] = choice.value;
     }
@@ -80,6 +84,7 @@ export class Controls {
       slider.setAttribute("aria-valuetext", text);
       this.set(key, text, isFinal);
     };
+    letScroll(slider);
     let byPointer = false; // a key that is pressed again and again rests between
     slider.addEventListener("pointerdown", () => { byPointer = true; });
     slider.addEventListener("keydown", () => { byPointer = false; });

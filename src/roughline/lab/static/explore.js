@@ -1,5 +1,6 @@
 // Explore: a random surface under both models, as sliders move.
 import {Controls} from "./controls.js";
+import {onDraw} from "./hands.js";
 import {embedded, fillTable, markKeys} from "./plots.js";
 import {Strip} from "./strip.js";
 import {bindTabs} from "./tabs.js";
@@ -46,6 +47,8 @@ class Explore {
     this.#plots = await embedded("explore");
     for (const name of ["stiffness", "area"]) {
       this.#plots.onMove(`${name} cursor`, (force) => this.#cursorMoved(force));
+      onDraw(this.#plots.root(`explore-${name}`), this.#root.querySelector(`[data-draw="${name}"]`),
+        (from, {x}) => { this.#plots.model(`${name} cursor`).location = x; });
     }
     this.#plots.frame(["explore-topography", "explore-contact"], [1, 1]);
     for (const draw of this.#missed.splice(0)) draw();

@@ -1,4 +1,6 @@
 // Answers of My surface: pressing, both models, the report, and code that repeats it.
+import {copy} from "./clipboard.js";
+import {openDialog} from "./dialogs.js";
 import {fillList} from "./measured-pictures.js";
 import {fillTable} from "./plots.js";
 import {recall, remember} from "./remember.js";
@@ -27,10 +29,10 @@ export class Answers {
     view.find("[data-press]").addEventListener("click", () => this.#press());
     view.find("[data-compare]").addEventListener("click", () => this.#compare());
     view.find("[data-report]").addEventListener("click", () => this.#report());
-    for (const button of view.findAll("[data-code]")) button.addEventListener("click", () => this.#code(button.dataset.code));
+    for (const button of view.findAll("[data-code]")) button.addEventListener("click", () => this.#code(button));
     view.find("[data-shown]").addEventListener("change", () => this.#drawField());
     view.find("[data-part-map]").addEventListener("change", ({target}) => this.#press({map: Number(target.value)}));
-    view.find("[data-copy]").addEventListener("click", () => navigator.clipboard?.writeText(view.find("[data-code-dialog] pre").textContent));
+    view.find("[data-copy]").addEventListener("click", ({target}) => copy(view.find("[data-code-dialog] pre").textContent, target));
   }
 
   // The file can be pressed, or not.
@@ -192,11 +194,11 @@ export class Answers {
     this.#view.find("[data-links]").replaceChildren(...links);
   }
 
-  #code(which) {
-    this.#link.ask("measured.code", "measured code", {state: this.#view.state, which}, {
+  #code(button) {
+    this.#link.ask("measured.code", "measured code", {state: this.#view.state, which: button.dataset.code}, {
       answer: ({text}) => {
         this.#view.find("[data-code-dialog] pre").textContent = text;
-        this.#view.find("[data-code-dialog]").showModal();
+        openDialog(this.#view.find("[data-code-dialog]"), button);
       },
       error: (sentence, at) => this.#view.refuse(sentence, at || "report"),
     });

@@ -1,4 +1,5 @@
 // Pictures of My surface: heights, spectrum, contact and curves, and their tables.
+import {onDraw} from "./hands.js";
 import {fillTable, markKeys} from "./plots.js";
 
 const FIELDS = {
@@ -29,13 +30,20 @@ export class Pictures {
 
   // Call with the crop, as text, when a box was drawn on the map.
   onBox(drawn) {
-    this.#root("measured-before").on_event("selectiongeometry", ({geometry}) => {
-      if (geometry.type !== "rect" || !this.#before) return;
+    const map = this.#root("measured-before");
+    const keep = (...corners) => {
+      if (!this.#before) return;
       const {sizes, along} = this.#before;
       const within = (value, side) => Math.min(Math.max(value, 0), side);
-      const ends = [geometry.x0, geometry.x1, geometry.y0, geometry.y1].map((value, i) => within(value, sizes[i < 2 ? 0 : 1]));
-      if (!(ends[0] < ends[1] && ends[2] < ends[3])) return;
+      const ends = corners.map((value, i) => within(value, sizes[i < 2 ? 0 : 1]));
+      if (!(ends[0] < ends[1] && ends[2] < ends[3])) { this.#showBox(...this.#box); return; }
       drawn(ends.map((value) => `${Number(value.toPrecision(4))} ${along}`).join(", "));
+    };
+    map.on_event("selectiongeometry", ({geometry: {type, x0, x1, y0, y1}}) => { if (type === "rect") keep(x0, x1, y0, y1); });
+    onDraw(map, this.#view.find("[data-draw]"), (from, to, isLast) => {
+      const [left, right] = [from.x, to.x].sort((a, b) => a - b), [bottom, top] = [from.y, to.y].sort((a, b) => a - b);
+      if (isLast) keep(left, right, bottom, top);
+      else this.#plots.model("crop box").setv({visible: true, left, right, bottom, top});
     });
   }
 
@@ -203,7 +211,10 @@ export class Pictures {
     this.#settle(`measured-${name}`, name === "after" ? undefined : `${sizes} ${along}`);
   }
 
+  #box = []; // that is shown
+
   #showBox(crop, {x, y}, [width, height]) {
+    this.#box = [crop, {x, y}, [width, height]];
     this.#plots.model("crop box").setv({visible: crop !== "", left: x, right: x + width, bottom: y, top: y + height});
   }
 

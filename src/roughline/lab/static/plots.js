@@ -1,4 +1,5 @@
-// Plots of Bokeh: embedding, data, colours of the theme, keys, and the tables below them.
+// Plots of Bokeh: embedding, data, colours of the theme, and the tables below them.
+import {takeHands} from "./hands.js";
 import {unpacked} from "./link.js";
 
 const documents = [], allPlots = [];
@@ -18,7 +19,7 @@ export async function embedded(view) {
   const made = views.roots[0].model.document; // others may be embedded meanwhile
   documents.push(made);
   recolour(made);
-  for (const root of made.roots()) takeKeys(root);
+  for (const root of made.roots()) takeHands(root);
   return new Plots(made, palettes);
 }
 
@@ -184,31 +185,4 @@ function recolour(made) {
       model.setv(Object.fromEntries(Object.entries(colours).map(([key, name]) => [key, colour(name)])));
     }
   }
-}
-
-// Zoom and move a plot by keys: +, -, arrows; 0 shows all.
-function takeKeys(root) {
-  const element = document.querySelector(`#plot-${CSS.escape(root.name)}`);
-  if (!element) return;
-  const zoom = (factor, [dx, dy] = [0, 0]) => {
-    for (const [range, scale, shift] of [[root.x_range, root.x_scale, dx], [root.y_range, root.y_scale, dy]]) {
-      const isLog = scale.type === "LogScale";
-      const to = isLog ? Math.log : (x) => x, from = isLog ? Math.exp : (x) => x;
-      const [start, end] = [to(range.start), to(range.end)];
-      const middle = (start + end) / 2 + shift * (end - start), half = ((end - start) / 2) * factor;
-      range.setv({start: from(middle - half), end: from(middle + half)});
-    }
-  };
-  const canvas = Bokeh.index.find_one(root)?.canvas_view?.events_el;
-  if (canvas) canvas.tabIndex = -1; // one stop of the tab key for each plot
-  const moves = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1]};
-  element.addEventListener("keydown", (event) => {
-    if (![element, canvas].includes(event.composedPath()[0])) return;
-    if (event.key === "+" || event.key === "=") zoom(0.8);
-    else if (event.key === "-") zoom(1.25);
-    else if (event.key in moves) zoom(1, moves[event.key]);
-    else if (event.key === "0") Bokeh.index.find_one(root)?.reset();
-    else return;
-    event.preventDefault();
-  });
 }

@@ -1,5 +1,6 @@
 // The paper: its figures from the published study, with windows and averages to choose.
 import {Controls, said as asText} from "./controls.js";
+import {onDraw, onTouch} from "./hands.js";
 import {embedded} from "./plots.js";
 import {drawArea, drawExponents, drawFits, drawStiffness, showFits, tableOfExponents} from "./published_curves.js";
 import {Bodies, drawPoint, drawTrust, showClaims, watchStudies} from "./published_maps.js";
@@ -231,6 +232,10 @@ class Published {
     plot.on_event("selectiongeometry", ({geometry}) => {
       if (geometry.type === "rect" && geometry.x0 !== geometry.x1) this.#windowMoved(model, geometry.x0, geometry.x1);
     });
+    onDraw(plot, this.#root.querySelector(`[data-draw="${model}"]`), (from, to) => {
+      if (from.x === to.x) return;
+      box.setv({left: Math.min(from.x, to.x), right: Math.max(from.x, to.x)});
+    });
   }
 
   #windowMoved(model, left, right) {
@@ -251,7 +256,7 @@ class Published {
 
   #bindMaps() {
     for (const panel of this.#root.querySelectorAll("[data-trust]")) {
-      this.#plots.model(`published-trust-${panel.dataset.trust}`).on_event("tap", ({x, y}) => {
+      onTouch(this.#plots.root(`published-trust-${panel.dataset.trust}`), ({x, y}) => {
         const within = (key, value) => {
           const {low, high} = this.#root.querySelector(`input[type="range"][data-key="${key}"]`).dataset;
           return asText(Math.min(Math.max(value, Number(low)), Number(high)));

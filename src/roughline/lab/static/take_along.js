@@ -1,5 +1,6 @@
 // What can be taken along from Explore: code that repeats it, and files.
 import {copy} from "./clipboard.js";
+import {openDialog} from "./dialogs.js";
 
 export class TakeAlong {
   #root; #link; #asked; #waiting; #refuse;
@@ -12,18 +13,17 @@ export class TakeAlong {
     this.#waiting = waiting;
     this.#refuse = refuse;
     const find = (selector) => root.querySelector(selector);
-    find("#as-python").addEventListener("click", () => this.#showCode("python"));
-    find("#as-command").addEventListener("click", () => this.#showCode("command"));
+    find("#as-python").addEventListener("click", ({currentTarget}) => this.#showCode("python", currentTarget));
+    find("#as-command").addEventListener("click", ({currentTarget}) => this.#showCode("command", currentTarget));
     find("#copy-code").addEventListener("click", ({target}) => copy(find("#code pre").textContent, target));
     find("#save").addEventListener("click", () => this.#save(find("#saved").value));
   }
 
-  #showCode(which) {
+  #showCode(which, opener) {
     this.#link.ask("explore.code", "code", {...this.#asked(), which}, {
       answer: ({text}) => {
         this.#root.querySelector("#code pre").textContent = text;
-        const dialog = this.#root.querySelector("#code");
-        if (!dialog.open) dialog.showModal();
+        openDialog(this.#root.querySelector("#code"), opener);
       },
       error: (sentence, at) => this.#refuse(sentence, at),
     });

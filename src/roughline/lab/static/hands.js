@@ -1,0 +1,186 @@
+// Hands on a plot. The wheel and one finger scroll the page; Ctrl or Cmd with the wheel, two fingers, the tools and
+// the keys zoom, within bounds; a double click shows the whole plot again.
+const WIDEST = 2, NARROWEST = 1e-3; // of the ranges, in those of the whole plot
+const SCROLLS = "pan-y"; // what one finger does on a plot, in the words of CSS
+const STILL = 8; // a click moves less [pixel]
+const PER_STEP = 1.25; // zoom of a key and of a notch of the wheel
+const NOTCH = {0: 100, 1: 3, 2: 1}; // of the wheel, in the units of its modes: pixels, lines, pages
+const POINTER = ["pointerdown", "pointermove", "pointerup", "pointercancel", "pointerover", "pointerout"];
+const ARROWS = {ArrowLeft: [0.1, 0], ArrowRight: [-0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1]};
+const MIDDLE = [0.5, 0.5];
+
+export function takeHands(root) {
+  const {element, canvas, view} = placeOf(root);
+  if (!canvas) return;
+  canvas.tabIndex = -1; // one stop of the tab key for each plot
+  canvas.style.touchAction = SCROLLS;
+  for (const button of view.toolbar_panel?.toolbar_view.tool_button_views ?? []) button.el.style.touchAction = SCROLLS;
+  for (const [range, scale] of axesOf(root)) keepBounded(range, scale);
+  const isOnPlot = (event) => event.composedPath()[0] === canvas;
+  for (const type of POINTER) { // the tools of Bokeh are for the mouse
+    element.addEventListener(type, (event) => {
+      if (event.pointerType !== "mouse" && isOnPlot(event)) event.stopPropagation();
+    }, true);
+  }
+  element.addEventListener("wheel", (event) => {
+    if (!event.ctrlKey && !event.metaKey) return;
+    event.preventDefault();
+    const notches = Math.max(-1, Math.min(event.deltaY / NOTCH[event.deltaMode], 1));
+    zoom(root, PER_STEP ** notches, shareOf(view, event));
+  }, {passive: false});
+  element.addEventListener("dblclick", (event) => { if (isOnPlot(event)) view.reset(); });
+  takeTwoFingers(root);
+  element.addEventListener("keydown", (event) => {
+    if (![element, canvas].includes(event.composedPath()[0])) return;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === "+" || event.key === "=") zoom(root, 1 / PER_STEP, MIDDLE);
+    else if (event.key === "-") zoom(root, PER_STEP, MIDDLE);
+    else if (event.key in ARROWS) zoom(root, 1, MIDDLE, MIDDLE.map((share, i) => share + ARROWS[event.key][i]));
+    else if (event.key === "0") view.reset();
+    else return;
+    event.preventDefault();
+  });
+}
+
+// Call with a point of the plot, in the units of its axes, when it is clicked or touched.
+export function onTouch(root, touched) {
+  const {element, canvas, view} = placeOf(root);
+  let down = null;
+  element.addEventListener("pointerdown", (event) => { down = event; }, true);
+  element.addEventListener("click", (event) => {
+    if (event.composedPath()[0] !== canvas || !down) return;
+    if (Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < STILL) touched(pointAt(view, event));
+  });
+}
+
+// Let a button, once pressed, have the next drag on the plot draw, with one finger too: drawn(from, to, isLast)
+// has points in the units of the axes.
+export function onDraw(root, button, drawn) {
+  const {element, canvas, view} = placeOf(root);
+  let isArmed = false, from = null;
+  const arm = (wanted) => {
+    [isArmed, from] = [wanted, null];
+    button.setAttribute("aria-pressed", String(wanted));
+    canvas.style.touchAction = wanted ? "none" : SCROLLS;
+  };
+  const leave = () => { if (from) drawn(from, from, true); from = null; };
+  button.addEventListener("click", () => arm(!isArmed));
+  const take = {
+    pointerdown: (event) => { event.isPrimary ? (from = pointAt(view, event)) : leave(); },
+    pointermove: (event) => { if (from) drawn(from, pointAt(view, event), false); },
+    pointerup: (event) => {
+      if (!from) return;
+      drawn(from, pointAt(view, event), true);
+      arm(false);
+    },
+    pointercancel: () => leave(),
+  };
+  for (const [type, act] of Object.entries(take)) {
+    element.addEventListener(type, (event) => {
+      if (!isArmed || event.composedPath()[0] !== canvas) return;
+      event.stopPropagation();
+      act(event);
+    }, true);
+  }
+}
+
+// Let a finger that scrolls the page over a slider leave it where it is.
+export function letScroll(slider) {
+  let down = null; // a finger that may yet mean the page
+  slider.addEventListener("pointerdown", ({pointerType, clientX}) => {
+    down = pointerType === "mouse" ? null : {clientX, value: slider.value};
+  });
+  slider.addEventListener("pointermove", ({clientX}) => {
+    if (down && Math.abs(clientX - down.clientX) > STILL) down = null;
+  });
+  slider.addEventListener("pointerup", () => { down = null; });
+  slider.addEventListener("pointercancel", () => {
+    if (down) slider.value = down.value;
+    down = null;
+  });
+  slider.addEventListener("input", (event) => { if (down) event.stopImmediatePropagation(); });
+}
+
+function placeOf(root) {
+  const view = Bokeh.index.find_one(root);
+  return {element: document.querySelector(`#plot-${CSS.escape(root.name)}`), canvas: view?.canvas_view?.events_el, view};
+}
+
+// Where an event is, in the units of the axes; beside the frame, at its nearest edge.
+function pointAt({canvas_view, frame}, {clientX, clientY}) {
+  const {left, top} = canvas_view.events_el.getBoundingClientRect(), {bbox, x_scale, y_scale} = frame;
+  const within = (value, low, high) => Math.min(Math.max(value, low), high);
+  return {
+    x: x_scale.invert(within(clientX - left, bbox.left, bbox.right)),
+    y: y_scale.invert(within(clientY - top, bbox.top, bbox.bottom)),
+  };
+}
+
+// Where an event is, in sides of the frame from its lower left corner.
+function shareOf({canvas_view, frame}, {clientX, clientY}) {
+  const {left, top} = canvas_view.events_el.getBoundingClientRect(), {bbox} = frame;
+  const shares = [(clientX - left - bbox.left) / bbox.width, (bbox.bottom - (clientY - top)) / bbox.height];
+  return shares.map((share) => Math.min(Math.max(share, 0), 1));
+}
+
+// Two fingers zoom and move what is between them.
+function takeTwoFingers(root) {
+  const {element, view} = placeOf(root);
+  let before = null;
+  const seen = ([one, other]) => {
+    const middle = {clientX: (one.clientX + other.clientX) / 2, clientY: (one.clientY + other.clientY) / 2};
+    return {share: shareOf(view, middle), apart: Math.hypot(one.clientX - other.clientX, one.clientY - other.clientY)};
+  };
+  const taken = (event) => {
+    const fingers = [...event.touches].filter(({target}) => element.contains(target)); // one may be on its legend
+    if (fingers.length !== 2) { before = null; return; }
+    if (event.cancelable) event.preventDefault();
+    const now = seen(fingers);
+    if (before && now.apart > 0) zoom(root, before.apart / now.apart, before.share, now.share);
+    before = now;
+  };
+  for (const type of ["touchstart", "touchmove", "touchend", "touchcancel"]) {
+    element.addEventListener(type, taken, {passive: false});
+  }
+}
+
+// Show a part of the plot that is larger by a factor; what was at one share of the frame comes to another.
+function zoom(root, factor, from, to = from) {
+  axesOf(root).forEach(([range, scale], i) => {
+    const [start, end] = [range.start, range.end].map(scale.to), length = end - start;
+    const first = start + length * (from[i] - factor * to[i]);
+    range.have_updated_interactively = true; // otherwise it goes on following the data
+    range.setv({start: scale.from(first), end: scale.from(first + factor * length)});
+  });
+}
+
+const LINEAR = {to: (x) => x, from: (x) => x}, LOGARITHMIC = {to: Math.log, from: Math.exp};
+
+// The ranges of numbers of a plot, and how their axes count.
+function axesOf({x_range, y_range, x_scale, y_scale}) {
+  const axes = [[x_range, x_scale], [y_range, y_scale]].filter(([range]) => range.type !== "FactorRange");
+  return axes.map(([range, {type}]) => [range, type === "LogScale" ? LOGARITHMIC : LINEAR]);
+}
+
+const bounded = new WeakSet(); // plots may share a range
+
+// Bring a range back when anything moves it too far from what it has when the whole plot is shown.
+function keepBounded(range, {to, from}) {
+  if (bounded.has(range)) return;
+  bounded.add(range);
+  let followed = null; // what a range that follows the data last had of itself
+  const keep = () => {
+    if (!range.is_valid) return;
+    if (range.type === "DataRange1d" && !range.have_updated_interactively) followed = [range.start, range.end];
+    const whole = range.type === "DataRange1d" ? followed : [range._reset_start, range._reset_end];
+    if (!whole) return;
+    const [[low, high], [start, end]] = [whole.map(to), [range.start, range.end].map(to)];
+    const length = high - low, beside = ((WIDEST - 1) / 2) * length;
+    const half = Math.min(Math.max(end - start, NARROWEST * length), WIDEST * length) / 2;
+    const middle = Math.min(Math.max((start + end) / 2, low - beside + half), high + beside - half);
+    const isBeyond = [[start, middle - half], [end, middle + half]].some(([is, may]) => Math.abs(is - may) > 1e-9 * length);
+    if (isBeyond) range.setv({start: from(middle - half), end: from(middle + half)});
+  };
+  range.change.connect(keep);
+  keep();
+}

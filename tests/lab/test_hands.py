@@ -1,0 +1,313 @@
+"""Hands on the page: wheel, mouse, one finger, two fingers; what they scroll, zoom and change."""
+
+import re
+
+import numpy as np
+import pytest
+
+from lab.explore_driven import SMALL, settled
+
+QUERIES = {"explore": SMALL, "measured": "?view=measured", "published": "?view=published"}
+PHONE = {"width": 390, "height": 844, "has_touch": True, "is_mobile": True}
+EXAMPLE = "[data-example] >> nth=0"
+
+RANGES = """(name) => {
+    const root = Bokeh.documents.flatMap((each) => each.roots()).find((each) => each.name === name);
+    return [root.x_range, root.y_range].flatMap(({start, end}) => [start, end]);
+}"""
+LENGTHS = """(name) => {
+    const root = Bokeh.documents.flatMap((each) => each.roots()).find((each) => each.name === name);
+    return [[root.x_range, root.x_scale], [root.y_range, root.y_scale]]
+        .filter(([range]) => range.type !== "FactorRange")
+        .map(([{start, end}, {type}]) => type === "LogScale" ? Math.log(end / start) : end - start);
+}"""
+SAID = """(view) =>
+    [...document.querySelectorAll(`#${view} :is(input, [data-point], [data-table^=fit], .strip)`)]
+        .map(({type, checked, value, textContent}) =>
+            ["radio", "checkbox"].includes(type) ? checked : value ?? textContent)"""
+PLOTS = """(view) => [...document.querySelectorAll(`#${view} .plot`)]
+    .filter((each) => each.checkVisibility()).map((each) => each.id.slice("plot-".length))"""
+IS_DRAWN = """(name) => globalThis.Bokeh?.documents.flatMap((each) => each.roots())
+    .some((each) => each.name === name && each.inner_width > 0)"""
+
+
+def plots(page, view):
+    """Return the plots that a view shows; of the bodies, one row stands for all."""
+    shown = page.evaluate(PLOTS, view)
+    return [name for name in shown if not re.search("(line|y|contact|deflection)-[123]$", name)]
+
+
+def opened(pages, view, **context):
+    """Open a view with all it has to show."""
+    page = pages.open(QUERIES[view], **context)
+    if view == "explore":
+        settled(page, points=64)
+    elif view == "measured":
+        page.click(EXAMPLE)
+        page.click("[data-press]:not([disabled])")
+        page.wait_for_selector('[data-table="measured-answers"] tbody tr')
+        page.click("[data-compare]")
+        page.wait_for_selector('[data-table="measured-models"] tbody tr', state="attached")
+    else:
+        page.wait_for_selector('[data-table="fit-3D"] tbody tr')
+        page.wait_for_selector('[data-table="published-trust"] tbody tr', state="attached")
+    return page
+
+
+def brought(page, plot):
+    """Bring a plot to the middle of the window; return the middle of it."""
+    page.evaluate(
+        """(name) => document.querySelector(`#plot-${name}`).scrollIntoView({block: "center"})""",
+        plot,
+    )
+    page.wait_for_function(IS_DRAWN, arg=plot)
+    box = page.locator(f"#plot-{plot}").bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def way(page):
+    """Return 1 where the page can be scrolled on, -1 where it ends."""
+    return page.evaluate("scrollY < 150 ? 1 : -1")
+
+
+def scrolled(page, before):
+    page.wait_for_function("(before) => Math.abs(scrollY - before) > 20", arg=before, timeout=3000)
+
+
+def shown_whole(page, name, whole):
+    """Show a whole plot again: a double click; on a trust map, where a click chooses, a key."""
+    if "trust" in name:
+        page.focus(f"#plot-{name}")
+        page.keyboard.press("0")
+    else:
+        page.mouse.dblclick(*brought(page, name))
+    assert page.evaluate(RANGES, name) == pytest.approx(whole)
+
+
+@pytest.mark.parametrize("view", QUERIES)
+def test_the_wheel_scrolls_the_page_over_every_figure_and_zooms_with_a_modifier(pages, view):
+    page = opened(pages, view, height=700)
+    said = page.evaluate(SAID, view)
+    for name in plots(page, view):
+        page.mouse.move(*brought(page, name))
+        whole, lengths = page.evaluate(RANGES, name), page.evaluate(LENGTHS, name)
+        before = page.evaluate("scrollY")
+        page.mouse.wheel(0, 100 * way(page))
+        scrolled(page, before)
+        assert page.evaluate(RANGES, name) == whole, name
+        page.mouse.move(*brought(page, name))
+        before = page.evaluate("scrollY")
+        page.keyboard.down("Control")
+        page.mouse.wheel(0, -100)
+        changed(page, name, whole)
+        assert all(np.less(page.evaluate(LENGTHS, name), lengths)), name
+        for _ in range(6):
+            page.mouse.wheel(0, 3000)
+        page.keyboard.up("Control")
+        page.wait_for_function(
+            f"([name, whole]) => ({LENGTHS})(name).every((length, i) => length > 1.9 * whole[i])",
+            arg=[name, lengths],
+        )
+        assert page.evaluate(LENGTHS, name) == pytest.approx(np.multiply(2, lengths)), name
+        assert page.evaluate("scrollY") == before
+        shown_whole(page, name, whole)
+    assert page.evaluate(SAID, view) == said
+    page.context.close()
+
+
+def changed(page, name, ranges):
+    """Wait until a plot shows something else."""
+    page.wait_for_function(
+        f"([name, ranges]) => ({RANGES})(name).join() !== ranges.join()",
+        arg=[name, ranges],
+        timeout=3000,
+    )
+
+
+class Fingers:
+    """Fingers on a page, each a list of places that it goes through."""
+
+    def __init__(self, page):
+        self._page, self._session = page, page.context.new_cdp_session(page)
+
+    def go(self, *ways):
+        """Put fingers down, move them along their ways, and lift them."""
+        steps = list(zip(*ways, strict=True))
+        for kind, places in [
+            ("touchStart", steps[0]),
+            *(("touchMove", each) for each in steps[1:]),
+        ]:
+            points = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(places)]
+            self._session.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+            self._page.wait_for_timeout(10)
+        self._session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    def swipe(self, x, y, dx, dy):
+        """Draw one finger over the page."""
+        self.go([(x + dx * i / 4, y + dy * i / 4) for i in range(5)])
+
+
+@pytest.mark.parametrize("view", QUERIES)
+def test_one_finger_scrolls_the_page_over_every_figure_and_two_zoom(pages, view):
+    page = opened(pages, view, **PHONE)
+    fingers = Fingers(page)
+    said = page.evaluate(SAID, view)
+    for name in plots(page, view):
+        x, y = brought(page, name)
+        whole, lengths = page.evaluate(RANGES, name), page.evaluate(LENGTHS, name)
+        before = page.evaluate("scrollY")
+        fingers.swipe(x, y, 3, -100 * way(page))
+        scrolled(page, before)
+        fingers.swipe(*brought(page, name), 100, 4)
+        assert page.evaluate(RANGES, name) == whole, name
+        assert page.evaluate("scrollX") == 0
+        x, y = brought(page, name)
+        before = page.evaluate("scrollY")
+        steps = (20, 45, 70)
+        fingers.go([(x - i, y - i / 2) for i in steps], [(x + i, y + i / 2) for i in steps])
+        changed(page, name, whole)
+        assert all(np.less(page.evaluate(LENGTHS, name), lengths)), name
+        assert page.evaluate("scrollY") == before
+        x, y = brought(page, name)
+        if "trust" in name:
+            page.focus(f"#plot-{name}")
+            page.keyboard.press("0")
+        else:
+            fingers.go([(x, y)])
+            fingers.go([(x, y)])
+        page.wait_for_timeout(50)
+        assert page.evaluate(RANGES, name) == pytest.approx(whole), name
+    assert swiped_over_sliders(page, fingers, view) == (4 if view != "measured" else 0)
+    assert page.evaluate(SAID, view) == said
+    page.context.close()
+
+
+def swiped_over_sliders(page, fingers, view):
+    """Scroll the page by a finger that begins on a slider; return how many there were."""
+    if view == "measured":
+        return 0
+    page.click(f"#{view} .drawer")
+    sliders = page.locator(f"#{view} [type=range]:visible").all()[:4]
+    for slider in sliders:
+        slider.evaluate("""(each) => each.scrollIntoView({block: "center"})""")
+        box, before = slider.bounding_box(), page.evaluate("scrollY")
+        x = box["x"] + (0.1 if float(slider.input_value()) > 1 else 0.9) * box["width"]
+        fingers.swipe(x, box["y"] + box["height"] / 2, 3, -100 * way(page))
+        scrolled(page, before)
+    return len(sliders)
+
+
+def test_after_its_button_a_finger_draws_once_and_a_touch_on_the_trust_map_chooses(pages):
+    page = opened(pages, "published", **PHONE)
+    fingers = Fingers(page)
+    button = page.locator('[data-draw="3D"]')
+    x, y = brought(page, "published-stiffness-3D")
+    button.tap()
+    assert button.get_attribute("aria-pressed") == "true"
+    before = fit(page)
+    fingers.swipe(x - 60, y, 100, 30)
+    page.wait_for_selector('[data-draw="3D"][aria-pressed=false]')
+    page.wait_for_function(f"(before) => ({FIT})() !== before", arg=before)
+    low, high = (float(page.input_value(f"#published-{key}_3D-text")) for key in ("low", "high"))
+    wanted = values(page, "published-stiffness-3D", x - 60, x + 40)
+    assert (low, high) == pytest.approx(wanted, rel=0.02)
+    page.wait_for_timeout(500)
+    window = page.evaluate(SAID, "published")
+    fingers.swipe(*brought(page, "published-stiffness-3D"), 80, 3)
+    assert page.evaluate(SAID, "published") == window
+    chosen = page.locator(".trust-panels .chosen").get_attribute("data-trust")
+    brought(page, "published-indented")  # what comes into sight is embedded before the touch
+    x, y = brought(page, f"published-trust-{chosen}")
+    said = page.inner_text("#published [data-point]")
+    page.touchscreen.tap(x - 60, y + 50)
+    page.wait_for_function(
+        """(before) => document.querySelector("#published [data-point]").innerText !== before""",
+        arg=said,
+    )
+    page.context.close()
+
+
+FIT = """() => document.querySelector('[data-table="fit-3D"]').innerText"""
+
+
+def fit(page):
+    return page.evaluate(FIT)
+
+
+def values(page, plot, *places):
+    """Return the values on the axis x of a plot at places on the screen."""
+    return page.evaluate(
+        """([plot, places]) => {
+            const view = Bokeh.index.find_one(Bokeh.documents.flatMap((each) => each.roots())
+                .find((each) => each.name === plot));
+            const {left} = document.querySelector(`#plot-${plot}`).getBoundingClientRect();
+            return places.map((place) => view.frame.x_scale.invert(place - left));
+        }""",
+        [plot, places],
+    )
+
+
+def test_after_its_button_a_finger_moves_the_load_and_chooses_a_piece(pages):
+    page = opened(pages, "explore", **PHONE)
+    x, y = brought(page, "explore-stiffness")
+    page.locator('[data-draw="stiffness"]').tap()
+    Fingers(page).swipe(x, y, 60, 8)
+    (force,) = values(page, "explore-stiffness", x + 60)
+    assert float(page.input_value("#explore-F-text")) == pytest.approx(force, rel=0.02)
+    settled(page, points=64)
+    page.goto(page.url.split("?")[0] + "?view=measured")
+    page.click(EXAMPLE)
+    page.wait_for_selector('[data-result="preparation"]')
+    x, y = brought(page, "measured-before")
+    page.locator("#measured [data-draw]").tap()
+    Fingers(page).swipe(x - 40, y - 40, 60, 70)
+    wanted = values(page, "measured-before", x - 40, x + 20)
+    crop = page.input_value("#measured-crop-text").split(", ")
+    assert [float(each.split()[0]) for each in crop[:2]] == pytest.approx(wanted, rel=0.02)
+    page.context.close()
+
+
+@pytest.mark.parametrize("context", [PHONE, {}], ids=["phone", "desk"])
+def test_a_dialog_closes_by_its_button_by_escape_and_beside_it(pages, context):
+    page = pages.open(SMALL, **context)
+    settled(page, points=64)
+    openers = ["#as-python", "#as-command"]
+    if context:
+        page.click("#explore .drawer")
+    close_in_every_way(page, openers, "#code", "#copy-code")
+    page.click('nav [data-view="measured"]')
+    page.click(EXAMPLE)
+    page.wait_for_selector("[data-code]:not([disabled])")
+    close_in_every_way(
+        page,
+        [f"[data-code={name}]" for name in ("python", "command")],
+        "[data-code-dialog]",
+        "[data-copy]",
+    )
+    page.context.close()
+
+
+def close_in_every_way(page, openers, dialog, copying):
+    place = page.locator(dialog)
+    ways_out = (
+        lambda: place.get_by_text("close").click(),
+        lambda: page.keyboard.press("Escape"),
+        lambda: page.mouse.click(*below(place)),
+        lambda: page.mouse.click(4, 4),
+    )
+    for opener, way_out in zip([*openers, *openers], ways_out, strict=True):
+        page.click(opener)
+        place.wait_for()
+        page.click(f"{dialog} pre")
+        assert place.is_visible()
+        if way_out is ways_out[0]:
+            page.click(copying)
+            page.locator(copying, has_text="copied").wait_for()
+        way_out()
+        place.wait_for(state="hidden")
+        assert page.evaluate("(opener) => document.activeElement.matches(opener)", opener)
+
+
+def below(place):
+    box = place.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] + 20
