@@ -19,6 +19,9 @@ HALF = b"GET / HTTP/1.1\r\nHo"
 SHORT = (
     "from roughline.server import connections",
     "connections.PATIENCE = connections.Patience(request=1, stall=1, speed=10_000)",
+    "from roughline.lab.tasks import TASKS",
+    "from roughline.server.tasks import Place",
+    "TASKS['fails'] = Place('json', 'loads', is_quick=True)",
 )
 
 
@@ -152,6 +155,19 @@ def test_twenty_pages_of_one_address_have_room_where_the_system_lets_the_server_
 async def served(lab):
     """Fail unless the page is answered."""
     assert (await lab.fetch("/")).code == 200
+
+
+def test_a_task_that_fails_again_and_again_is_told_a_few_times_and_fills_no_log(hasty_lab):
+    async def scenario():
+        async with hasty_lab.page() as page:
+            for _ in range(100):
+                await page.ask("fails")
+                assert "reason that the lab does not know" in (await page.answer())[1]
+        await becomes(lambda: hasty_lab.log.read_text().count("TypeError: loads()") == 5)
+        assert hasty_lab.log.read_text().count("Traceback") == 5
+        assert hasty_lab.log.stat().st_size < 10_000
+
+    run(scenario)
 
 
 def test_who_keeps_the_server_waiting_is_dropped_and_who_is_slow_is_not(hasty_lab):

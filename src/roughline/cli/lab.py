@@ -60,6 +60,7 @@ def lab(
     """
     from contextlib import ExitStack
 
+    from roughline.server.bounded_log import bounded_log
     from roughline.server.budget import memory_for_tasks, memory_of_one
     from roughline.server.interrupts import noted_interrupts
     from roughline.server.opening import open_page
@@ -108,7 +109,7 @@ def lab(
         if browser and not settings.proxies:  # people open the proxy's address
             open_page(address, opened)
 
-    with ExitStack() as opened, noted_interrupts() as interrupted:
+    with ExitStack() as opened, bounded_log(), noted_interrupts() as interrupted:
         # which loads numerics while this process loads the server
         start_forking("roughline.lab.warm")
         from roughline.lab.site import site

@@ -8,6 +8,7 @@ import webbrowser
 from contextlib import ExitStack, suppress
 from pathlib import Path
 
+from roughline.server.bounded_log import silent_start
 from roughline.server.leftovers import folder_of_files
 
 _SNAPS = Path("/snap/bin")
@@ -34,7 +35,8 @@ def open_page(address: str, opened: ExitStack) -> None:
         page = opened.enter_context(folder_of_files(_parent())) / "open.html"
         page.touch(mode=0o600)
         page.write_text(content, encoding="utf-8")
-        webbrowser.open(page.as_uri())
+        with silent_start():
+            webbrowser.open(page.as_uri())
 
 
 def _parent() -> Path | None:
