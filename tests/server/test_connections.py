@@ -9,8 +9,10 @@ from pathlib import Path
 
 import psutil
 import pytest
+from tornado.netutil import bind_sockets
+from tornado.web import Application
 
-from roughline.server.connections import most_connections
+from roughline.server.connections import Connections, most_connections
 from server.serving import PATIENCE, becomes, run, running_lab, wait_until
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="limits of Unix")
@@ -155,6 +157,35 @@ def test_twenty_pages_of_one_address_have_room_where_the_system_lets_the_server_
 async def served(lab):
     """Fail unless the page is answered."""
     assert (await lab.fetch("/")).code == 200
+
+
+@linux
+def test_a_proxy_may_have_all_connections_and_loses_none_to_those_who_come_around_it():
+    async def scenario():
+        sockets = bind_sockets(0, "127.0.0.1")
+        server = Connections(Application([]), most=10, proxies=lambda peer: peer == "127.0.0.2")
+        server.add_sockets(sockets)
+
+        async def connected(number, origin):
+            to = sockets[0].getsockname()
+            return [
+                await asyncio.open_connection(*to, local_addr=(origin, 0)) for _ in range(number)
+            ]
+
+        def still_open(streams):
+            return sum(not reader.at_eof() for reader, _ in streams)
+
+        proxied = await connected(8, "127.0.0.2")
+        around = await connected(10, "127.0.0.1")
+        await becomes(lambda: (still_open(proxied), still_open(around)) == (8, 2))
+        proxied += await connected(2, "127.0.0.2")
+        await becomes(lambda: (still_open(proxied), still_open(around)) == (10, 0))
+        server.stop()
+        for _, writer in proxied + around:
+            writer.close()
+        await server.close_all_connections()
+
+    run(scenario)
 
 
 def test_a_task_that_fails_again_and_again_is_told_a_few_times_and_fills_no_log(hasty_lab):

@@ -25,6 +25,7 @@ _AT_ONCE = 128  # connections that are taken before others are served
 _PAUSE = 1.0  # when no connection can be taken [s]
 _SEND_BUFFER = 2**17  # so that it is seen within a minute whether somebody reads [bytes]
 _MOST, _MOST_OF_ONE = 2000, 200  # connections in all, and of one address
+_PROXY = "proxy"  # what stands for the address of any proxy: it has no limit of its own
 _FEWEST = 10
 _MOST_FILES = 4096  # that the process asks the system for
 _OTHER_FILES, _FILES_OF_PROCESS = 64, 3  # that are no connections
@@ -129,7 +130,8 @@ class Connections(HTTPServer):
     most : int
         Connections in all.
     proxies : callable
-        Whether an address is that of a proxy, through which many visitors come.
+        Whether an address is that of a proxy, through which many visitors come: all connections
+        may be its own, and none is closed for those who do not come through it.
     **limits : int
         Of a request, as those of HTTPServer.
     """
@@ -194,8 +196,8 @@ class Connections(HTTPServer):
 
     def _take(self, taken: socket.socket, name: tuple[Any, ...]) -> None:
         """Begin with a connection if there is a place for it."""
-        address = neighbourhood(name[0])
-        if not self._has_place(address, is_proxy=self._proxies(name[0])):
+        address = _PROXY if self._proxies(name[0]) else neighbourhood(name[0])
+        if not self._has_place(address):
             taken.close()
             return
         try:
@@ -213,15 +215,16 @@ class Connections(HTTPServer):
         if not held:
             del self._held[address]
 
-    def _has_place(self, address: str, *, is_proxy: bool) -> bool:
+    def _has_place(self, address: str) -> bool:
         """Whether an address may have one more connection; another one may have to go for it."""
-        own = len(self._held.get(address, ()))
-        if own >= self._most_of_one and not is_proxy:
+        own = 0 if address == _PROXY else len(self._held.get(address, ()))
+        if own >= self._most_of_one:
             return self._drop(address, Stage.WAITS)
         if sum(map(len, self._held.values())) < self._most:
             return True
-        greedier = (each for each, held in self._held.items() if len(held) > own)
-        by_number = sorted(greedier, key=lambda each: len(self._held[each]), reverse=True)
+        numbers = {each: len(held) for each, held in self._held.items() if each != _PROXY}
+        greedier = [each for each, number in numbers.items() if number > own]
+        by_number = sorted(greedier, key=lambda each: numbers[each], reverse=True)
         return any(self._drop(each, Stage.IS_SERVED) for each in by_number) or (
             self._drop(address, Stage.WAITS)
         )
