@@ -13,6 +13,7 @@ import xarray
 import roughline as rl
 from roughline.assessment.description import describe
 from roughline.assessment.source import topographies
+from roughline.files.curves import curve_in
 from roughline.files.read import measurement, suspicions
 from roughline.topography.missing import Missing
 from roughline.topography.preparation import prepared
@@ -179,6 +180,30 @@ def test_suspicious_scales_are_pointed_out():
     assert "flat punch" in suspicions(rough.scaled(0.0))[0]
     thin = rl.Surface(rough.heights, (1e-3, 1e-2), "m")
     assert "pixels are" in suspicions(thin)[0]
+
+
+@pytest.mark.parametrize("name", ["curve.nc", "zygo.datx", "sheet.xlsx"])
+def test_what_is_declared_and_not_there_is_refused_before_it_is_read(tmp_path, name):
+    """A curve, texts and a table would take 10 GB, for ever, and 8 s."""
+    path = tmp_path / name
+    if name == "sheet.xlsx":
+        with zipfile.ZipFile(path, "w") as archive:
+            row = '<row r="1048576"><c r="F1048576"><v>1</v></c></row>'
+            archive.writestr("xl/worksheets/sheet1.xml", f"<sheetData>{row}</sheetData>")
+    else:
+        with h5py.File(path, "w") as file:
+            texts = h5py.string_dtype("ascii")
+            file.create_dataset("MetaData", (20000**2, 3), texts, chunks=(1000, 3))
+            file.attrs["E_star"] = 1.0
+            for key in ("depth", "force", "stiffness"):
+                file.create_dataset(key, (20000**2,), "f8", chunks=(10**6,))
+    asked = {"curve.nc": curve_in, "zygo.datx": rl.read, "sheet.xlsx": rl.read}[name]
+    tracemalloc.start()
+    with pytest.raises(rl.InputError, match=f"{name} (declares 400000000|has a cell in row 10)"):
+        asked(path)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak < 4e7
 
 
 def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path):

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from roughline.computing.arrays import Real
+from roughline.files.archives import refuse_empty_datasets
 
 SHOWN = ("depth", "force", "stiffness", "area_fraction_corrected", "area_fraction")
 """Quantities of a curve that are shown; the first three are in all of them."""
@@ -44,9 +45,15 @@ def curve_in(path: Path) -> CurveInFile | None:
     ----------
     path : Path
         The file.
+
+    Raises
+    ------
+    InputError
+        If it declares more values than it can hold.
     """
     if path.suffix != ".nc" or not os.path.isfile(path):  # noqa: PTH113 - as in reading
         return None
+    refuse_empty_datasets(path, path.name)
     import h5netcdf  # here because it loads slowly; xarray loads even more slowly
 
     try:

@@ -11,7 +11,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
-from roughline.files.archives import refuse_bombs, refuse_too_few_bytes
+from roughline.files.archives import refuse_bombs, refuse_empty_datasets, refuse_too_few_bytes
 from roughline.files.curves import curve_in
 from roughline.files.heights_in_text import read_text
 from roughline.files.instrument import read_instrument
@@ -137,6 +137,7 @@ def measurement(
         measured = read_text(path, channel, name)
     if measured is None:
         refuse_bombs(path, name)
+        refuse_empty_datasets(path, name)
         return read_instrument(path, channel, name)
     if channel is not None and not measured.channels:
         raise InputError(f"{name} has one channel only; leave channel= out")
