@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+import re
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import roughline as rl
+from roughline.errors.checks import shown
 from roughline.units import refuse_decimal_comma
 
 VERSION = "1"
@@ -16,7 +18,16 @@ VERSION = "1"
 STRANGE = "this question is not one of the lab: reload the page"
 """What is said of a question that no page of this lab asks."""
 
+MOST_CHARACTERS = 1000
+"""Of the text of a control."""
+
 _OF_THE_PAGE = ("view", "theme")  # parameters of an address that are no part of a view's state
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?\s*", re.IGNORECASE | re.ASCII)
+_FEWEST_DIGITS = 4  # with which the page writes a number
+_DIGITS = 12  # of a number that is computed from a text with a unit
+
+Texts = Mapping[str, str]
+_Read = TypeVar("_Read")
 
 
 class ControlError(rl.InputError):
@@ -26,11 +37,14 @@ class ControlError(rl.InputError):
     ----------
     at : str
         Key of the control; empty for the whole view.
+    among : tuple of str
+        Keys of all controls that do not go together, that one first.
     """
 
-    def __init__(self, message: str, at: str = "") -> None:
+    def __init__(self, message: str, at: str = "", *others: str) -> None:
         super().__init__(message)
         self.at = at
+        self.among = (at, *others)
 
 
 @dataclass(frozen=True)
@@ -73,26 +87,30 @@ class Control:
         """
         try:
             refuse_decimal_comma(text, self.name)
-            value = float(text)
-        except ValueError as error:
-            said = str(error) if "comma" in str(error) else f'{self.name} is "{text[:40]}"'
-            raise ControlError(f"{said}; give a number {self.range}", self.key) from None
-        return self.checked(value)
+            if not is_number(text):
+                raise rl.InputError(f"{self.name} is {shown(text)}")
+            return self.checked(float(text))
+        except ControlError:
+            raise
+        except rl.InputError as error:
+            raise ControlError(f"{error}; give a number {self.range}", self.key) from None
 
     def checked(self, value: float) -> float:
-        """Return a number that is in range.
+        """Return a number that is in range; an end that is written with fewer digits is the end.
 
         Raises
         ------
         ControlError
             If it is not.
         """
-        slack = 1e-9 * max(abs(self.low), abs(self.high))
-        if not self.low - slack <= value <= self.high + slack:
+        for end in (self.low, self.high):
+            if any(value == float(f"{end:.{n}g}") for n in range(_FEWEST_DIGITS, _DIGITS + 1)):
+                return end
+        if not self.low <= value <= self.high:
             raise ControlError(f"{self.name} is {value:.6g}; give a number {self.range}", self.key)
         if self.scale == "whole" and value != math.floor(value):
             raise ControlError(f"{self.name} is {value:g}; give a whole number", self.key)
-        return min(max(value, self.low), self.high)
+        return value
 
     @property
     def range(self) -> str:
@@ -132,32 +150,115 @@ class Choice:
         """
         if text not in self.options:
             allowed = ", ".join(self.options)
-            raise ControlError(
-                f'{self.name} is "{str(text)[:40]}"; allowed are {allowed}', self.key
-            )
+            raise ControlError(f"{self.name} is {shown(text)}; allowed are {allowed}", self.key)
         return str(text)
 
 
-def texts_of(arguments: Mapping[str, Any]) -> Mapping[str, str]:
+def is_number(text: str) -> bool:
+    """Whether a text is a number without a unit."""
+    return _NUMBER.fullmatch(text) is not None
+
+
+def has_unit(text: str) -> bool:
+    """Whether something follows the number that a text begins with."""
+    number = _NUMBER.match(text)
+    return number is not None and number.end() < len(text)
+
+
+def rounded(value: float) -> float:
+    """A number that was computed from a text with a unit, without the rounding of that."""
+    return float(f"{value:.{_DIGITS}g}")
+
+
+def as_text(value: float) -> str:
+    """A number as an address has it: the fewest digits that are read as the same number."""
+    return repr(float(value)).removesuffix(".0")
+
+
+def texts_of(arguments: Mapping[str, Any], name: str = "state") -> Texts:
     """Return the texts of the controls by their keys, as a page sends them.
 
     Parameters
     ----------
     arguments : mapping
-        Of a task; "state" holds the texts.
+        Of a task.
+    name : str, optional
+        Which of them holds the texts.
 
     Raises
     ------
     ControlError
         If it does not; at the control whose text is none.
     """
-    said = arguments.get("state")
+    said = arguments.get(name)
     if not isinstance(said, Mapping):
         raise ControlError(STRANGE)
     for key, text in said.items():
         if not isinstance(text, str):
             raise ControlError(STRANGE, key)
     return said
+
+
+def usable(
+    arguments: Mapping[str, Any], read: Callable[[Texts], _Read], told: Callable[[_Read], Texts]
+) -> tuple[_Read, dict[str, str]]:
+    """Read the texts of the controls; for one that cannot be used, the one before it counts.
+
+    Where controls do not go together, the one that was changed counts as before, not the others.
+
+    Parameters
+    ----------
+    arguments : mapping
+        Of a task: "state" has the texts, those changed last at its end, and "before", where it is
+        given, those that were used last.
+    read : callable
+        Reads texts, or raises the first ControlError.
+    told : callable
+        Gives all of what was read as texts again.
+
+    Returns
+    -------
+    read
+        What was read.
+    refused : dict of str
+        Sentences by the keys of controls whose text is not used.
+
+    Raises
+    ------
+    ControlError
+        If what is wrong is not the text of a control.
+    """
+    said = texts_of(arguments)
+    before = texts_of(arguments, "before") if "before" in arguments else {}
+    texts, refused = dict(said), {}
+    changed = [key for key in said if said[key] != before.get(key)]
+    for key in changed:
+        if len(said[key]) > MOST_CHARACTERS:
+            refused[key] = f"this text has {len(said[key])} characters; give a shorter one"
+            _replace(texts, key, before)
+    while True:
+        try:
+            found = read(texts)
+        except ControlError as error:
+            wrong = [key for key in changed if key in error.among and key not in refused]
+            wrong += [key for key in error.among if key in texts]
+            if not wrong:
+                raise
+            _replace(texts, wrong[0], {} if wrong[0] in refused else before)
+            refused.setdefault(wrong[0], str(error))
+            continue
+        used = {**told(found), **texts}
+        return found, {
+            key: f"{sentence}; {used.get(key) or 'none'} is used meanwhile"
+            for key, sentence in refused.items()
+        }
+
+
+def _replace(texts: dict[str, str], key: str, others: Texts) -> None:
+    """Take the other text of a control, or none."""
+    texts.pop(key, None)
+    if key in others:
+        texts[key] = others[key]
 
 
 def refuse_strange(said: Mapping[str, str], known: Collection[str]) -> None:

@@ -29,7 +29,6 @@ def code(arguments: Mapping[str, Any], progress: Progress) -> bytes:
 
 def as_python(state: ExploreState) -> str:
     """Lines that generate the surface, and press it as the page does."""
-    cutoff = max(state.cutoff, 2 / state.n)
     periodic = ", periodic=True" if state.periodic else ""
     hardness_line, forces, of_yield = "", "forces=[force]", ""
     if state.hardness_bar is not None:
@@ -48,7 +47,7 @@ spectrum = rl.SelfAffine(
     length=length,
     rms_height={_number(rms_height(state))},
     q_roll=2 * math.pi / ({_number(state.roll_off)} * length),
-    q_high=2 * math.pi / ({_number(cutoff)} * length),
+    q_high=2 * math.pi / ({_number(state.cutoff_used)} * length),
 )
 surface = spectrum.surface(n={state.n}, rng={state.seed})
 force = {_number(state.F)} * E_star * surface.rms_height * surface.length  # N
@@ -62,7 +61,6 @@ print("depth over rms height", curve.depth[0] / surface.rms_height)
 
 def as_command(state: ExploreState) -> str:
     """Commands that write the surface to a file, and press it."""
-    cutoff = max(state.cutoff, 2 / state.n)
     force = state.F * state.E_star * rms_height(state) * state.length
     borne = hardness(state)
     generate = [
@@ -71,7 +69,7 @@ def as_command(state: ExploreState) -> str:
         *("--rms-height", f"{_number(rms_height(state))} m"),
         *("--fractal-dimension", _number(state.D_f)),
         *("--roll-off", f"{_number(state.roll_off * state.length)} m"),
-        *("--cutoff", f"{_number(cutoff * state.length)} m"),
+        *("--cutoff", f"{_number(state.cutoff_used * state.length)} m"),
         *("--points", str(state.n), "--seed", str(state.seed)),
     ]
     press = [

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
-from roughline.lab.controls import texts_of
-from roughline.lab.explore.address import state_of
+from roughline.lab.explore.address import usable_state
 from roughline.lab.explore.bodies import (
     LINES,
     hardness,
@@ -58,7 +57,7 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
 
     In a crowd it is that of fewer lines first; the page asks for the others by "refines".
     """
-    state = _state(arguments)
+    state, refused = usable_state(arguments)
     lines = lines_of(state, FEWER_LINES if _is_first_step(arguments) else LINES)
     forces = np.unique([*_LINE_FORCES, state.F])
     stiffness = np.array([_press_bar(line, state, forces).stiffness_bar for line in lines])
@@ -66,8 +65,7 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
     here = int(np.searchsorted(forces, state.F))
     return frame(
         {
-            "state": state.address(),
-            "numbers": _numbers(state),
+            **_settled(state, refused),
             "line": {
                 "force_bar": forces,
                 "stiffness_bar": mean,
@@ -84,10 +82,10 @@ def reduced(arguments: Arguments, progress: Progress) -> bytes:
 
 def coarse(arguments: Arguments, progress: Progress) -> bytes:
     """The contact on a coarse grid, while a slider moves."""
-    state = _state(arguments)
+    state, refused = usable_state(arguments)
     crowded = arguments["crowded"] and state.roll_off > _LONG_ROLL_OFF
     n = min(state.n, COARSER if crowded else COARSE)
-    return _contact(state, n, progress)
+    return _contact(state, refused, n, progress)
 
 
 def full(arguments: Arguments, progress: Progress) -> bytes:
@@ -95,21 +93,21 @@ def full(arguments: Arguments, progress: Progress) -> bytes:
 
     In a crowd it is on fewer points first; the page asks for the full grid by "refines".
     """
-    state = _state(arguments)
+    state, refused = usable_state(arguments)
     n = min(state.n, _FIRST_STEP) if _is_first_step(arguments) else state.n
-    return _contact(state, n, progress)
+    return _contact(state, refused, n, progress)
 
 
 def curve(arguments: Arguments, progress: Progress) -> bytes:
     """Stiffness and area over force of the surface, and of theories."""
-    state = _state(arguments)
+    state, refused = usable_state(arguments)
     n = min(state.n, _CURVE_POINTS)
     surface = surface_of(state, n)
     most = _MOST_OF_HARDNESS * most_force_bar(state)
     pressed = _pressed(state, surface, _CURVE_FORCES[most > _CURVE_FORCES], progress)
     return frame(
         {
-            "state": state.address(),
+            **_settled(state, refused),
             "curve": _of_curve(pressed),
             "grid": f"{n}²",
             "theories": [_of_theory(name, surface, state) for name in state.theories],
@@ -121,13 +119,13 @@ def curve(arguments: Arguments, progress: Progress) -> bytes:
 
 def unloading(arguments: Arguments, progress: Progress) -> bytes:
     """The way back from the load of the state to none."""
-    state = _state(arguments)
+    state, refused = usable_state(arguments)
     n = min(state.n, _CURVE_POINTS)
     loads = state.F * np.array([1.0, *UNLOADING])
     pressed = _pressed(state, surface_of(state, n), loads, progress)
     return frame(
         {
-            "state": state.address(),
+            **_settled(state, refused),
             "curve": _of_curve(pressed),
             "stiffness_table": unloading_rows(pressed),
             "area_table": area_rows(pressed),
@@ -135,7 +133,7 @@ def unloading(arguments: Arguments, progress: Progress) -> bytes:
     )
 
 
-def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
+def _contact(state: ExploreState, refused: Mapping[str, str], n: int, progress: Progress) -> bytes:
     """The contact on a grid; on the grid of the state, with what finer ones may change."""
     started = time.perf_counter()
     is_coarse = n < state.n
@@ -155,8 +153,7 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
     heights = (surface.heights - surface.heights.mean()) / surface.rms_height
     return frame(
         {
-            "state": state.address(),
-            "numbers": _numbers(state),
+            **_settled(state, refused),
             "points": n,
             "is_coarse": is_coarse,
             "heights": [float(heights.min()), float(heights.max())],
@@ -169,20 +166,21 @@ def _contact(state: ExploreState, n: int, progress: Progress) -> bytes:
     )
 
 
-def _state(arguments: Arguments) -> ExploreState:
-    return state_of(texts_of(arguments), arguments["session"]["max_points"])
-
-
 def _is_first_step(arguments: Arguments) -> bool:
     """Whether many ask at once, and this page has no answer yet."""
     return bool(arguments["crowded"]) and arguments.get("refines") is not True
 
 
-def _numbers(state: ExploreState) -> dict[str, float]:
-    """What the sliders of the page stand at."""
-    names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "F", "hardness_bar")
-    values = {name: getattr(state, name) for name in names}
-    return {name: float(value) for name, value in values.items() if value is not None}
+def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
+    """What the page is told of its controls: what counts, and what is not used and why."""
+    names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "n", "F", "hardness_bar")
+    values = {name: getattr(state, name) for name in names} | {"cutoff": state.cutoff_used}
+    return {
+        "state": state.address(),
+        "numbers": {name: float(value) for name, value in values.items() if value is not None},
+        "lows": {"cutoff": state.shortest},
+        "refused": refused,
+    }
 
 
 def _pressed(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 
-from roughline.lab.controls import VERSION
+from roughline.lab.controls import VERSION, as_text
 from roughline.lab.explore import controls as c
 from roughline.units import in_si
 
@@ -77,18 +77,34 @@ class ExploreState:
         """H = 3 - D_f. [1]"""
         return round(3 - self.D_f, 12)
 
+    @property
+    def shortest(self) -> float:
+        """Shortest wave that the grid carries, two spacings, in sides of the surface. [1]"""
+        return 2 / self.n
+
+    @property
+    def cutoff_used(self) -> float:
+        """Shortest wave of the surface, in its sides: the cutoff, or what the grid carries. [1]"""
+        return max(self.cutoff, self.shortest)
+
+    def texts(self) -> dict[str, str]:
+        """All that is set, as texts by the keys of the controls."""
+        return {each.name: _in_address(getattr(self, each.name)) for each in fields(self)}
+
     def address(self) -> dict[str, str]:
         """What the address says of this state: the version, and what is not the default."""
-        default = ExploreState()
-        said = {"v": VERSION}
-        for each in fields(self):
-            value = getattr(self, each.name)
-            if value != getattr(default, each.name) or each.name in ("D_f", "F", "n", "seed"):
-                said[each.name] = _in_address(value)
-        return said
+        default = ExploreState().texts()
+        said = {
+            key: text
+            for key, text in self.texts().items()
+            if text != default[key] or key in ("D_f", "F", "n", "seed")
+        }
+        return {"v": VERSION, **said}
 
 
 def _in_address(value: object) -> str:
     if isinstance(value, tuple):
         return ",".join(value)
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    if value is None:
+        return ""
+    return as_text(value) if isinstance(value, float) else str(value)

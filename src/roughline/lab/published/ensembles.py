@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
 from roughline.contact import scaling
-from roughline.lab.controls import ControlError
+from roughline.lab.controls import ControlError, Texts, usable
 from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
-from roughline.lab.published.state import PublishedState, Window
+from roughline.lab.published.state import PublishedState, Window, state_of
 from roughline.paper.exponents import converged_stiffness
 from roughline.paper.mean_curve import MeanCurve, mean_curve
 from roughline.paper.results import published_dataset
@@ -33,6 +34,19 @@ def model_of(said: object) -> ModelLabel:
     if said not in MODELS:
         raise ControlError("there is no such model; there are 1D and 3D")
     return "1D" if said == "1D" else "3D"
+
+
+def usable_state(arguments: Mapping[str, Any]) -> tuple[PublishedState, dict[str, Any]]:
+    """The state that a page asks about, and what its controls are told of it."""
+
+    def read(texts: Texts) -> PublishedState:
+        state = state_of(texts)
+        for model in MODELS:
+            _window(state, model_of(model))
+        return state
+
+    state, refused = usable(arguments, read, PublishedState.address)
+    return state, {"state": state.address(), "numbers": state.numbers(), "refused": refused}
 
 
 def ensemble(model: ModelLabel) -> xarray.Dataset:
@@ -66,12 +80,7 @@ def law_of(state: PublishedState, model: ModelLabel, fractal_dimension: float) -
     ControlError
         If the window holds too few loads.
     """
-    force = ensemble(model).force_bar.values
-    low, high = (_on_load(force, edge) for edge in state.windows[model])
-    try:
-        law = _law(model, fractal_dimension, (low, high), state.mean)
-    except rl.InputError as error:
-        raise ControlError(str(error), WINDOWS[model][1].key) from None
+    law = _law(model, fractal_dimension, _window(state, model), state.mean)
     punch = punch_of(state, model)
     first, last = law.prefactor_interval
     return replace(
@@ -83,6 +92,18 @@ def unresolved_in_window(model: ModelLabel, fractal_dimension: float, window: Wi
     """Whether the grid decides at some load of a window."""
     curve = curve_of(model, fractal_dimension, 1.0, "arithmetic")
     return not curve.resolved[inside_window(curve.force_bar, window)].all()
+
+
+def _window(state: PublishedState, model: ModelLabel) -> Window:
+    """The window of a model, its edges on loads; one with too few loads is refused."""
+    force = ensemble(model).force_bar.values
+    low, high = (_on_load(force, edge) for edge in state.windows[model])
+    try:
+        fit_power_law(force, force, (low, high))
+    except rl.InputError as error:
+        low_edge, high_edge = WINDOWS[model]
+        raise ControlError(str(error), *(high_edge.key, low_edge.key)) from None
+    return low, high
 
 
 @lru_cache(maxsize=1024)

@@ -7,11 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from roughline.lab.controls import texts_of
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
-from roughline.lab.published.ensembles import one_dimension
-from roughline.lab.published.state import PublishedState, state_of
+from roughline.lab.published.ensembles import one_dimension, usable_state
+from roughline.lab.published.state import PublishedState
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.contact_area import AreaLaw, area_law, mean_area
 from roughline.paper.results import published_dataset, published_results
@@ -53,7 +52,7 @@ def exponents(arguments: Arguments, progress: Progress) -> bytes:
 
 def area(arguments: Arguments, progress: Progress) -> bytes:
     """The real area over force, and κ of eq. 4 with its intervals and two theories."""
-    state = state_of(texts_of(arguments))
+    state, settled = usable_state(arguments)
     kappas = [_kappas(dimension) for dimension in c.DIMENSIONS]
     header = ["D_f", "κ", "A ~ F^", "κ in cells", "A in cells ~ F^"]
     rows = [
@@ -66,6 +65,7 @@ def area(arguments: Arguments, progress: Progress) -> bytes:
     named = dict(zip(("corrected", "cells"), zip(*kappas, strict=True), strict=True))
     return frame(
         {
+            **settled,
             "curves": [_area_curve(dimension) for dimension in state.dimensions],
             "window": WINDOW_AREA,
             "kappas": {name: _kappa_columns(laws) for name, laws in named.items()},

@@ -6,7 +6,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from roughline.lab.controls import VERSION, Choice, Control, ControlError, refuse_strange
+from roughline.errors.checks import shown
+from roughline.lab.controls import (
+    VERSION,
+    Choice,
+    Control,
+    ControlError,
+    Texts,
+    as_text,
+    refuse_strange,
+)
 from roughline.lab.published import controls as c
 
 Window = tuple[float, float]
@@ -53,7 +62,7 @@ class PublishedState:
             c.PUNCH.key: self.punch,
         }
         return said | {
-            **{key: f"{value:.6g}" for key, value in self.numbers().items()},
+            **{key: as_text(value) for key, value in self.numbers().items()},
             c.ROLL_OFF.key: f"{self.roll_off:g}",
             c.CLAIMS.key: self.claims,
         }
@@ -72,7 +81,7 @@ class PublishedState:
         }
 
 
-def state_of(said: Mapping[str, str]) -> PublishedState:
+def state_of(said: Texts) -> PublishedState:
     """Read the parameters of an address, or the texts of the controls.
 
     Parameters
@@ -100,22 +109,22 @@ def state_of(said: Mapping[str, str]) -> PublishedState:
     )
 
 
-def _number(said: Mapping[str, str], control: Control) -> float:
+def _number(said: Texts, control: Control) -> float:
     return control.read(said.get(control.key, str(control.default)))
 
 
-def _choice(said: Mapping[str, str], choice: Choice) -> str:
+def _choice(said: Texts, choice: Choice) -> str:
     return choice.read(said.get(choice.key, choice.default))
 
 
-def _window(said: Mapping[str, str], model: str) -> Window:
+def _window(said: Texts, model: str) -> Window:
     low, high = c.WINDOWS[model]
     window = _number(said, low), _number(said, high)
     if not window[0] < window[1]:
         raise ControlError(
             f"the window of the {model} model begins at F̄ = {window[0]:.4g} and ends at "
             f"{window[1]:.4g}: its end must be the larger one",
-            high.key,
+            *(high.key, low.key),
         )
     return window
 
@@ -127,6 +136,6 @@ def _dimensions(text: str | None) -> tuple[float, ...]:
     chosen = [word for word in text.split(",") if word]
     strange = [word for word in chosen if word not in known]
     if strange or not chosen:
-        said = f'D_f is "{strange[0][:40]}"' if strange else "no fractal dimension is chosen"
+        said = f"D_f is {shown(strange[0])}" if strange else "no fractal dimension is chosen"
         raise ControlError(f"{said}; choose one or more of {', '.join(known)}", c.DIMENSIONS_KEY)
     return tuple(sorted({known[word] for word in chosen}))

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from roughline.contact import scaling
-from roughline.lab.controls import texts_of
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
 from roughline.lab.published.ensembles import (
@@ -17,8 +16,9 @@ from roughline.lab.published.ensembles import (
     model_of,
     punch_of,
     unresolved_in_window,
+    usable_state,
 )
-from roughline.lab.published.state import PublishedState, state_of
+from roughline.lab.published.state import PublishedState
 from roughline.paper.claim import by_dimension
 from roughline.paper.exponents import exponent_estimate, prefactor_estimate
 from roughline.paper.stated import (
@@ -41,11 +41,10 @@ Arguments = Mapping[str, Any]
 
 def curves(arguments: Arguments, progress: Progress) -> bytes:
     """Mean stiffness over force of both models, for the chosen fractal dimensions."""
-    state = state_of(texts_of(arguments))
+    state, settled = usable_state(arguments)
     return frame(
         {
-            "state": state.address(),
-            "numbers": state.numbers(),
+            **settled,
             "models": {model: _curves(state, model_of(model)) for model in c.MODELS},
         }
     )
@@ -53,15 +52,14 @@ def curves(arguments: Arguments, progress: Progress) -> bytes:
 
 def fits(arguments: Arguments, progress: Progress) -> bytes:
     """The power laws of one model in its window, with what the paper states beside them."""
-    state = state_of(texts_of(arguments))
+    state, settled = usable_state(arguments)
     model = model_of(arguments.get("model"))
     laws = {dimension: law_of(state, model, dimension) for dimension in state.dimensions}
     low, high = state.windows[model]
     header, rows = _rows(state, model, laws)
     return frame(
         {
-            "state": state.address(),
-            "numbers": state.numbers(),
+            **settled,
             "model": model,
             "window": [low, high],
             "laws": [_law(dimension, law) for dimension, law in laws.items()],

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.comparison.trust import Difference, TrustMap, trust_map
-from roughline.lab.controls import texts_of
 from roughline.lab.frames import frame
-from roughline.lab.published.state import PublishedState, state_of
+from roughline.lab.published.ensembles import usable_state
+from roughline.lab.published.state import PublishedState
 from roughline.paper.trust_page import trust_cell
 from roughline.server.tasks import Progress
 from roughline.units import decimal
@@ -46,12 +46,11 @@ def trust(arguments: Arguments, progress: Progress) -> bytes:
 
 def point(arguments: Arguments, progress: Progress) -> bytes:
     """What a point of the map says, in one sentence."""
-    state = state_of(texts_of(arguments))
+    state, settled = usable_state(arguments)
     difference = trust_map().at(state.map_D_f, state.map_F, state.roll_off)
     return frame(
         {
-            "state": state.address(),
-            "numbers": state.numbers(),
+            **settled,
             "sentence": sentence(state, difference),
             "verdict": str(difference.verdict(state.tolerance)),
             "difference": vars(difference),
