@@ -232,19 +232,27 @@ def test_the_address_holds_all_that_is_chosen():
     assert state.state_of(default.address()) == default
 
 
+@pytest.mark.parametrize(("said", "words"), [({"v": "2"}, "version 1"), ({"seed": "3"}, '"seed"')])
+def test_an_address_of_another_version_is_refused_in_one_sentence(said, words):
+    found = outcome("fits", said, model="3D")
+    assert found.answer is None
+    assert found.at == "v"
+    assert words in found.error
+    assert "\n" not in found.error
+
+
 @pytest.mark.parametrize(
     ("said", "at", "words"),
     [
-        ({"v": "2"}, "v", "reads version 1"),
-        ({"seed": "3"}, "v", 'the link sets "seed"'),
         ({"D_f": "2.3"}, "D_f", "choose one or more of 2, 2.2"),
         ({"D_f": ","}, "D_f", "no fractal dimension is chosen"),
         ({"mean": "median"}, "mean", "allowed are arithmetic, geometric"),
         ({"punch": "2"}, "punch", "allowed are paper, exact, raw"),
         ({"low_1D": "0,1"}, "low_1D", "no commas"),
         ({"low_1D": "1e-9"}, "low_1D", "from 1e-05 to 10"),
-        ({"low_3D": "0.2"}, "high_3D", "its end must be the larger one"),
-        ({"low_3D": "0.09"}, "high_3D", "widen it"),
+        ({"low_3D": "0.2"}, "low_3D", "its end must be the larger one"),
+        ({"low_3D": "0.09"}, "low_3D", "widen it"),
+        ({"low_3D": "0.001", "high_3D": "0.0011"}, "high_3D", "widen it"),
         ({"tolerance": "nan"}, "tolerance", "from 0.01 to 0.5"),
         ({"roll_off": "3"}, "roll_off", "allowed are 1, 2, 4, 8, 16"),
         ({"map_D_f": "4"}, "map_D_f", "from 2 to 3"),
@@ -252,12 +260,14 @@ def test_the_address_holds_all_that_is_chosen():
         ({"claims": "some"}, "claims", "allowed are all"),
     ],
 )
-def test_what_cannot_be_used_is_one_sentence_at_its_control(said, at, words):
-    found = outcome("fits", said, model="3D")
-    assert found.answer is None
-    assert found.at == at
-    assert words in found.error
-    assert "\n" not in found.error
+def test_what_cannot_be_used_is_one_sentence_at_its_control_and_the_others_count(said, at, words):
+    answer = ask("fits", {"mean": "geometric", **said}, before={"low_3D": "0.001"}, model="3D")
+    assert list(answer["refused"]) == [at]
+    assert words in answer["refused"][at]
+    assert answer["refused"][at].endswith("is used meanwhile")
+    assert "\n" not in answer["refused"][at]
+    if at != "mean":
+        assert "geometric mean" in answer["note"]
 
 
 @pytest.mark.parametrize("row", [-1, 4, "1", None, 1.0, [0]])

@@ -226,7 +226,7 @@ def usable(
     Raises
     ------
     ControlError
-        If what is wrong is not the text of a control.
+        If what is wrong is the whole address, or not the text of a control.
     """
     said = texts_of(arguments)
     before = texts_of(arguments, "before") if "before" in arguments else {}
@@ -242,7 +242,7 @@ def usable(
         except ControlError as error:
             wrong = [key for key in changed if key in error.among and key not in refused]
             wrong += [key for key in error.among if key in texts]
-            if not wrong:
+            if error.at == "v" or not wrong:
                 raise
             _replace(texts, wrong[0], {} if wrong[0] in refused else before)
             refused.setdefault(wrong[0], str(error))

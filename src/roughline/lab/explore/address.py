@@ -26,7 +26,7 @@ from roughline.units import engineering, in_si, load_in_newtons
 
 _HURST = re.compile(r"\s*H\s*=(?P<hurst>.*)")
 _OF_THE_SURFACE = ("D_f", "roll_off", "cutoff", "rms", "h", "slope", "seed", "n")
-_SIDES, _MODULI = (1e-12, 1e6), (1.0, 1e15)  # that are allowed [m], [Pa]
+_SIDES, _MODULI = (1e-12, 1e3), (1.0, 1e14)  # that are allowed [m], [Pa]
 
 
 def usable_state(arguments: Mapping[str, Any]) -> tuple[ExploreState, dict[str, str]]:

@@ -1,10 +1,10 @@
 // Sliders, their text fields and choices of one view, and the texts that they stand for.
 import {letScroll} from "./hands.js";
 
-const STEPS = 1000; // of a slider on a logarithmic scale
-
 export class Controls {
   #root; #changed; #said = {}; #defaults = {};
+  #used = {}; // texts that the server used last
+  #refused = new Set(); // keys of those that it does not use
 
   // changed(key, isFinal) is called when something is set; isFinal is false while a slider moves.
   constructor(root, changed) {
@@ -31,58 +31,97 @@ export class Controls {
     for (const text of root.querySelectorAll("input[data-text]")) this.#defaults[text.dataset.text] = text.value;
   }
 
-  // Texts by key: what the server reads.
+  // Texts by key, as they were set.
   get said() { return {...this.#said}; }
 
+  // What the server is asked with: all texts, and those that count where one of them cannot be used.
+  get asked() { return {state: this.said, before: {...this.#used}}; }
+
+  // Texts that count.
+  get used() {
+    const others = Object.entries(this.#said).filter(([key]) => !this.#refused.has(key));
+    const before = Object.entries(this.#used).filter(([key]) => this.#refused.has(key));
+    return Object.fromEntries([...others, ...before]);
+  }
+
   set(key, text, isFinal = true) {
-    this.#said[key] = text;
-    this.refuse(key, "");
+    const {[key]: _, ...others} = this.#said;
+    this.#said = {...others, [key]: text}; // the server takes the last one for that which was changed
     this.#changed(key, isFinal);
+  }
+
+  // Set a text, and show it at its control.
+  put(key, text, isFinal = true) {
+    this.#show(key, text);
+    this.set(key, text, isFinal);
   }
 
   // Take texts from an address, without telling anyone; what it does not say has its default.
   take(said) {
     this.#said = {...said};
+    for (const key of Object.keys(this.#used)) if (!(key in said)) delete this.#used[key];
     for (const [key, text] of Object.entries({...this.#defaults, ...said})) this.#show(key, text);
   }
 
-  // Show where numbers stand after the server has read their texts.
-  showNumbers(numbers) {
-    for (const [key, value] of Object.entries(numbers)) {
+  // Take an answer of the server: why it does not use some of the texts that it was asked with. It is about
+  // `keys`, or about all controls. Gives the sentences that cannot be seen at a control.
+  answered({state}, refused, keys = this.#keys) {
+    const elsewhere = [];
+    for (const key of new Set([...keys, ...Object.keys(refused)])) {
+      if (!(key in refused)) {
+        if (key in state) this.#used[key] = state[key];
+        else delete this.#used[key];
+      }
+      if (state[key] !== this.#said[key]) continue; // it has changed since
+      if (key in refused) this.#refused.add(key);
+      else this.#refused.delete(key);
+      if (!this.refuse(key, refused[key] ?? "")) elsewhere.push(refused[key]);
+    }
+    return elsewhere.join(" ");
+  }
+
+  get #keys() {
+    const places = [...this.#root.querySelectorAll("[data-error]")].map(({dataset}) => dataset.error);
+    return [...places.filter(Boolean), ...Object.keys(this.#said)];
+  }
+
+  // Show the numbers that the server used, and the lower ends of sliders that have others now.
+  showNumbers(numbers, lows = {}) {
+    for (const [key, low] of Object.entries(lows)) {
       const slider = this.#slider(key);
+      if (Number(slider.dataset.low) === low) continue;
+      slider.dataset.low = low;
+      span(slider);
+    }
+    for (const [key, value] of Object.entries(numbers)) {
+      if (this.#refused.has(key)) continue;
+      const slider = this.#slider(key), text = this.#text(key);
       if (slider && document.activeElement !== slider) place(slider, value);
-      const text = this.#text(key);
-      const hasUnit = Number.isNaN(Number(this.#said[key] ?? value)); // stays as it was typed
-      if (text && document.activeElement !== text && !hasUnit) text.value = said(value);
+      if (text && document.activeElement !== text) this.#showNumber(key, text, value);
+      if (!slider && !text) this.#show(key, String(value));
     }
   }
 
   // Write a sentence beside a control; an empty one takes it away. Tells whether it can be seen there.
   refuse(key, sentence) {
     const place = this.#root.querySelector(`[data-error="${CSS.escape(key)}"]`);
-    if (!place) return false;
-    if (place.textContent === sentence) return true;
-    place.textContent = sentence;
+    if (!place) return !sentence;
+    if (place.textContent !== sentence) place.textContent = sentence;
     this.#text(key)?.setAttribute("aria-invalid", String(sentence !== ""));
     return sentence === "" || place.parentElement.checkVisibility();
   }
 
-  // Take all sentences away: all that is set was used.
-  accept() {
-    for (const {dataset} of this.#root.querySelectorAll("[data-error]")) this.refuse(dataset.error, "");
-  }
-
   #bindSlider(slider) {
-    const {low, high, scale, step, key} = slider.dataset;
-    const whole = scale === "whole", linear = scale === "linear" || whole;
-    Object.assign(slider, linear ? {min: low, max: high, step} : {min: 0, max: STEPS, step: STEPS * step / Math.log10(high / low)});
+    const {key} = slider.dataset;
+    span(slider);
     place(slider, Number(slider.dataset.default));
     this.#text(key).value = said(Number(slider.dataset.default));
     const moved = (isFinal) => {
-      const text = said(number(slider));
+      const isDefault = Number(slider.value) === position(slider, Number(slider.dataset.default));
+      const text = said(isDefault ? Math.max(slider.dataset.default, slider.dataset.low) : number(slider));
       this.#text(key).value = text;
       slider.setAttribute("aria-valuetext", text);
-      this.set(key, text, isFinal);
+      this.set(key, isDefault ? slider.dataset.default : text, isFinal);
     };
     letScroll(slider);
     let byPointer = false; // a key that is pressed again and again rests between
@@ -90,6 +129,9 @@ export class Controls {
     slider.addEventListener("keydown", () => { byPointer = false; });
     slider.addEventListener("input", () => moved(false));
     slider.addEventListener("change", () => { if (byPointer) moved(true); });
+    for (const place of [slider, ...this.#text(key).labels]) { // a double click brings the default back
+      place.addEventListener("dblclick", () => this.put(key, slider.dataset.default));
+    }
   }
 
   #typed(key, text) {
@@ -108,6 +150,12 @@ export class Controls {
     if (slider && text && Number.isFinite(Number(text))) place(slider, Number(text));
   }
 
+  // A number in a text field, unless what was typed there says the same already.
+  #showNumber(key, text, value) {
+    const typed = Number(this.#said[key] || NaN), hasUnit = Boolean(this.#said[key]) && Number.isNaN(typed);
+    if (!hasUnit && typed !== value) text.value = Number.isInteger(value) ? String(value) : said(value);
+  }
+
   #slider(key) { return this.#root.querySelector(`input[type="range"][data-key="${CSS.escape(key)}"]`); }
   #text(key) { return this.#root.querySelector(`input[data-text="${CSS.escape(key)}"]`); }
 }
@@ -123,12 +171,21 @@ function place(slider, value) {
   slider.setAttribute("aria-valuetext", said(value));
 }
 
+// Steps of a slider; on a logarithmic scale as many as lie between its ends, each as near to its own step as can be.
+function span(slider) {
+  const {low, high, scale, step} = slider.dataset;
+  const isLinear = scale === "linear";
+  Object.assign(slider, isLinear ? {min: low, max: high, step} : {min: 0, max: Math.round(Math.log10(high / low) / step), step: 1});
+}
+
 function position(slider, value) {
   const {low, high, scale} = slider.dataset;
-  return scale === "logarithmic" ? (STEPS * Math.log(value / low)) / Math.log(high / low) : value;
+  if (scale === "linear") return value;
+  const share = Math.log(value / low) / Math.log(high / low);
+  return Math.round(slider.max * Math.min(Math.max(share, 0), 1));
 }
 
 function number(slider) {
   const {low, high, scale} = slider.dataset;
-  return scale === "logarithmic" ? low * (high / low) ** (slider.value / STEPS) : Number(slider.value);
+  return scale === "linear" ? Number(slider.value) : low * (high / low) ** (slider.value / slider.max);
 }

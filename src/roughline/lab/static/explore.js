@@ -1,5 +1,5 @@
 // Explore: a random surface under both models, as sliders move.
-import {Controls} from "./controls.js";
+import {Controls, said} from "./controls.js";
 import {onDraw} from "./hands.js";
 import {embedded, fillTable, markKeys} from "./plots.js";
 import {Strip} from "./strip.js";
@@ -35,7 +35,7 @@ class Explore {
     this.#address = address;
     this.#controls = new Controls(this.#root, (key, isFinal) => this.#changed(key, isFinal));
     this.#waiting = new Waiting(this.#root.querySelector(".status"), (works) => this.#cancel(works));
-    new TakeAlong(this.#root, link, () => this.#arguments(), this.#waiting, (...said) => this.#refuse(...said));
+    new TakeAlong(this.#root, link, () => ({state: this.#controls.used}), this.#waiting, (...said) => this.#refuse(...said));
     this.#strip = new Strip(this.#root.querySelector(".strip"), STRIP);
     this.#bindButtons();
   }
@@ -71,8 +71,7 @@ class Explore {
 
   #changed(key, isFinal) {
     if (key === "shown") {
-      if (this.#last) this.#drawField(this.#last);
-      this.#writeAddress();
+      if (this.#last) { this.#drawField(this.#last); this.#writeAddress(this.#last.state); }
       return;
     }
     this.#ofLink = "";
@@ -99,29 +98,27 @@ class Explore {
     this.#say(`stopped: ${works.map((work) => left[work]).join(", and ")}`, true);
   }
 
-  #arguments() { return {state: this.#controls.said}; }
-
   #askNow() {
-    const turn = ++this.#turn, args = this.#arguments();
+    const turn = ++this.#turn, args = this.#controls.asked;
     const error = (sentence, at) => this.#refuse(sentence, at, turn);
     this.#link.stop("finer lines");
     this.#link.ask("explore.reduced", "reduced", args, {
       answer: (header) => {
-        this.#draw(() => this.#drawLine(header, turn));
+        this.#draw(() => this.#drawLine(header, args, turn));
         if (header.is_coarse && turn === this.#turn) { // many ask at once
           this.#link.ask("explore.reduced", "finer lines", {...args, refines: true}, {
-            answer: (finer) => this.#draw(() => this.#drawLine(finer, turn))});
+            answer: (finer) => this.#draw(() => this.#drawLine(finer, args, turn))});
         }
       },
       error,
     });
-    this.#link.ask("explore.coarse", "coarse", this.#arguments(), {
-      answer: (header) => this.#draw(() => this.#drawContact(header, turn)), error});
+    this.#link.ask("explore.coarse", "coarse", args, {
+      answer: (header) => this.#draw(() => this.#drawContact(header, args, turn)), error});
   }
 
   #sharpen(refines = false) {
     if (!this.#plots) return;
-    const turn = this.#turn, args = {...this.#arguments(), refines};
+    const turn = this.#turn, args = {...this.#controls.asked, refines};
     const progress = (message) => this.#waiting.progress(message);
     const error = (sentence, at) => {
       if (turn === this.#turn) this.#stop(["full", "curve", "back"]);
@@ -130,14 +127,14 @@ class Explore {
     this.#waiting.begin("full");
     this.#link.ask("explore.full", "full", args, {
       answer: (header) => {
-        this.#drawContact(header, turn);
+        this.#drawContact(header, args, turn);
         if (header.is_coarse && !refines) { this.#sharpen(true); return; } // many ask at once
         if (this.#stale) {
           this.#waiting.begin("curve");
           this.#link.ask("explore.curve", "curve", {...args, refines: true}, {
             answer: (curve) => { this.#waiting.end("curve"); this.#drawCurve(curve); }, error, progress});
         }
-        if (this.#controls.said.hardness_bar) {
+        if (header.state.hardness_bar) {
           this.#waiting.begin("back");
           this.#link.ask("explore.unloading", "back", args, {
             answer: (back) => { this.#waiting.end("back"); this.#drawWayBack(back); }, error, progress});
@@ -149,18 +146,19 @@ class Explore {
     });
   }
 
-  #drawLine({state, numbers, line, table, strip}, turn) {
-    this.#settled(state, numbers, turn);
+  #drawLine(header, asked, turn) {
+    const {numbers, line, table, strip} = header;
+    this.#settled(header, asked, turn);
     this.#plots.shows("explore-stiffness", {what: "line", numbers});
     this.#plots.set("stiffness line", {x: line.force_bar, y: line.stiffness_bar, low: line.low, high: line.high});
     this.#strip.add(strip);
     this.#lineTable = table;
   }
 
-  #drawContact(header, turn) {
+  #drawContact(header, asked, turn) {
     if (header.is_coarse && this.#last && !this.#last.is_coarse && sameState(this.#last.state, header.state)) return;
     this.#last = header;
-    this.#settled(header.state, header.numbers, turn);
+    this.#settled(header, asked, turn);
     const what = {what: "contact", points: header.points, numbers: header.numbers};
     for (const plot of ["explore-topography", "explore-contact"]) this.#plots.shows(plot, what);
     this.#plots.setMap("topography", header.arrays.topography, [1, 1], header.heights);
@@ -274,17 +272,17 @@ class Explore {
   #stopped = null; // turn whose finer answer was cancelled
   #turn = 0; // of the questions: controls and cursor follow the answer to the newest alone
 
-  #settled(state, numbers, turn = this.#turn) {
+  #settled({state, numbers, lows, refused}, asked, turn) {
     if (turn !== this.#turn) return;
+    const elsewhere = this.#controls.answered(asked, refused);
+    this.#controls.refuse("", [this.#ofLink, elsewhere].filter(Boolean).join(" "));
     this.#cursorTo(numbers.F);
-    this.#controls.showNumbers(numbers);
-    this.#controls.accept();
-    this.#controls.refuse("", this.#ofLink);
-    this.#address.write("explore", {...state, ...(this.#controls.said.shown ? {shown: this.#controls.said.shown} : {})});
+    this.#controls.showNumbers(numbers, lows);
+    this.#writeAddress(state);
   }
 
-  #writeAddress() {
-    if (this.#last) this.#settled(this.#last.state, this.#last.numbers);
+  #writeAddress(state) {
+    this.#address.write("explore", {...state, ...(this.#controls.said.shown ? {shown: this.#controls.said.shown} : {})});
   }
 
   #cursorTo(force) {
@@ -296,8 +294,7 @@ class Explore {
   #cursorMoved(force) {
     if (this.#fromCursor) return;
     const limited = Math.min(10, Math.max(1e-4, force));
-    this.#controls.take({...this.#controls.said, F: String(Number(limited.toPrecision(4)))});
-    this.#changed("F", false);
+    this.#controls.put("F", said(limited), false);
   }
 
   #refuse(sentence, at, turn = this.#turn) {
@@ -341,8 +338,7 @@ class Explore {
   #bindButtons() {
     const find = (selector) => this.#root.querySelector(selector);
     find("#another").addEventListener("click", () => {
-      this.#controls.take({...this.#controls.said, seed: String(Math.floor(Math.random() * 1e6))});
-      this.#changed("seed", true);
+      this.#controls.put("seed", String(Math.floor(Math.random() * 1e6)));
     });
     find("#explore-yields").addEventListener("change", ({target}) => {
       const slider = find("#explore-hardness_bar");

@@ -41,7 +41,6 @@ class Published {
   async open(said) {
     const {view, ...texts} = said;
     this.#take(texts);
-    this.#linked = texts;
     this.#askAll();
     await Promise.race([this.#numbers, new Promise((resolve) => setTimeout(resolve, LATEST))]);
     this.#plots = await embedded("published");
@@ -71,8 +70,8 @@ class Published {
   #askFits(model) {
     this.#ask("fits", `fits ${model}`, {model}, (header) => {
       this.#got.fits[model] = header;
-      this.#settled(header, EDGES[model]);
-      this.#root.querySelector(`[data-fit-error="${model}"]`).textContent = "";
+      this.#root.querySelector(`[data-fit-error="${model}"]`).textContent =
+        EDGES[model].map((key) => header.refused[key]).filter(Boolean).join(" ");
       this.#showStrip();
       if (Object.keys(this.#got.fits).length === MODELS.length) this.#firstNumbers();
       if (this.#plots) this.#drawFits(model);
@@ -84,7 +83,6 @@ class Published {
   #askCurves() {
     this.#ask("curves", "curves", {}, (header) => {
       this.#got.curves = header;
-      this.#settled(header, ["D_f", "mean", "punch"]);
       this.#drawCurves();
     });
   }
@@ -92,7 +90,6 @@ class Published {
   #askPoint() {
     this.#ask("point", "point", {}, (header) => {
       this.#got.point = header;
-      this.#settled(header, OF_THE_POINT);
       this.#drawPoint();
     });
   }
@@ -115,16 +112,20 @@ class Published {
       return;
     }
     const ended = () => { if (this.#later.delete(slot)) this.#again.get(slot)(); };
-    this.#link.ask(`published.${task}`, slot, {state: this.#controls.said, ...more}, {
-      answer: (header) => { answer(header); ended(); },
+    const asked = this.#controls.asked;
+    this.#link.ask(`published.${task}`, slot, {...asked, ...more}, {
+      answer: (header) => {
+        if (header.refused) this.#settled(header, asked);
+        answer(header);
+        ended();
+      },
       error: (sentence, at) => { failed?.(sentence); this.#refuse(sentence, at); ended(); },
     });
   }
   #again = new Map();
 
   #changed(key) {
-    this.#controls.refuse("", "");
-    this.#linked = {};
+    this.#ofLink = "";
     const model = MODELS.find((each) => EDGES[each].includes(key));
     if (model) this.#askFits(model);
     else if (OF_THE_POINT.includes(key)) this.#askPoint();
@@ -136,27 +137,27 @@ class Published {
     }
   }
 
-  #settled({state, numbers}, keys) {
+  #settled({state, numbers, refused}, asked) {
+    const elsewhere = this.#controls.answered(asked, refused);
+    this.#controls.refuse("", [this.#ofLink, elsewhere].filter(Boolean).join(" "));
     this.#controls.showNumbers(numbers);
-    for (const key of keys) this.#controls.refuse(key, "");
-    this.#state = {...state, claims: this.#controls.said.claims ?? state.claims};
+    this.#state = {...state, claims: this.#claims};
     if (!this.#root.hidden) this.#address.write("published", this.#state);
   }
 
-  // Put a sentence at its control. What a link sets wrongly is then left at its default.
+  get #claims() { return this.#controls.used.claims ?? "all"; }
+
+  #ofLink = ""; // why the link that was opened is not shown
+
+  // Put a sentence at its control; the defaults take the place of a link that cannot be read.
   #refuse(sentence, at) {
-    const model = MODELS.find((each) => EDGES[each].includes(at));
-    const wrong = at === "v" ? Object.keys(this.#linked) : (model ? EDGES[model] : [at]).filter((key) => key in this.#linked);
-    if (wrong.length) {
-      const left = Object.entries(this.#controls.said).filter(([key]) => !wrong.includes(key));
-      this.#linked = Object.fromEntries(Object.entries(this.#linked).filter(([key]) => !wrong.includes(key)));
-      this.#take(Object.fromEntries(left));
+    if (at === "v") {
+      if (this.#ofLink) return;
+      this.#ofLink = sentence;
+      this.#take({});
       this.#askAll();
-    }
-    if (model && !wrong.length) this.#root.querySelector(`[data-fit-error="${model}"]`).textContent = sentence;
-    if (!this.#controls.refuse(at, sentence) || wrong.length) this.#controls.refuse("", sentence);
+    } else if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
   }
-  #linked = {}; // what the link sets, until something is changed
 
   #take(texts) {
     this.#controls.take(texts);
@@ -206,7 +207,7 @@ class Published {
   }
 
   #showClaims() {
-    const wanted = this.#controls.said.claims ?? "all";
+    const wanted = this.#claims;
     if (this.#got.claims) showClaims(this.#got.claims, wanted);
     if (Object.keys(this.#state).length) {
       this.#state = {...this.#state, claims: wanted};
@@ -278,7 +279,6 @@ class Published {
       for (const key of Object.values(EDGES).flat()) {
         const {default: value} = this.#root.querySelector(`input[type="range"][data-key="${key}"]`).dataset;
         this.#controls.take({...this.#controls.said, [key]: asText(Number(value))});
-        this.#controls.refuse(key, "");
       }
       for (const model of MODELS) this.#askFits(model);
     });
