@@ -134,18 +134,6 @@ def test_the_claims_are_shown_by_verdict(paper):
     paper.check('#published [data-key="claims"][value="all"]')
 
 
-def test_what_cannot_be_used_is_said_there(paper):
-    field = paper.locator("#published-low_3D-text")
-    before = field.input_value()
-    for text, words in (("soon", "from 0.001 to 10"), ("9", "its end must be the larger one")):
-        field.fill(text)
-        field.press("Tab")
-        paper.locator("#published .error", has_text=words).first.wait_for()
-    field.fill(before)
-    field.press("Tab")
-    paper.wait_for_selector('#published [data-error="low_3D"]:empty', state="attached")
-
-
 def test_everything_has_a_name(paper):
     assert asked(paper, "nameless", "published") == []
     assert asked(paper, "undescribed", "published") == []

@@ -209,8 +209,8 @@ def usable(
     Parameters
     ----------
     arguments : mapping
-        Of a task: "state" has the texts, those changed last at its end, and "before", where it is
-        given, those that were used last.
+        Of a task: "state" has the texts, those changed last at its end, "before" those that were
+        used last, and "red" the keys of those that were refused last, where there are any.
     read : callable
         Reads texts, or raises the first ControlError.
     told : callable
@@ -231,7 +231,11 @@ def usable(
     said = texts_of(arguments)
     before = texts_of(arguments, "before") if "before" in arguments else {}
     texts, refused = dict(said), {}
+    red = arguments.get("red")
+    red = red if isinstance(red, list) else []
     changed = [key for key in said if said[key] != before.get(key)]
+    changed.sort(key=lambda key: key in red)
+    changed.reverse()  # what is red already, then what was changed last
     for key in changed:
         if len(said[key]) > MOST_CHARACTERS:
             refused[key] = f"this text has {len(said[key])} characters; give a shorter one"

@@ -36,8 +36,8 @@ CUTOFF = Control(
     0.5,
     1 / 512,
     "logarithmic",
-    "Length of the shortest wave. Relative to the side of the surface, or with a unit; a grid "
-    "carries no waves shorter than two of its spacings.",
+    "Length of the shortest wave. Relative to the side of the surface, or with a unit; n points "
+    "along a side carry no waves shorter than 2/n, which is the default of each grid.",
     0.02,
 )
 HEIGHT = Control(

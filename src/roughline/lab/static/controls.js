@@ -34,8 +34,8 @@ export class Controls {
   // Texts by key, as they were set.
   get said() { return {...this.#said}; }
 
-  // What the server is asked with: all texts, and those that count where one of them cannot be used.
-  get asked() { return {state: this.said, before: {...this.#used}}; }
+  // What the server is asked with: all texts, those that count where one cannot be used, and which are red.
+  get asked() { return {state: this.said, before: {...this.#used}, red: [...this.#refused]}; }
 
   // Texts that count.
   get used() {
@@ -46,7 +46,8 @@ export class Controls {
 
   set(key, text, isFinal = true) {
     const {[key]: _, ...others} = this.#said;
-    this.#said = {...others, [key]: text}; // the server takes the last one for that which was changed
+    this.#said = {...others, [key]: text}; // what was changed last is at the end
+    this.#refused.delete(key);
     this.#changed(key, isFinal);
   }
 
@@ -63,30 +64,22 @@ export class Controls {
     for (const [key, text] of Object.entries({...this.#defaults, ...said})) this.#show(key, text);
   }
 
-  // Take an answer of the server: why it does not use some of the texts that it was asked with. It is about
-  // `keys`, or about all controls. Gives the sentences that cannot be seen at a control.
-  answered({state}, refused, keys = this.#keys) {
+  // Take an answer of the server to what it was asked: which texts it does not use and why, the numbers that it
+  // used, and the lower ends of sliders that have others now. It is about `keys`, or about all controls.
+  // Gives the sentences that cannot be seen at a control.
+  answered({state}, {refused, numbers = {}, lows = {}}, keys = this.#keys) {
+    const isAsAsked = (key) => state[key] === this.#said[key]; // or it has changed since
     const elsewhere = [];
     for (const key of new Set([...keys, ...Object.keys(refused)])) {
       if (!(key in refused)) {
         if (key in state) this.#used[key] = state[key];
         else delete this.#used[key];
       }
-      if (state[key] !== this.#said[key]) continue; // it has changed since
+      if (!isAsAsked(key)) continue;
       if (key in refused) this.#refused.add(key);
       else this.#refused.delete(key);
       if (!this.refuse(key, refused[key] ?? "")) elsewhere.push(refused[key]);
     }
-    return elsewhere.join(" ");
-  }
-
-  get #keys() {
-    const places = [...this.#root.querySelectorAll("[data-error]")].map(({dataset}) => dataset.error);
-    return [...places.filter(Boolean), ...Object.keys(this.#said)];
-  }
-
-  // Show the numbers that the server used, and the lower ends of sliders that have others now.
-  showNumbers(numbers, lows = {}) {
     for (const [key, low] of Object.entries(lows)) {
       const slider = this.#slider(key);
       if (Number(slider.dataset.low) === low) continue;
@@ -94,12 +87,14 @@ export class Controls {
       span(slider);
     }
     for (const [key, value] of Object.entries(numbers)) {
-      if (this.#refused.has(key)) continue;
-      const slider = this.#slider(key), text = this.#text(key);
-      if (slider && document.activeElement !== slider) place(slider, value);
-      if (text && document.activeElement !== text) this.#showNumber(key, text, value);
-      if (!slider && !text) this.#show(key, String(value));
+      if (!(key in refused) && isAsAsked(key)) this.#showNumber(key, value);
     }
+    return elsewhere.join(" ");
+  }
+
+  get #keys() {
+    const places = [...this.#root.querySelectorAll("[data-error]")].map(({dataset}) => dataset.error);
+    return [...places.filter(Boolean), ...Object.keys(this.#said)];
   }
 
   // Write a sentence beside a control; an empty one takes it away. Tells whether it can be seen there.
@@ -150,10 +145,14 @@ export class Controls {
     if (slider && text && Number.isFinite(Number(text))) place(slider, Number(text));
   }
 
-  // A number in a text field, unless what was typed there says the same already.
-  #showNumber(key, text, value) {
-    const typed = Number(this.#said[key] || NaN), hasUnit = Boolean(this.#said[key]) && Number.isNaN(typed);
-    if (!hasUnit && typed !== value) text.value = Number.isInteger(value) ? String(value) : said(value);
+  // Show a number that is used, unless what was typed says the same already.
+  #showNumber(key, value) {
+    const slider = this.#slider(key), field = this.#text(key);
+    if (!slider && !field) { this.#show(key, String(value)); return; }
+    if (slider && document.activeElement !== slider) place(slider, value);
+    const typed = this.#said[key], isWithUnit = Boolean(typed) && Number.isNaN(Number(typed));
+    if (document.activeElement === field || isWithUnit || (typed && Number(typed) === value)) return;
+    field.value = Number.isInteger(value) ? String(value) : said(value);
   }
 
   #slider(key) { return this.#root.querySelector(`input[type="range"][data-key="${CSS.escape(key)}"]`); }

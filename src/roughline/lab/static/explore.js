@@ -272,13 +272,12 @@ class Explore {
   #stopped = null; // turn whose finer answer was cancelled
   #turn = 0; // of the questions: controls and cursor follow the answer to the newest alone
 
-  #settled({state, numbers, lows, refused}, asked, turn) {
+  #settled(header, asked, turn) {
     if (turn !== this.#turn) return;
-    const elsewhere = this.#controls.answered(asked, refused);
+    const elsewhere = this.#controls.answered(asked, header);
     this.#controls.refuse("", [this.#ofLink, elsewhere].filter(Boolean).join(" "));
-    this.#cursorTo(numbers.F);
-    this.#controls.showNumbers(numbers, lows);
-    this.#writeAddress(state);
+    this.#cursorTo(header.numbers.F);
+    this.#writeAddress(header.state);
   }
 
   #writeAddress(state) {

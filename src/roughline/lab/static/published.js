@@ -137,11 +137,10 @@ class Published {
     }
   }
 
-  #settled({state, numbers, refused}, asked) {
-    const elsewhere = this.#controls.answered(asked, refused);
+  #settled(header, asked) {
+    const elsewhere = this.#controls.answered(asked, header);
     this.#controls.refuse("", [this.#ofLink, elsewhere].filter(Boolean).join(" "));
-    this.#controls.showNumbers(numbers);
-    this.#state = {...state, claims: this.#claims};
+    this.#state = {...header.state, claims: this.#claims};
     if (!this.#root.hidden) this.#address.write("published", this.#state);
   }
 

@@ -1,0 +1,176 @@
+"""Controls of Explore and The paper as a person sets them: dragged, typed, refused, returned."""
+
+import math
+
+import pytest
+
+from lab.explore_driven import address, drawn, sentence, settled, typed
+from roughline.lab.controls import usable
+from roughline.lab.explore import controls as explore
+from roughline.lab.explore.address import state_of as explore_state
+from roughline.lab.published import controls as published
+from roughline.lab.published.state import state_of as published_state
+
+OPENED = "?view=explore&v=1&D_f=2.4&seed=3&n=128"
+SLIDERS = (explore.D_F, explore.ROLL_OFF, explore.CUTOFF, explore.HEIGHT, explore.FORCE)
+
+SAID_AT_EVERY_STEP = """async (view) => {
+  const {Controls} = await import("/lab/controls.js");
+  const root = document.querySelector(view).cloneNode(true), said = {};
+  document.body.append(root);
+  const controls = new Controls(root, (key) => { (said[key] ??= []).push(controls.said[key]); });
+  for (const slider of root.querySelectorAll('input[type="range"]')) {
+    const [low, high, step] = [slider.min, slider.max, slider.step].map(Number);
+    for (let value = low; value < high + step / 2; value += step) {
+      slider.value = value;
+      slider.dispatchEvent(new Event("input"));
+    }
+  }
+  root.remove();
+  return said;
+}"""
+
+
+@pytest.fixture(scope="module")
+def page_of_explore(pages):
+    page = pages.open(OPENED)
+    settled(page, points=128)
+    return page
+
+
+def complaints(page, view="explore"):
+    """Return the red sentences that are seen."""
+    texts = page.locator(f"#{view} .error:visible").all_inner_texts()
+    return [text for text in texts if text]
+
+
+def test_every_text_that_a_slider_writes_is_read(page_of_explore):
+    read = {
+        "explore": (explore, lambda said: explore_state(said, 1024)),
+        "published": (published, published_state),
+    }
+    for view, (controls, state_of) in read.items():
+        known = {each.key: each for each in vars(controls).values() if hasattr(each, "scale")}
+        for key, texts in page_of_explore.evaluate(SAID_AT_EVERY_STEP, f"#{view}").items():
+            control = known[key]
+            numbers = [control.read(text) for text in texts]
+            assert numbers[0] == control.low
+            assert numbers[-1] == control.high
+            assert control.default in numbers
+            assert numbers == sorted(set(numbers))
+            for text in texts[:: len(texts) // 10]:
+                _, refused = usable({"state": {key: text}}, state_of, lambda found: {})
+                assert not refused
+
+
+def dragged(page, slider, share):
+    """Drag a slider with the mouse from where it stands beyond one of its ends."""
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    low, high, value = slider.evaluate("({min, max, value}) => [min, max, value].map(Number)")
+    middle = box["y"] + box["height"] / 2
+    at = box["x"] + 8 + (box["width"] - 16) * (value - low) / (high - low)
+    page.mouse.move(at, middle)
+    page.mouse.down()
+    page.mouse.move(box["x"] + box["width"] * (0.4 + 0.2 * share), middle)
+    page.mouse.move(box["x"] + (box["width"] + 30) * share - 15 * (1 - share), middle)
+    page.mouse.up()
+
+
+@pytest.mark.parametrize("rms", ["height", "slope"])
+def test_every_slider_of_explore_reaches_both_ends_and_its_default(page_of_explore, rms):
+    page = page_of_explore
+    page.check(f'#explore [data-key="rms"][value="{rms}"]')
+    controls = SLIDERS if rms == "height" else (explore.SLOPE, explore.HARDNESS)
+    if rms == "slope":
+        page.check("#explore-yields")
+    for control in controls:
+        slider, key = page.locator(f"#explore-{control.key}"), control.key
+        low = 2 / 128 if key == "cutoff" else control.low  # the grid carries no shorter waves
+        default = max(control.default, low)
+        for share, end in ((0, low), (1, control.high)):
+            dragged(page, slider, share)
+            drawn(page, **{key: end})
+            assert complaints(page) == []
+            shown = float(page.input_value(f"#explore-{key}-text"))
+            assert shown == pytest.approx(end, rel=5e-4)
+        slider.dblclick()
+        drawn(page, **{key: default})
+        for press, end in (("End", control.high), ("Home", low)):
+            slider.press(press)
+            drawn(page, **{key: end})
+        page.locator(f'#explore [data-control="{key}"] label').dblclick()
+        said = drawn(page, **{key: default})
+        assert said[key] == default
+        assert complaints(page) == []
+    settled(page, points=128)
+    if rms == "height":  # what is at its default needs no place in the address
+        assert set(address(page)) <= {"view", "v", "D_f", "seed", "n", "F"}
+
+
+def test_a_control_that_is_refused_leaves_the_others_alive(page_of_explore, pages):
+    page = page_of_explore
+    page.goto(pages.address + OPENED)
+    settled(page, points=128)
+    wrong = {"D_f": "H = 7", "roll_off": "wide", "cutoff": "1,5", "h": "3 GPa", "seed": "<b>1</b>"}
+    wrong |= {"L": "3", "E": "-1 GPa", "F": "😀" * 20}
+    for key, text in wrong.items():
+        typed(page, key, text)
+    for key, text in wrong.items():
+        sentence(page, key).filter(has_text="is used meanwhile").wait_for()
+        assert len(sentence(page, key).inner_text().splitlines()) == 1
+        assert page.input_value(f"#explore-{key}-text") == text
+        assert page.get_attribute(f"#explore-{key}-text", "aria-invalid") == "true"
+    typed(page, "D_f", "2.6")
+    drawn(page, D_f=2.6, F=0.1, cutoff=2 / 128)
+    assert address(page)["D_f"] == "2.6"
+    assert len(complaints(page)) == len(wrong) - 1
+    for key, text in {"h": "1e-6", "F": "0.3", "roll_off": "0.125", "cutoff": "0.2"}.items():
+        typed(page, key, text)
+    sentence(page, "cutoff").filter(has_text="is not shorter than the roll-off").wait_for()
+    assert sentence(page, "roll_off").inner_text() == ""
+    drawn(page, F=0.3, h=1e-6, roll_off=0.125)
+    typed(page, "roll_off", "0.5")  # now the cutoff goes with it
+    drawn(page, cutoff=0.2, roll_off=0.5)
+    assert {key for key in wrong if sentence(page, key).inner_text()} == {"seed", "L", "E"}
+
+
+@pytest.mark.parametrize(
+    "query", ["cutoff=0.00195312&n=64", "h=5e-05&n=64", "H=0.5&n=64", "roll_off=0.03125&n=128"]
+)
+def test_a_link_of_an_older_lab_opens(page_of_explore, pages, query):
+    page_of_explore.goto(f"{pages.address}?view=explore&v=1&seed=7&F=0.1&{query}")
+    drawn(page_of_explore, F=0.1)
+    assert complaints(page_of_explore) == []
+
+
+def test_sliders_and_texts_of_the_paper(pages):
+    page = pages.open("?view=published&tolerance=abc")
+    sentence_at = page.locator('#published [data-error="tolerance"]')
+    sentence_at.filter(has_text="0.1 is used meanwhile").wait_for()
+    typed_at = page.locator("#published-tolerance-text")
+    typed_at.fill("0.2")
+    typed_at.press("Tab")
+    page.wait_for_selector('#published [data-error="tolerance"]:empty', state="attached")
+    page.locator("#published-low_3D-text").fill("9")
+    page.locator("#published-low_3D-text").press("Tab")
+    page.locator('#published [data-error="low_3D"]', has_text="0.01 is used").wait_for()
+    point = page.locator("#published [data-point]")
+    for control in (published.TOLERANCE, published.MAP_DIMENSION, published.MAP_FORCE):
+        slider = page.locator(f"#published-{control.key}")
+        for share, end in ((0, control.low), (1, control.high)):
+            before = point.inner_text()
+            dragged(page, slider, share)
+            shown = float(page.input_value(f"#published-{control.key}-text"))
+            assert math.isclose(shown, end, rel_tol=5e-4)
+            page.wait_for_function(
+                "(text) => document.querySelector('#published [data-point]').innerText !== text",
+                arg=before,
+            )
+        slider.dblclick()
+        assert float(page.input_value(f"#published-{control.key}-text")) == control.default
+    assert complaints(page, "published") == [
+        page.inner_text('#published [data-error="low_3D"]'),
+        page.inner_text('#published [data-fit-error="3D"]'),
+    ]
+    page.context.close()
