@@ -17,6 +17,7 @@ from roughline.lab.measured.state import (
     Arguments,
     at,
     bodies_of,
+    friction_of,
     loads_of,
     said_of,
     yield_and_joint_of,
@@ -33,6 +34,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
     said = said_of(arguments)
     given, others = bodies_of(said), yield_and_joint_of(said)
     loads = loads_of(said)
+    friction_of(said)  # refused when it is typed, not when the body is pressed
     body = _flat(arguments.get("sides"))
     with at("joint_area" if "joint_area" in said else "hardness"):
         question = Question(body or "no file yet", **given, **others, loads=loads)

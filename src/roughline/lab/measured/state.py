@@ -161,10 +161,7 @@ def question_of(said: Said, source: Source) -> Question:
     """
     given = bodies_of(said) | yield_and_joint_of(said)
     loads = loads_of(said)
-    with at("friction"):
-        friction = _number(said.get("friction"), "the coefficient of friction")
-        if friction is not None:
-            checked_friction(friction)
+    friction = friction_of(said)
     with at("frequency"):
         frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None
     needs = next((key for key in _NEEDING if key in said), "")
@@ -230,6 +227,13 @@ def loads_of(said: Said) -> tuple[str, ...]:
         if len(loads) > c.MOST_LOADS:
             raise ControlError(f"{len(loads)} loads; give up to {c.MOST_LOADS}", "loads")
     return loads
+
+
+def friction_of(said: Said) -> float | None:
+    """The coefficient of friction; None if none is given."""
+    with at("friction"):
+        friction = _number(said.get("friction"), "the coefficient of friction")
+        return None if friction is None else checked_friction(friction)
 
 
 def theories_of(said: Said) -> tuple[str, ...]:

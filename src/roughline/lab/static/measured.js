@@ -12,7 +12,7 @@ const DEFAULTS = {first: "steel", second: "copper", loads: "2 MPa"};
 const OF_FILE = ["unit", "channel", "size"]; // asked anew with each file
 const OF_READING = [...OF_FILE, "fill", "most_missing"];
 const OF_PREPARATION = ["trend", "outliers", "crop", "low_pass", "resample"];
-const OF_BODIES = ["bodies", "first", "second", "E", "loads", "frequency", "elastic", "hardness", "joint_area"];
+const OF_BODIES = ["bodies", "first", "second", "E", "loads", "friction", "frequency", "elastic", "hardness", "joint_area"];
 
 export async function open(link, address, said) {
   const view = new Measured(link, address);
@@ -179,7 +179,7 @@ class Measured {
   }
 
   #changed(key) {
-    this.refuse("", "");
+    for (const at of ["", key]) this.refuse("", at);
     this.#write();
     if (key === "bodies") this.#take(this.#controls.said);
     if (!this.hasSource) { /* what is drawn stays */ }
