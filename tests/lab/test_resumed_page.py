@@ -22,7 +22,7 @@ def files(tmp_path_factory):
     """Two files that leave their unit and size open, by their names."""
     folder = tmp_path_factory.mktemp("files")
     for seed, name in enumerate((NAME, OTHER)):
-        surface = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-6).surface(64, seed)
+        surface = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-6).surface(32, seed)
         np.save(folder / name, surface.heights * 1e6)
     return {name: folder / name for name in (NAME, OTHER)}
 
@@ -86,7 +86,7 @@ def dropped(pages, relay, page):
     pages.complaints = [each for each in pages.complaints if not re.search(NO_LINE, each)]
 
 
-SET = {"unit": "um", "size": "100 um", "loads": "1 MPa; 3 MPa", "low_pass": "4 um"}
+SET = {"unit": "um", "size": "100 um", "loads": "1 MPa; 3 MPa", "low_pass": "8 um"}
 
 
 @pytest.fixture(scope="module")
@@ -140,6 +140,12 @@ def test_a_page_that_is_loaded_again_shows_file_settings_answers_and_report(pres
     assert said(page) == ""
     href = page.evaluate("(link) => link.href", links.last.element_handle())
     assert page.request.get(href).status == 200
+    page.click('nav [data-view="published"]')
+    page.wait_for_selector("#measured", state="hidden")
+    page.reload()  # where another view is shown
+    page.click('nav [data-view="measured"]')
+    assert answers(page) == before
+    assert is_set(page) == SET
     fill(page, loads="")
     begin_long_press(page)
     page.reload()  # in the middle of a press, which goes on

@@ -5,6 +5,7 @@ import {Source} from "./measured-file.js";
 import {Part} from "./measured-part.js";
 import {Pictures, fillList} from "./measured-pictures.js";
 import {embedded, fillTable} from "./plots.js";
+import {recall, remember} from "./remember.js";
 import {Waiting} from "./waiting.js";
 
 const VERSION = "1";
@@ -51,7 +52,8 @@ class Measured {
   find(selector) { return this.#root.querySelector(selector); }
   findAll(selector) { return [...this.#root.querySelectorAll(selector)]; }
 
-  async open({view, theme, file, of, ...said}) {
+  async open(given) {
+    const {file, of, ...said} = await this.#begun(given);
     this.#wanted = filesIn(of ?? "");
     this.#take({...DEFAULTS, ...said});
     this.#askBodies();
@@ -62,6 +64,13 @@ class Measured {
     this.#pictures.onBox((crop) => this.set("crop", crop));
     if (this.#isAwaited) this.look();
     this.#link.ready.then(({resumed}) => { if (resumed && this.hasSource) this.#answers.restore(); });
+  }
+
+  // What the address sets; if nothing, what was set before the page was loaded again in another view.
+  async #begun({view, theme, ...said}) {
+    const before = recall("set");
+    if (Object.keys(said).length || !before) return said;
+    return (await this.#link.ready).resumed ? before : said;
   }
 
   shown() { this.#write(); }
@@ -193,6 +202,7 @@ class Measured {
   }
 
   #write() {
+    remember("set", this.#set);
     if (!this.#root.hidden) this.#address.write("measured", this.#set);
   }
 
@@ -344,5 +354,5 @@ function filesIn(text) {
 }
 
 function digests(files) { return files.map(({digest}) => digest).sort().join(); }
-function named(files) { return files.map(({name}) => name).join(", "); }
+function named(files) { return files.map(({name}) => name).join("; "); }
 function them(files) { return files.length > 1 ? "these files" : "that file"; }
