@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
+.PHONY: lab lab-sessions lab-attack paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -84,6 +84,10 @@ lab-benchmark: $(VENV)/installed
 
 lab-sessions: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_sessions.py
+
+# Half an hour: 20 minutes of attack, and the time that a session waits for its page. Linux only.
+lab-attack: $(VENV)/installed
+	$(BIN)/python benchmarks/lab_attack.py
 
 fuzz: $(VENV)/installed
 	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py tests/halfspace/test_hardness_robustness.py

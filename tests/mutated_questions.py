@@ -1,6 +1,7 @@
 """Questions to the lab of which some parts are not as a page has them, drawn at random."""
 
 import json
+from copy import deepcopy
 
 STATES = {
     "explore": {
@@ -48,7 +49,7 @@ def mutated(chance, state):
     """
     arguments = {"state": dict(state)}
     for _ in range(chance.randint(1, 3)):
-        value = chance.choice(_TEXTS if chance.random() < 0.6 else _VALUES)
+        value = deepcopy(chance.choice(_TEXTS if chance.random() < 0.6 else _VALUES))
         texts = arguments["state"]
         if chance.random() < 0.75 and isinstance(texts, dict):
             texts[chance.choice((*state, *state, *_UNUSED, *_STRANGE))] = value
