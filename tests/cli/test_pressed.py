@@ -347,7 +347,7 @@ def test_a_curve_in_a_file_is_shown_and_is_no_topography(tmp_path, invoke, rough
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--low-pass", "5 mm"), "the low pass is 5 mm, longer than the topography, 1 mm"),
+        (("--low-pass", "5 mm"), "--low-pass is 5 mm, longer than the topography, 1 mm"),
         (("--low-pass", "0 m"), '--low-pass is "0 m"; a positive, finite length'),
         (("--low-pass", ""), 'is ""'),
         (("--crop", ""), 'is ""'),

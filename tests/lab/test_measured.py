@@ -302,6 +302,7 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ({"first": "steal"}, "bodies", "first", 'did you mean "steel"'),
         ({"second": ""}, "bodies", "second", "give the second material"),
         ({"first": "rigid", "second": "rigid"}, "bodies", "second", "must give way"),
+        ({"low_pass": "1 km"}, "prepare", "low_pass", "longer than the topography"),
         ({"friction": "-1"}, "bodies", "friction", "above 0 and up to 5"),
         ({"friction": "30"}, "bodies", "friction", "above 0 and up to 5"),
         ({"friction": "nan"}, "bodies", "friction", "above 0 and up to 5"),

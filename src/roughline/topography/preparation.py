@@ -91,6 +91,8 @@ class Preparation:
         """
         if self.crop is not None:
             body = _cropped(body, self.crop)
+        if self.low_pass is not None:
+            _refuse_long_low_pass(body, self.low_pass)
         self._refuse_beyond_memory(body)
         spikes = outliers(body)
         count = int(np.count_nonzero(spikes))
@@ -239,16 +241,21 @@ def _without_spikes(body: BodyType, spikes: Mask, count: int) -> BodyType:
     return with_effect(body, with_heights(body, filled, outliers_removed=count), "outliers")
 
 
-def _low_passed(body: BodyType, cutoff: float) -> BodyType:
-    from scipy import ndimage
-
+def _refuse_long_low_pass(body: Body, cutoff: float) -> None:
+    """Refuse a low pass that leaves no wave of a body."""
     longest = max(body.sizes) if isinstance(body, Surface) else body.length
     if cutoff > longest:
         raise InputError(
-            f"the low pass is {in_words(cutoff, body.unit)}, longer than the topography, "
+            f"is {in_words(cutoff, body.unit)}, longer than the topography, "
             f"{in_words(longest, body.unit)}: no wave of it would be left; give a shorter "
-            "wavelength, or remove a trend"
+            "wavelength, or remove a trend",
+            "low_pass",
         )
+
+
+def _low_passed(body: BodyType, cutoff: float) -> BodyType:
+    from scipy import ndimage
+
     spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
     deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / spacing for spacing in spacings]
     heights = ndimage.gaussian_filter(body.heights, deviations, mode="nearest")

@@ -252,7 +252,9 @@ def at(key: str) -> Iterator[None]:
     try:
         yield
     except rl.RoughlineError as error:
-        raise ControlError(in_controls(error), getattr(error, "at", "") or key) from None
+        of_argument = "low_pass" if getattr(error, "argument", None) == "low_pass" else ""
+        at_control = getattr(error, "at", "") or of_argument or key
+        raise ControlError(in_controls(error), at_control) from None
 
 
 def _share(text: str | None) -> float:
