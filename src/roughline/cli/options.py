@@ -7,17 +7,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import Annotated, Any, NoReturn
 
 import typer
 
+import roughline as rl
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
-
-if TYPE_CHECKING:
-    from roughline.assessment.reading import Reading
-    from roughline.spectra.self_affine import SelfAffine
-    from roughline.topography.preparation import Preparation
 
 FILE = "A file"
 PREPARATION = "Preparation"
@@ -135,11 +131,9 @@ Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units, for 
 
 def reading_of(
     unit: str | None, channel: str | None, size: str | None, fill: FillingChoice, max_missing: float
-) -> Reading:
+) -> rl.Reading:
     """How the options say that files are read."""
-    from roughline.assessment.reading import Reading
-
-    return Reading(unit, channel, size, fill.value, max_missing)
+    return rl.Reading(unit, channel, size, fill.value, max_missing)
 
 
 def preparation_of(
@@ -148,15 +142,14 @@ def preparation_of(
     low_pass: str | None,
     resample: int | None,
     remove_outliers: bool,
-) -> Preparation | None:
+) -> rl.Preparation | None:
     """The preparation that the options describe; None where none is given."""
-    from roughline.topography.preparation import Preparation
     from roughline.units import lengths
 
     given = (trend, crop, low_pass, resample)
     if all(each is None for each in given) and not remove_outliers:
         return None
-    return Preparation(
+    return rl.Preparation(
         crop=tuple(lengths(crop, "crop")) if crop is not None else None,
         remove_outliers=remove_outliers,
         trend=trend.value if trend else None,
@@ -172,10 +165,8 @@ def spectrum_of(
     rms_height: str,
     roll_off: str | None,
     cutoff: str | None,
-) -> SelfAffine:
+) -> rl.SelfAffine:
     """The spectrum that the options describe; without a length, one without cutoffs."""
-    from roughline.spectra.self_affine import SelfAffine
-
     if length is None and (roll_off or cutoff):
         raise InputError(
             "a roll-off or a cutoff is given without the length of the surface: give --length too"
@@ -187,7 +178,7 @@ def spectrum_of(
         refuse("q_roll", roll_off, f"a wavelength of at most the length, {length}, is needed")
     if shortest is not None and not shortest < longest:
         refuse("q_high", cutoff, f"a wavelength below {roll_off or length} is needed")
-    return SelfAffine(
+    return rl.SelfAffine(
         hurst=hurst,
         fractal_dimension=fractal_dimension,
         length=side,
