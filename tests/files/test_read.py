@@ -1,19 +1,26 @@
 """Files in and out: metres always, one clear line otherwise."""
 
 import io
+import re
+import struct
 import tracemalloc
 import zipfile
 from dataclasses import replace
+from functools import partial
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
 import pytest
+import tifffile
 import xarray
+import zstandard
 
 import roughline as rl
 from roughline.assessment.description import describe
 from roughline.assessment.source import topographies
 from roughline.files.curves import curve_in
+from roughline.files.instrument import _refuse_long_arrays
 from roughline.files.read import measurement, suspicions
 from roughline.topography.missing import Missing
 from roughline.topography.preparation import prepared
@@ -204,6 +211,152 @@ def test_what_is_declared_and_not_there_is_refused_before_it_is_read(tmp_path, n
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < 4e7
+
+
+DECLARED = 20000  # points along each side of maps that are not there
+
+
+def _sdf() -> bytes:
+    stated = {"ManufacID": "x", "NumPoints": DECLARED, "NumProfiles": DECLARED, "DataType": 7}
+    stated |= dict.fromkeys(("Xscale", "Yscale", "Zscale"), 1e-6)
+    head = "".join(f"{key} = {value}\n" for key, value in stated.items())
+    rows = "1 2 3 4 5\n" * 4
+    return f"aISO-1.0\n{head}*\n{rows}*\n".encode()
+
+
+def _scans_of_a_nanomeasuring_machine() -> bytes:
+    line = "-" * 42
+    stated = {"scans": "30000000", "lines": "2"}
+    lines = [line, "Scan procedure description file", "Creation time : 2020-01-01", line]
+    lines += ["1 Scan field", *(f"Number of {key} : {value}" for key, value in stated.items())]
+    for key, value in (("Scan line length", 9), ("Scan field width", 1)):
+        lines.append(f"{key} : {value} [um]")
+    lines += [f"Distance beetween {each} : 1 [um]" for each in ("points", "lines")]
+    return _archive({"s.dsc": "\n".join([*lines, line, ""])})
+
+
+def _datasets_of_easyscan() -> bytes:
+    info = "[DataSet-Info]\r\nDate=01-01-2020\r\nTime=10:00:00\r\n#!"
+    return f"[DataSet]\r\nGroupCount=1\r\nGr0-Count=30000000\r\n{info}".encode()
+
+
+def _archive(parts: dict[str, str | bytes]) -> bytes:
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, part in parts.items():
+            archive.writestr(name, part)
+    return content.getvalue()
+
+
+def _zon() -> bytes:
+    packed = zstandard.ZstdCompressor().compress(struct.pack("<4i", 400, 400, 4, 0) + bytes(2**27))
+    return b"KPK1" + bytes(4) + _archive({"4cdb0c75-5706-48cc-a9a1-adf395d609ae": packed})
+
+
+def _tiff(image: np.ndarray, **tags: int) -> bytes:
+    """An image, packed, some of whose tags are changed."""
+    content = io.BytesIO()
+    tifffile.imwrite(content, image, compression="zlib", rowsperstrip=len(image))
+    content.seek(0)
+    with tifffile.TiffFile(content, mode="r+b") as file:
+        for name, value in tags.items():
+            file.pages[0].tags[name].overwrite(value)
+    return content.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("map.sdf", _sdf, "damaged"),
+        ("scans.zip", _scans_of_a_nanomeasuring_machine, "lists 30000000 scans and has 1 parts"),
+        ("sets.ezd", _datasets_of_easyscan, "lists 30000000 datasets"),
+        ("map.zon", _zon, "would unpack to"),
+        (
+            "map.jpk",
+            partial(_tiff, np.zeros((8, 8), "u2"), ImageWidth=DECLARED, ImageLength=DECLARED),
+            "declares 20000 x 20000",
+        ),
+        (
+            "packed.lext",
+            partial(_tiff, np.zeros((9000, 9000), "u1"), ImageWidth=80, ImageLength=80),
+            "would unpack to",
+        ),
+    ],
+)
+def test_what_a_header_declares_is_refused_before_a_reader_believes_it(
+    tmp_path, name, content, message
+):
+    (tmp_path / name).write_bytes(content())
+    tracemalloc.start()
+    with pytest.raises(rl.InputError, match=f"{name} .*{message}") as caught:
+        rl.read(tmp_path / name)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert "\n" not in str(caught.value)
+    assert peak < 4e7
+
+
+@pytest.mark.parametrize("is_cut", [True, False])
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("al3d-1.al3d", {rb"(Cols\0+)\d+": rb"\g<1>20000", rb"(Rows\0+)\d+": rb"\g<1>20000"}),
+        (
+            "di-1.di",
+            {
+                rb"(Samps/line: |Number of lines: |\\Lines: )\d+": rb"\g<1>20000",
+                rb"(Data length: )\d+": rb"\g<1>800000000",
+            },
+        ),
+        ("opd-1.opd", {re.escape(struct.pack("<2H", 640, 480)): struct.pack("<2H", 20000, 20000)}),
+        (
+            "sur-3.sur",
+            {
+                re.escape(struct.pack("<3i", 512, 512, 512**2)): struct.pack(
+                    "<3i", 20000, 20000, 20000**2
+                )
+            },
+        ),
+    ],
+)
+def test_real_files_that_declare_more_than_they_have_are_refused(
+    topographies, tmp_path, name, changes, is_cut
+):
+    content = (topographies / name).read_bytes()
+    for pattern, replacement in changes.items():
+        content, count = re.subn(pattern, replacement, content)
+        assert count
+    path = tmp_path / name
+    path.write_bytes(content[:7000] if is_cut else content)
+    tracemalloc.start()
+    with pytest.raises(rl.InputError, match=name) as caught:
+        rl.read(path)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert "\n" not in str(caught.value)
+    assert peak < 4e7
+
+
+def test_arrays_of_mountains_are_no_longer_than_their_map():
+    def reader(length):
+        heights = {"data": {"_raw": length.to_bytes(8, "little") + bytes(100)}}
+        arrays = [{"heights": heights, "mask": None}]
+        return SimpleNamespace(format=lambda: "mnt", _arrays=arrays)
+
+    channel = SimpleNamespace(index=0, nb_grid_pts=(20, 30))
+    _refuse_long_arrays(reader(4 * 20 * 30), channel, "map.mnt")
+    with pytest.raises(rl.InputError, match="map.mnt declares 1.6e.04 MB for 20 x 30 points"):
+        _refuse_long_arrays(reader(16 * 10**9), channel, "map.mnt")
+
+
+def test_memory_that_ends_while_a_file_is_read_gets_one_line(tmp_path, monkeypatch):
+    def without_memory(*_):
+        raise MemoryError("Unable to allocate 112 GiB")
+
+    monkeypatch.setattr("roughline.files.read.read_instrument", without_memory)
+    (tmp_path / "map.jpk").write_bytes(bytes(100))
+    with pytest.raises(rl.InputError, match="map.jpk declares more than memory can hold"):
+        rl.read(tmp_path / "map.jpk")
 
 
 def test_an_archive_that_unpacks_to_too_much_is_refused(tmp_path):

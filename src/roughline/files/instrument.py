@@ -51,13 +51,14 @@ def read_instrument(
         from SurfaceTopography.IO.Text import AscReader
 
     try:
-        opened = partial(open_topography, str(path))
+        opened = partial(open_topography, str(path), format=_marked_format(path))
         if matrix is not None:
             opened = partial(AscReader, StringIO(matrix))
         with _silence(), opened() as reader:
             _refuse_guessed_format(reader, path)
             chosen = _channel_of(reader, channel, name)
             refuse_too_few_bytes(chosen.nb_grid_pts, path, name)
+            _refuse_long_arrays(reader, chosen, name)
             refuse_beyond_memory(
                 _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
                 f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {name}",
@@ -77,6 +78,31 @@ def read_instrument(
         raise InputError(
             f"{name} cannot be read ({type(error).__name__}: {first_line}): export it again"
         ) from error
+
+
+def _marked_format(path: Path) -> str | None:
+    """The format whose mark the file starts with: damaged, it is read as no other one."""
+    from SurfaceTopography.IO import MAGIC_BUFFER_SIZE, MagicMatch, readers
+
+    with path.open("rb") as file:
+        start = file.read(MAGIC_BUFFER_SIZE)
+    marked = [each.format() for each in readers if each.can_read(start) == MagicMatch.YES]
+    return marked[0] if len(marked) == 1 else None
+
+
+def _refuse_long_arrays(reader: Any, channel: Any, name: str) -> None:
+    """Refuse a file of Mountains whose arrays, as it declares them, are longer than its map."""
+    if reader.format() != "mnt":
+        return
+    arrays = reader._arrays[channel.index]
+    longest = _BYTES_PER_POINT * math.prod(n + 2 for n in channel.nb_grid_pts)  # with a border
+    for array in (arrays["heights"], arrays["mask"]):
+        declared = int.from_bytes(array["data"]["_raw"][:8], "little") if array else 0
+        if declared > longest:
+            raise InputError(
+                f"{name} declares {declared / 1e6:.3g} MB for "
+                f"{' x '.join(map(str, channel.nb_grid_pts))} points: export it again"
+            )
 
 
 def _refuse_guessed_format(reader: Any, path: Path) -> None:

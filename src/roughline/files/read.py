@@ -11,7 +11,13 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
-from roughline.files.archives import refuse_bombs, refuse_empty_datasets, refuse_too_few_bytes
+from roughline.files.archives import (
+    refuse_bombs,
+    refuse_empty_datasets,
+    refuse_empty_images,
+    refuse_many_datasets,
+    refuse_too_few_bytes,
+)
 from roughline.files.curves import curve_in
 from roughline.files.heights_in_text import read_text
 from roughline.files.instrument import read_instrument
@@ -125,6 +131,17 @@ def measurement(
     name = name or path.name
     if path.stat().st_size == 0:
         raise InputError(f"{name} is empty: export it again")
+    try:
+        return _measurement(path, channel, name)
+    except (MemoryError, OverflowError) as error:
+        raise InputError(
+            f"{name} declares more than memory can hold; if it should not, it is damaged: export "
+            "it again, or crop it with the instrument's software"
+        ) from error
+
+
+def _measurement(path: Path, channel: int | str | None, name: str) -> Measurement:
+    """Read a file that exists, by the first of the readers that knows it."""
     measured = read_body_file(path, name) if path.suffix == ".nc" else None
     if measured is None and curve_in(path):
         raise InputError(
@@ -136,8 +153,13 @@ def measurement(
     if measured is None:
         measured = read_text(path, channel, name)
     if measured is None:
-        refuse_bombs(path, name)
-        refuse_empty_datasets(path, name)
+        for refuse in (
+            refuse_bombs,
+            refuse_empty_datasets,
+            refuse_empty_images,
+            refuse_many_datasets,
+        ):
+            refuse(path, name)
         return read_instrument(path, channel, name)
     if channel is not None and not measured.channels:
         raise InputError(f"{name} has one channel only; leave channel= out")
