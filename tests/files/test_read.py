@@ -337,6 +337,17 @@ def test_real_files_that_declare_more_than_they_have_are_refused(
     assert peak < 4e7
 
 
+@pytest.mark.parametrize("name", ["map.nc", "map.h5"])
+def test_maps_that_were_never_written_are_refused_beside_data_that_were(tmp_path, name):
+    with h5py.File(tmp_path / name, "w") as file:
+        file.create_dataset("heights", (14000, 14000), "f8", chunks=(1000, 1000))
+        file.create_dataset("noise", data=np.random.default_rng(7).integers(256, size=10**6))
+        file.attrs.update(format="roughline body 1", kind="surface", unit="m")
+        file.attrs.update(sizes=[1e-3, 1e-3], removed_trend="none")
+    with pytest.raises(rl.InputError, match=f"{name} declares 14000 x 14000 points and has 0 kB"):
+        rl.read(tmp_path / name, sizes=None if name == "map.nc" else 1e-3)
+
+
 def test_arrays_of_mountains_are_no_longer_than_their_map():
     def reader(length):
         heights = {"data": {"_raw": length.to_bytes(8, "little") + bytes(100)}}

@@ -221,25 +221,28 @@ def refuse_empty_datasets(path: Path, name: str) -> None:
     Raises
     ------
     InputError
-        If a dataset has more than 200 numbers, or one text, for each byte of the file.
+        If a dataset has more than 200 numbers, or one text, for each byte of the file, or if
+        nearly all of a large one was never written.
     """
     with path.open("rb") as file:
         if not any(_starts_hdf5(file, place) for place in _STARTS_OF_HDF5):
             return
     import h5py  # here because it loads slowly
 
-    found: list[tuple[tuple[int, ...], str]] = []
+    size = path.stat().st_size
+    found: list[tuple[tuple[int, ...], str, int]] = []
 
     def note(_: str, node: Any) -> None:
         if isinstance(node, h5py.Dataset) and node.shape is not None:
-            found.append((node.shape, node.dtype.kind))
+            is_large = node.chunks is not None and node.nbytes > _LARGE
+            written = node.id.get_storage_size() if is_large else size
+            found.append((node.shape, node.dtype.kind, min(size, written)))
 
     with suppress(OSError, RuntimeError, KeyError), h5py.File(path, "r") as file:  # damaged
         file.visititems(note)
-    size = path.stat().st_size
-    for shape, kind in found:
-        if math.prod(shape) > (_RATIO if kind in "biuf" else 1) * size:
-            raise _too_small(shape, size, name)
+    for shape, kind, written in found:
+        if math.prod(shape) > (_RATIO if kind in "biuf" else 1) * written:
+            raise _too_small(shape, written, name)
 
 
 def _starts_hdf5(file: BinaryIO, place: int) -> bool:

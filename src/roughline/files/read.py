@@ -142,7 +142,10 @@ def measurement(
 
 def _measurement(path: Path, channel: int | str | None, name: str) -> Measurement:
     """Read a file that exists, by the first of the readers that knows it."""
-    measured = read_body_file(path, name) if path.suffix == ".nc" else None
+    measured = None
+    if path.suffix == ".nc":
+        refuse_empty_datasets(path, name)
+        measured = read_body_file(path, name)
     if measured is None and curve_in(path):
         raise InputError(
             f"{name} holds a curve that roughline wrote, and no topography: `roughline info` shows "
