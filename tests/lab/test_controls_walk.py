@@ -164,3 +164,47 @@ def test_sliders_and_texts_of_the_paper(pages):
         page.inner_text('#published [data-fit-error="3D"]'),
     ]
     page.context.close()
+
+
+def test_refused_controls_of_my_surface_leave_the_others_alive(pages):
+    page = pages.open("?view=measured")
+    page.click("[data-example] >> nth=1")
+    page.click("[data-press]:not([disabled])", trial=True)
+
+    def typed_in(key, text):
+        field = page.locator(f'#measured [data-text="{key}"]')
+        if not field.is_visible():
+            page.click("#measured summary >> text=more")
+        field.fill(text)
+        field.press("Tab")
+
+    def said_at(key):
+        return page.locator(f'#measured [data-error="{key}"]')
+
+    wrong = {"crop": "1 m", "low_pass": "1 km", "resample": "100000", "most_missing": "<b>x</b>"}
+    wrong |= {"second": "3 GPa", "loads": "1,5", "joint_area": "1 nm^2", "hardness": "😀"}
+    wrong |= {"friction": "30", "frequency": "nan"}
+    for key, text in wrong.items():
+        typed_in(key, text)
+    for key, text in wrong.items():
+        said_at(key).filter(has_text="is used meanwhile").wait_for()
+        assert page.input_value(f"#measured-{key}-text") == text
+        assert page.get_attribute(f"#measured-{key}-text", "aria-invalid") == "true"
+    typed_in("first", "gold")
+    page.locator('[data-table="measured-bodies"]', has_text="gold").wait_for()
+    page.check('#measured [data-key="trend"][value="curvature"]')
+    page.locator('[data-list="prepared-remarks"]', has_text="curvature").wait_for()
+    page.click("[data-press]")
+    said_at("answers").filter(has_text="3-gpa").wait_for()
+    assert len(complaints(page, "measured")) == len(wrong) + 1
+    for key in wrong:
+        typed_in(key, {"second": "copper", "loads": "2 MPa", "resample": "32"}.get(key, ""))
+    page.wait_for_function("() => !document.querySelector('#measured .error:not(:empty)')")
+    page.click("[data-press]")
+    page.wait_for_selector('[data-table="measured-answers"] tbody tr', timeout=60_000)
+    page.goto(f"{pages.address}?view=measured&v=7&first=gold")
+    page.locator('#measured [data-error=""]', has_text="reads version 1").wait_for()
+    assert page.input_value("#measured-first-text") == "steel"
+    typed_in("friction", "-1")
+    said_at("friction").filter(has_text="none is used meanwhile").wait_for()
+    page.context.close()

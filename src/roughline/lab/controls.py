@@ -200,7 +200,10 @@ def texts_of(arguments: Mapping[str, Any], name: str = "state") -> Texts:
 
 
 def usable(
-    arguments: Mapping[str, Any], read: Callable[[Texts], _Read], told: Callable[[_Read], Texts]
+    arguments: Mapping[str, Any],
+    read: Callable[[Texts], _Read],
+    told: Callable[[_Read], Texts],
+    needed: Texts | None = None,
 ) -> tuple[_Read, dict[str, str]]:
     """Read the texts of the controls; for one that cannot be used, the one before it counts.
 
@@ -215,6 +218,8 @@ def usable(
         Reads texts, or raises the first ControlError.
     told : callable
         Gives all of what was read as texts again.
+    needed : mapping of str to str, optional
+        Texts that are used where no other can be, of controls that may not be empty.
 
     Returns
     -------
@@ -228,27 +233,23 @@ def usable(
     ControlError
         If what is wrong is the whole address, or not the text of a control.
     """
-    said = texts_of(arguments)
+    said, needed = texts_of(arguments), needed or {}
     before = texts_of(arguments, "before") if "before" in arguments else {}
     texts, refused = dict(said), {}
-    red = arguments.get("red")
-    red = red if isinstance(red, list) else []
-    changed = [key for key in said if said[key] != before.get(key)]
-    changed.sort(key=lambda key: key in red)
-    changed.reverse()  # what is red already, then what was changed last
+    changed = _changed(said, before, arguments.get("red"))
     for key in changed:
         if len(said[key]) > MOST_CHARACTERS:
             refused[key] = f"this text has {len(said[key])} characters; give a shorter one"
-            _replace(texts, key, before)
+            _replace(texts, key, before, needed)
     while True:
         try:
             found = read(texts)
         except ControlError as error:
             wrong = [key for key in changed if key in error.among and key not in refused]
-            wrong += [key for key in error.among if key in texts]
+            wrong += [key for key in error.among if texts.get(key) != needed.get(key)]
             if error.at == "v" or not wrong:
                 raise
-            _replace(texts, wrong[0], {} if wrong[0] in refused else before)
+            _replace(texts, wrong[0], {} if wrong[0] in refused else before, needed)
             refused.setdefault(wrong[0], str(error))
             continue
         used = {**told(found), **texts}
@@ -258,11 +259,18 @@ def usable(
         }
 
 
-def _replace(texts: dict[str, str], key: str, others: Texts) -> None:
-    """Take the other text of a control, or none."""
+def _changed(said: Texts, before: Texts, red: Any) -> list[str]:
+    """Keys of changed controls: those that are red already, then what was changed last."""
+    red = red if isinstance(red, list) else []
+    changed = [key for key in said if said[key] != before.get(key)]
+    return sorted(changed, key=lambda key: key in red)[::-1]
+
+
+def _replace(texts: dict[str, str], key: str, *others: Texts) -> None:
+    """Take the first of the other texts of a control, or none."""
     texts.pop(key, None)
-    if key in others:
-        texts[key] = others[key]
+    if found := [each[key] for each in others if key in each]:
+        texts[key] = found[0]
 
 
 def refuse_strange(said: Mapping[str, str], known: Collection[str]) -> None:

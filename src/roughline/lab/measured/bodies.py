@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -10,34 +12,32 @@ import numpy as np
 from roughline.assessment.hardness import Hardness, hardness_of
 from roughline.assessment.notes import meaning_of_loads
 from roughline.assessment.question import DEFAULT_LOADS, Question
+from roughline.assessment.reading import Reading
 from roughline.engineering.limits import left_out
 from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
-from roughline.lab.measured.state import (
-    Arguments,
-    at,
-    bodies_of,
-    friction_of,
-    loads_of,
-    said_of,
-    yield_and_joint_of,
-)
+from roughline.lab.measured.state import Arguments, Said, Source, at, question_of, used_in
 from roughline.lab.measured.words import in_controls
 from roughline.report.contact_tables import material_in_words
 from roughline.server.tasks import Progress
 from roughline.topography.body import Body, Line, Surface
-from roughline.units import engineering, in_si
+from roughline.units import engineering
 
 
 def bodies(arguments: Arguments, progress: Progress) -> bytes:
-    """E* of the bodies, and what each load is in all on the `sides` of the prepared body. [m]"""
-    said = said_of(arguments)
-    given, others = bodies_of(said), yield_and_joint_of(said)
-    loads = loads_of(said)
-    friction_of(said)  # refused when it is typed, not when the body is pressed
+    """E* of the bodies, and what each load is in all on the `sides` of the prepared body. [m]
+
+    All controls are read, so that each is refused when it is set, and not when the body is pressed.
+    """
     body = _flat(arguments.get("sides"))
-    with at("joint_area" if "joint_area" in said else "hardness"):
-        question = Question(body or "no file yet", **given, **others, loads=loads)
+
+    def read(said: Said) -> Question:
+        question = question_of(said, Source(Path("no file yet"), "", ""))
+        with at("joint_area" if "joint_area" in said else ""):
+            return question if body is None else replace(question, body=body, reading=Reading())
+
+    question, refused = used_in(arguments, read)
+    loads = question.loads
     rows = [["contact modulus E*", engineering(question.modulus, "Pa")]]
     pair = question.pair
     if pair is not None:
@@ -45,9 +45,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
             ["rough body", material_in_words(pair.first)],
             ["smooth body", material_in_words(pair.second)],
         ]
-        with at("frequency"):
-            frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None
-        notes = left_out(pair, frequency)
+        notes = left_out(pair, question.frequency_in_hertz)
     else:
         notes = ["a contact modulus alone gives the curve, and no answers for materials"]
     hardness = hardness_of(question)
@@ -58,6 +56,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         )
     meanings = meaning_of_loads(question, body) if body is not None and loads else []
     header = {
+        "refused": refused,
         "rows": rows,
         "loads": [in_controls(each) for each in meanings],
         "notes": notes,

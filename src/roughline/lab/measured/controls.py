@@ -84,6 +84,16 @@ KEYS = (
 """Keys of all controls, as in the address."""
 
 
+DEFAULTS = {
+    **{each.key: each.default for each in (FILLING, TREND, OUTLIERS, BODIES, ELASTIC)},
+    **{each.key: each.default for each in (BOUNDARY, GRID)},
+    "most_missing": "10 %",
+}
+"""Of controls that mean something without a text."""
+NEEDED = {"first": "steel", "second": "copper", "E": "110 GPa"}
+"""Of controls without whose text there is no answer: what is used while there is none."""
+
+
 @dataclass(frozen=True)
 class Example:
     """A measurement made by ourselves.

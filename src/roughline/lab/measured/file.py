@@ -28,6 +28,7 @@ from roughline.lab.measured.state import (
     reading_of,
     said_of,
     source_of,
+    used_in,
 )
 from roughline.lab.measured.words import in_controls
 from roughline.report.description_table import description_table
@@ -38,14 +39,19 @@ from roughline.topography.preparation import Preparation
 
 def look(arguments: Arguments, progress: Progress) -> bytes:
     """What the file holds, what it leaves open, and its roughness as it is read."""
-    said = said_of(arguments)
-    source = source_of(said, arguments["session"])
-    with at("file"):
-        found = described(said, source, arguments["session"])
+    session = arguments["session"]
+    source = source_of(said_of(arguments), session)
+
+    def read(said: Said) -> Description:
+        with at("file"):
+            return described(said, source, session)
+
+    found, refused = used_in(arguments, read)
     content = found.measurement
     drawing = drawing_of_file(content, found.body)
     header = {
         "name": source.name,
+        "refused": refused,
         "asks": {
             "unit": content.unit is None,
             "size": content.sizes is None,
@@ -61,11 +67,15 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
 
 def prepare(arguments: Arguments, progress: Progress) -> bytes:
     """The file, prepared."""
-    said = said_of(arguments)
-    source = source_of(said, arguments["session"])
-    with at("preparation"):
-        found = described(said, source, arguments["session"], is_prepared=True)
-    header = {"obstacles": [in_controls(each) for each in found.obstacles]}
+    session = arguments["session"]
+    source = source_of(said_of(arguments), session)
+
+    def read(said: Said) -> Description:
+        with at("preparation"):
+            return described(said, source, session, is_prepared=True)
+
+    found, refused = used_in(arguments, read)
+    header = {"refused": refused, "obstacles": [in_controls(each) for each in found.obstacles]}
     return frame({**header, **_of_description(found)}, _body_arrays(found.body))
 
 

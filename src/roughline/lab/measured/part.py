@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from roughline.lab.measured.state import (
     reading_of,
     said_of,
     sources_of,
+    used_in,
 )
 from roughline.lab.measured.words import in_controls
 from roughline.report.contact_tables import UNRESOLVED, leading_keys, unit_shown
@@ -34,20 +36,21 @@ _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and 
 
 def maps(arguments: Arguments, progress: Progress) -> bytes:
     """Each map of a part as it is read and prepared, or why it is refused."""
-    said = said_of(arguments)
-    sources = sources_of(said, arguments["session"])
-    preparation = preparation_of(said)
+    sources = sources_of(said_of(arguments), arguments["session"])
+    (reading_of_all, preparation), refused = used_in(
+        arguments, lambda said: (reading_of(said, None), preparation_of(said))
+    )
     rows = []
     for i, source in enumerate(sources):
         progress(i, len(sources))
         row = {"file": source.key, "name": source.name, "cells": [], "refused": ""}
-        reading = reading_of(said, source.name)
+        reading = replace(reading_of_all, name=source.name)
         try:
             row["cells"] = body_in_words(Topography.of(source.path, reading, preparation).body)
         except rl.InputError as error:
             row["refused"] = without_paths(in_controls(error), arguments)
         rows.append(row)
-    return frame({"maps": rows})
+    return frame({"maps": rows, "refused": refused})
 
 
 def part_in_words(part: PartAssessment, arguments: Arguments) -> dict[str, Any]:

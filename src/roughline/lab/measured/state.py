@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import roughline as rl
 from roughline.assessment.given import checked_friction
@@ -16,7 +16,14 @@ from roughline.assessment.nominal import area_of_joint
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.engineering.materials import Material, material
-from roughline.lab.controls import ControlError, texts_of
+from roughline.errors.checks import shown
+from roughline.lab.controls import (
+    ControlError,
+    is_number,
+    refuse_strange,
+    texts_of,
+    usable,
+)
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import path_of
 from roughline.lab.measured.words import in_controls
@@ -24,14 +31,13 @@ from roughline.theories.theory import THEORIES
 from roughline.topography.preparation import Preparation
 from roughline.units import in_si, lengths, load_in_newtons, refuse_decimal_comma
 
-VERSION = "1"
-"""Of the address; one of another version is refused."""
+_FILES = ("file", "example")
+_KNOWN = (*_FILES, *c.KEYS)
+_NEEDING = ("joint_area", "friction", "frequency")  # controls that need two materials
+_OF_ARGUMENTS = {"E_star": "E", "missing": "fill", "points": "resample", "sizes": "size"}
+"""Controls of arguments that have other names; most have the same."""
 
-_OF_THE_PAGE = ("view", "theme")
-# controls that need others to be set; a question that does not fit together is refused at them
-_NEEDING = ("joint_area", "hardness", "friction", "frequency")
-_KNOWN = ("v", "file", "example", *c.KEYS)
-
+_Read = TypeVar("_Read")
 Arguments = Mapping[str, Any]
 Said = Mapping[str, str]
 
@@ -64,18 +70,25 @@ def said_of(arguments: Arguments) -> Said:
         If one has no place here, or the link that they are from is of another version.
     """
     said = texts_of(arguments)
-    if said.get("v", VERSION) != VERSION:
-        raise ControlError(
-            f'this link is of version "{said["v"][:20]}" of the lab\'s addresses, and this lab '
-            f"reads version {VERSION}: set the controls by hand"
-        )
-    strange = [name[:40] for name in said if name not in (*_KNOWN, *_OF_THE_PAGE)]
-    if strange:
-        raise ControlError(
-            f'the link sets "{strange[0]}", which this lab does not know: it may be of another '
-            "version; set the controls by hand"
-        )
+    refuse_strange(said, _KNOWN)
     return {key: text.strip() for key, text in said.items() if text.strip()}
+
+
+def used_in(arguments: Arguments, read: Callable[[Said], _Read]) -> tuple[_Read, dict[str, str]]:
+    """What is read of the texts that can be used, and why others are not, by control.
+
+    Raises
+    ------
+    ControlError
+        If what is wrong is the whole link, or not the text of a control.
+    """
+    settings = {key: text for key, text in texts_of(arguments).items() if key not in _FILES}
+    return usable(
+        {**arguments, "state": settings},
+        lambda texts: read(said_of({"state": texts})),
+        lambda found: c.DEFAULTS,
+        c.NEEDED,
+    )
 
 
 def source_of(said: Said, session: Mapping[str, Any]) -> Source:
@@ -119,12 +132,12 @@ def sources_of(said: Said, session: Mapping[str, Any]) -> list[Source]:
 def reading_of(said: Said, name: str | None) -> Reading:
     """How the file is read."""
     with at("unit"):
-        if unit := said.get("unit"):
-            in_si(f"1 {unit}", "m", "unit")
+        unit = said.get("unit")
+        Reading(unit=unit)
     return Reading(
         unit=unit,
         channel=said.get("channel"),
-        sizes=said.get("size"),
+        sizes=_sizes(said.get("size")),
         missing=c.FILLING.read(said.get("fill", c.FILLING.default)),  # type: ignore[arg-type]
         most_missing=_share(said.get("most_missing")),
         name=name,
@@ -135,7 +148,7 @@ def preparation_of(said: Said) -> Preparation | None:
     """What is done to the topography; None where nothing is set, as on the command line."""
     trend = c.TREND.read(said.get("trend", c.TREND.default))
     with at("crop"):
-        crop = tuple(lengths(said["crop"], "crop")) if "crop" in said else None
+        crop = _crop(said["crop"]) if "crop" in said else None
     with at("low_pass"):
         low_pass = in_si(said["low_pass"], "m", "low pass") if "low_pass" in said else None
         Preparation(low_pass=low_pass)
@@ -164,9 +177,8 @@ def question_of(said: Said, source: Source) -> Question:
     friction = friction_of(said)
     with at("frequency"):
         frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None
-    needs = next((key for key in _NEEDING if key in said), "")
     reading, preparation = reading_of(said, source.name), preparation_of(said)
-    with at(needs):
+    with at(next((key for key in _NEEDING if key in said), "")):
         return Question(
             source.path,
             **given,
@@ -231,9 +243,12 @@ def loads_of(said: Said) -> tuple[str, ...]:
 
 def friction_of(said: Said) -> float | None:
     """The coefficient of friction; None if none is given."""
+    text = said.get("friction")
+    if text is None:
+        return None
     with at("friction"):
-        friction = _number(said.get("friction"), "the coefficient of friction")
-        return None if friction is None else checked_friction(friction)
+        refuse_decimal_comma(text, "the coefficient of friction")
+        return checked_friction(float(text) if is_number(text) else text)
 
 
 def theories_of(said: Said) -> tuple[str, ...]:
@@ -252,9 +267,10 @@ def at(key: str) -> Iterator[None]:
     try:
         yield
     except rl.RoughlineError as error:
-        of_argument = "low_pass" if getattr(error, "argument", None) == "low_pass" else ""
-        at_control = getattr(error, "at", "") or of_argument or key
-        raise ControlError(in_controls(error), at_control) from None
+        argument = getattr(error, "argument", None) or ""
+        named = _OF_ARGUMENTS.get(argument, argument)
+        among = getattr(error, "among", (named if named in c.KEYS else key,))
+        raise ControlError(in_controls(error), *among) from None
 
 
 def _share(text: str | None) -> float:
@@ -262,7 +278,9 @@ def _share(text: str | None) -> float:
     with at("most_missing"):
         if text is None:
             return Reading().most_missing
-        share = _number(text.removesuffix("%"), "most missing") or 0.0
+        number = text.removesuffix("%")
+        refuse_decimal_comma(number, "most missing")
+        share = float(number) if is_number(number) else math.nan
         share = share / 100 if text.endswith("%") else share
         if not 0 <= share < 1:
             raise ControlError(
@@ -272,20 +290,34 @@ def _share(text: str | None) -> float:
         return share
 
 
-def _number(text: str | None, name: str) -> float | None:
-    if text is None:
-        return None
-    refuse_decimal_comma(text, name)
-    try:
-        return float(text)
-    except ValueError:
-        raise ControlError(f'{name} is "{text[:40]}"; give a number such as 0.3') from None
+def _sizes(text: str | None) -> str | None:
+    """Sides of a file that states none, as they were typed."""
+    with at("size"):
+        sides = lengths(text, "size") if text is not None else []
+        if len(sides) > 2 or not all(0 < side < math.inf for side in sides):
+            raise ControlError(
+                f"size is {shown(text)}; give one or two positive lengths, such as 1 mm, 0.5 mm",
+                "size",
+            )
+    return text
+
+
+def _crop(text: str) -> tuple[float, ...]:
+    """From and to along each side. [m]"""
+    ends = tuple(lengths(text, "crop"))
+    if len(ends) not in (2, 4) or not all(map(math.isfinite, ends)):
+        raise ControlError(
+            f"crop is {shown(text)}; give from and to along each side, such as 0 um, 50 um, 0 um, "
+            "40 um, or 0 um, 50 um of a line",
+            "crop",
+        )
+    return ends
 
 
 def _whole(text: str | None, key: str, name: str, least: int, most: int) -> int | None:
     if text is None:
         return None
-    if not text.isdecimal() or not least <= int(text) <= most:
+    if not (text.isascii() and text.isdecimal()) or not least <= int(text[:20]) <= most:
         raise ControlError(
             f'{name} is "{text[:40]}"; give a whole number from {least} to {most}', key
         )

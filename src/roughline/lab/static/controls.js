@@ -37,6 +37,8 @@ export class Controls {
   // What the server is asked with: all texts, those that count where one cannot be used, and which are red.
   get asked() { return {state: this.said, before: {...this.#used}, red: [...this.#refused]}; }
 
+  isRefused(key) { return this.#refused.has(key); }
+
   // Texts that count.
   get used() {
     const others = Object.entries(this.#said).filter(([key]) => !this.#refused.has(key));

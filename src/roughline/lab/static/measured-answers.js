@@ -102,7 +102,7 @@ export class Answers {
     const {settings, ...question} = asked;
     this.#link.ask(task, `measured ${name}`, question, {
       answer: (answer) => { this.#end(name, ""); done(answer); },
-      error: (sentence, at) => { this.#end(name, ""); this.#note(name, null); this.#view.refuse(sentence, at || name); },
+      error: (sentence, at) => { this.#end(name, ""); this.#note(name, null); this.#view.refuseTask(sentence, at, name); },
       progress: (message) => this.#waiting[name].progress(message),
     });
   }
@@ -200,7 +200,7 @@ export class Answers {
         this.#view.find("[data-code-dialog] pre").textContent = text;
         openDialog(this.#view.find("[data-code-dialog]"), button);
       },
-      error: (sentence, at) => this.#view.refuse(sentence, at || "report"),
+      error: (sentence, at) => this.#view.refuseTask(sentence, at, "report"),
     });
   }
 

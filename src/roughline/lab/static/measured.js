@@ -13,7 +13,9 @@ const DEFAULTS = {first: "steel", second: "copper", loads: "2 MPa"};
 const OF_FILE = ["unit", "channel", "size"]; // asked anew with each file
 const OF_READING = [...OF_FILE, "fill", "most_missing"];
 const OF_PREPARATION = ["trend", "outliers", "crop", "low_pass", "resample"];
-const OF_BODIES = ["bodies", "first", "second", "E", "loads", "friction", "frequency", "elastic", "hardness", "joint_area"];
+const OF_BODIES = ["bodies", "first", "second", "E", "loads", "friction", "frequency", "elastic", "hardness", "joint_area",
+  "boundary", "grid_error", "theories"];
+const TASKS = ["answers", "compare", "report"];
 
 export async function open(link, address, said) {
   const view = new Measured(link, address);
@@ -26,6 +28,8 @@ class Measured {
   #controls; #pictures; #source; #part; #answers; #waiting = {};
   #read = null; // what the file holds, as last read
   #prepared = null; // the same, prepared
+  #refusals = {bodies: {}, file: {}, preparation: {}}; // sentences by controls, of each question that tells them
+  #ofLink = ""; // why the link that was opened is not shown
   #isAwaited = false; // a file that came before the pictures were there
   #brought = new Map(); // digests and names of the files that are on the server, by their keys
   #wanted = []; // digests and names of files that have to be chosen, by a link or once more
@@ -168,9 +172,39 @@ class Measured {
   }
 
   refuse(sentence, at = "") {
-    const folded = sentence && at && this.find(`[data-error="${CSS.escape(at)}"]`)?.closest("details");
-    if (folded) folded.open = true;
+    if (sentence && at) this.#unfold(at);
     if (!this.#controls.refuse(at, sentence)) this.#controls.refuse("", sentence);
+  }
+
+  // Say why something was not done: at its button, and at the control that it is about, which may say so already.
+  refuseTask(sentence, at, task) {
+    this.refuse(sentence, task);
+    if (at && at !== task && !this.#controls.isRefused(at)) this.refuse(sentence, at);
+  }
+
+  // Take from an answer which texts are not used and why; it knows whether `keys` are.
+  #settle(question, asked, refused, keys) {
+    const known = Object.entries(refused).filter(([key]) => asked.state[key] === this.#controls.said[key]);
+    this.#refusals[question] = Object.fromEntries(known);
+    const all = Object.assign({}, ...Object.values(this.#refusals));
+    for (const key of Object.keys(all)) if (!this.#controls.isRefused(key)) this.#unfold(key);
+    const elsewhere = this.#controls.answered(asked, {refused: all}, keys);
+    this.refuse([this.#ofLink, elsewhere].filter(Boolean).join(" "));
+  }
+
+  #unfold(key) {
+    const folded = this.find(`[data-error="${CSS.escape(key)}"]`)?.closest("details");
+    if (folded) folded.open = true;
+  }
+
+  // Begin with the defaults in the place of a link that cannot be read.
+  #begin(sentence) {
+    this.#ofLink = sentence;
+    this.#wanted = [];
+    this.note("");
+    for (const name of ["file", "preparation"]) { this.#link.stop(`measured ${name}`); this.#end(name); }
+    this.#take({...DEFAULTS});
+    this.#askBodies();
   }
 
   #take(said) {
@@ -188,7 +222,9 @@ class Measured {
   }
 
   #changed(key) {
-    for (const at of ["", key]) this.refuse("", at);
+    this.#ofLink = "";
+    for (const refused of Object.values(this.#refusals)) delete refused[key];
+    for (const at of ["", key, ...TASKS]) this.refuse("", at);
     this.#write();
     if (key === "bodies") this.#take(this.#controls.said);
     if (!this.hasSource) { /* what is drawn stays */ }
@@ -197,7 +233,7 @@ class Measured {
       if (this.#part.shown) this.#part.check();
       else this.#prepare();
     }
-    if (OF_BODIES.includes(key)) this.#askBodies();
+    this.#askBodies(); // which reads all that is set
     this.#answers.changed();
   }
 
@@ -220,13 +256,15 @@ class Measured {
     if (!file && !example) return;
     this.#wait("file");
     if (!this.#pictures) { this.#isAwaited = true; return; } // it is read when it can be drawn
-    this.#link.ask("measured.look", "measured file", {state: this.stateOfMap}, {
+    const asked = this.#asked(this.stateOfMap);
+    this.#link.ask("measured.look", "measured file", asked, {
       answer: (read) => {
         this.#end("file");
         this.#read = read;
         this.#write();
         this.refuse("", "file");
         this.#showAsked(read);
+        this.#settle("file", asked, read.refused, OF_READING);
         for (const name of ["file", "map"]) this.showResult(name, true);
         this.find("[data-name]").textContent = read.name;
         fillList(this, "obstacles", read.obstacles);
@@ -266,17 +304,23 @@ class Measured {
   #prepare() {
     if (!this.#read) return;
     const isAsked = OF_PREPARATION.some((key) => this.#controls.said[key]);
-    if (!isAsked) { this.#link.stop("measured preparation"); this.#end("preparation"); this.#showPrepared(this.#read); return; }
+    const asked = this.#asked(this.stateOfMap);
+    const show = (prepared, refused) => {
+      this.#end("preparation");
+      this.#settle("preparation", asked, refused, OF_PREPARATION);
+      this.#showPrepared(prepared);
+    };
+    if (!isAsked) { this.#link.stop("measured preparation"); show(this.#read, {}); return; }
     this.#wait("preparation");
-    this.#link.ask("measured.prepare", "measured preparation", {state: this.stateOfMap}, {
-      answer: (prepared) => { this.#end("preparation"); this.#showPrepared(prepared); },
+    this.#link.ask("measured.prepare", "measured preparation", asked, {
+      answer: (prepared) => show(prepared, prepared.refused),
       error: (sentence, at) => { this.#end("preparation"); this.refuse(sentence, at || "preparation"); },
     });
   }
 
   #showPrepared(prepared) {
     this.#prepared = prepared;
-    for (const key of ["preparation", ...OF_PREPARATION]) this.refuse("", key);
+    this.refuse("", "preparation");
     this.showResult("preparation", prepared.body !== null);
     if (prepared.body) {
       this.#pictures.drawPrepared(this.#read, prepared, this.#controls.said.crop ?? "");
@@ -297,17 +341,23 @@ class Measured {
   }
 
   #askBodies() {
-    this.#link.ask("measured.bodies", "measured bodies", {state: this.state, sides: this.body?.sides ?? null}, {
-      answer: ({rows, loads, notes, yields}) => {
+    const asked = this.#asked(this.state);
+    // the file tells more of how it is read and prepared
+    const keys = this.hasSource ? OF_BODIES : [...OF_READING, ...OF_PREPARATION, ...OF_BODIES];
+    this.#link.ask("measured.bodies", "measured bodies", {...asked, sides: this.body?.sides ?? null}, {
+      answer: ({rows, loads, notes, yields, refused}) => {
         this.#yields = yields;
-        for (const key of ["", ...OF_BODIES]) this.refuse("", key);
+        this.#settle("bodies", asked, refused, keys);
         fillTable("measured-bodies", ["", ""], rows);
         fillList(this, "loads", loads);
         fillList(this, "bodies-notes", notes);
       },
-      error: (sentence, at) => this.refuse(sentence, at),
+      error: (sentence, at) => { if (at === "v") this.#begin(sentence); else this.refuse(sentence, at); },
     });
   }
+
+  // All that is set, or that is set of one map, with what counts where a text cannot be used.
+  #asked(state) { return {...this.#controls.asked, state}; }
 
   #wait(name) {
     this.#waiting[name].begin();
