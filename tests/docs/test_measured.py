@@ -78,6 +78,14 @@ def test_the_lab_is_measured_as_its_benchmark_does():
         assert f'"{row["from, to"]}"' in program
 
 
+def test_the_lab_holds_after_an_attack_what_it_held_before():
+    said = " ".join((ROOT / "docs" / "lab-attack-table.md").read_text("utf-8").split())
+    assert "1000 sockets held open, 500 sessions, 100000 messages" in said
+    for row in rows_of("lab-attack"):
+        grown = float(row["afterwards"]) - float(row["before"])
+        assert grown <= float(row["may be more by"]), row
+
+
 @pytest.mark.parametrize("hurst", ["0.2", "0.5", "0.8"])
 def test_paths_of_loads_are_those_of_the_table(hurst):
     rows = rows_of("speed", "Full model: 20 loads from first touch to saturation")
