@@ -1,13 +1,20 @@
 """Any address that the page writes gives the same state again."""
 
+from pathlib import Path
+from urllib.parse import parse_qsl, urlencode
+
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from roughline.lab.controls import usable
+from roughline.lab.controls import VERSION, usable
 from roughline.lab.explore import controls as explore
 from roughline.lab.explore.address import state_of as explore_state
+from roughline.lab.measured import controls as measured
+from roughline.lab.measured.state import Source, question_of, said_of
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import state_of as published_state
+from roughline.server.settings import LEAST_POINTS
 from roughline.units import engineering
 
 NUMBERS = (explore.D_F, explore.ROLL_OFF, explore.CUTOFF, explore.HEIGHT, explore.SLOPE)
@@ -78,3 +85,57 @@ def test_an_address_of_explore_gives_its_state_again(said, with_units):
 def test_an_address_of_the_paper_gives_its_state_again(said):
     state, _ = usable({"state": said}, published_state, lambda found: {})
     assert published_state(state.address()) == state
+
+
+CHOICES = (measured.FILLING, measured.TREND, measured.OUTLIERS, measured.BODIES)
+CHOICES += (measured.BOUNDARY, measured.GRID)
+LENGTHS = quantities("m", 1e-9, 1)
+LOADS = quantities("N", 1e-9, 1e6) | quantities("Pa", 1, 1e12)
+MATERIALS = st.sampled_from(["steel", "gold", "E=70 GPa nu=0.33", "steel hardness=2 GPa", "Glass"])
+OF_MY_SURFACE = some(
+    {
+        **{each.key: st.sampled_from(list(each.options)) for each in CHOICES},
+        **{"first": MATERIALS, "second": MATERIALS | st.just("rigid")},
+        "low_pass": LENGTHS,
+        "size": st.lists(LENGTHS, min_size=1, max_size=2).map(", ".join),
+        "crop": st.lists(LENGTHS, min_size=4, max_size=4).map(", ".join),
+        "unit": st.sampled_from(["nm", "um", "µm", "mm", "m"]),
+        "resample": st.integers(2, measured.MOST_POINTS).map(str),
+        "most_missing": st.floats(0, 99).map(lambda share: f"{share:g} %") | st.just("1e-6"),
+        "E": quantities("Pa", 1, 1e14),
+        "loads": st.lists(LOADS, max_size=4).map("; ".join),
+        "joint_area": quantities("m", 1e-9, 1).map(lambda length: f"{length}^2"),
+        "hardness": quantities("Pa", 1e3, 1e12),
+        "elastic": st.just("no"),
+        "friction": st.floats(1e-9, 5).map(repr),
+        "frequency": quantities("Hz", 1, 1e9),
+        "theories": st.lists(st.sampled_from(["persson", "greenwood-williamson"])).map(",".join),
+    }
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(OF_MY_SURFACE)
+def test_an_address_of_my_surface_asks_the_same_again(said):
+    if said.get("bodies") == "modulus":
+        said = {key: text for key, text in said.items() if key not in ("joint_area", "friction")}
+        said.pop("frequency", None)
+    state = {"first": "steel", "second": "copper", "E": "1 GPa", "v": VERSION} | said
+    again = dict(parse_qsl(urlencode(sorted(state.items())), keep_blank_values=True))
+    source = Source(Path("a.nc"), "a.nc", "key")
+    first, second = (question_of(said_of({"state": each}), source) for each in (state, again))
+    assert first == second
+
+
+@pytest.mark.parametrize(
+    "link", ["view=measured", "view=measured&v=1&bodies=modulus&E=110+GPa&example=film&loads=5+N"]
+)
+def test_a_link_of_my_surface_of_an_older_lab_is_read(link):
+    said = said_of({"state": {"first": "steel", "second": "copper"} | dict(parse_qsl(link))})
+    assert question_of(said, Source(Path("a.nc"), "a.nc", "key")).headings == (
+        ["5 N"] if "loads" in link else []
+    )
+
+
+def test_the_fewest_points_that_a_lab_may_allow_can_be_chosen():
+    assert min(map(int, explore.POINTS.options)) == LEAST_POINTS

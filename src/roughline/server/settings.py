@@ -15,6 +15,8 @@ from roughline.errors.checks import refuse, shown
 from roughline.server.budget import LEAST_MEMORY, memory_for_tasks
 
 LOOPBACK = "127.0.0.1"
+LEAST_POINTS = 64
+"""Fewest points along a side that a limit may leave."""
 _LONGEST_PASSWORD = 1000  # [bytes]
 
 
@@ -86,6 +88,8 @@ class ServerSettings:
         for name in (*limits, *(() if self.max_disk is None else ("max_disk",))):
             if not 0 < getattr(self, name) < math.inf:
                 refuse(name, getattr(self, name), "a positive, finite number is needed")
+        if self.max_points < LEAST_POINTS:
+            refuse("max_points", self.max_points, f"at least {LEAST_POINTS} points are needed")
         if self.max_memory < LEAST_MEMORY:
             raise InputError(
                 f"{self.max_memory / 1e6:g} MB of memory is too little: give a max_memory= of at "
