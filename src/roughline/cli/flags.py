@@ -55,6 +55,7 @@ _FLAGS = {
     "max_points": "--max-points",
     "max_seconds": "--max-seconds",
     "max_memory": "--max-memory",
+    "max_disk": "--max-disk",
 }
 
 
