@@ -1,5 +1,6 @@
 """What a page looks like to eyes, ears and keys; the questions are in looks.js."""
 
+import time
 from pathlib import Path
 
 _QUESTIONS = (Path(__file__).parent / "looks.js").read_text(encoding="utf-8")
@@ -16,6 +17,18 @@ def faint(page):
     found = asked(page, "contrasts")
     assert found
     return [(text, contrast) for text, contrast in found if contrast < _AA]
+
+
+def cut_off(page, view, width, height=1100):
+    """Make the window so large; return what is then cut off, when all has followed."""
+    page.set_viewport_size({"width": width, "height": height})
+    end = time.monotonic() + 10
+    while True:
+        found = asked(page, "cut", view)
+        beyond = asked(page, "width") - width
+        if (not found and not beyond) or time.monotonic() > end:
+            return found + [f"{beyond} pixels beyond the window"] * bool(beyond)
+        page.wait_for_timeout(50)
 
 
 def tabbed(page, view):

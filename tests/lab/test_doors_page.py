@@ -46,8 +46,8 @@ def test_the_opened_file_leads_in_and_log_out_leads_out_of_all_pages(
 
 def test_on_a_phone_one_logs_in_and_out_too(pages, lab):
     page = pages.blank(width=390, height=800, has_touch=True)
-    page.goto(pages.address)
-    page.wait_for_selector("#connection", state="hidden")
+    page.goto(f"{pages.address}?{STATE}")
+    page.wait_for_selector("#plot-explore-contact[data-shown]")
     with pages.expecting(ASKED):
         page.tap("#log-out")
         page.wait_for_selector("#token")

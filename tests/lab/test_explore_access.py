@@ -2,8 +2,8 @@
 
 import pytest
 
-from lab.explore_driven import SMALL, address, drawn, sentence, settled, typed
-from lab.looks import asked, faint, tabbed
+from lab.explore_driven import SMALL, address, sentence, settled, typed
+from lab.looks import asked, cut_off, faint, tabbed
 
 
 @pytest.fixture(scope="module")
@@ -14,9 +14,8 @@ def small(pages):
     return page
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_texts_stand_out(pages, theme):
-    page = pages.open(SMALL, theme=theme)
+def test_the_theme_is_changed_and_kept_and_texts_stand_out_in_both(pages):
+    page = pages.open(SMALL)
     settled(page, points=64)
     typed(page, "D_f", "5")
     sentence(page, "D_f").filter(has_text="from 2 to 3").wait_for()
@@ -25,12 +24,6 @@ def test_texts_stand_out(pages, theme):
     for summary in page.locator("#explore summary:visible").all():
         summary.click()
     assert faint(page) == []
-    page.context.close()
-
-
-def test_the_theme_is_changed_and_kept(pages):
-    page = pages.open(SMALL)
-    settled(page, points=64)
     paper = """() => [getComputedStyle(document.querySelector(".panel")).backgroundColor,
         Bokeh.documents[0].roots()[0].background_fill_color,
         Bokeh.documents[0].get_model_by_name("contact colours").palette.join()]"""
@@ -38,6 +31,8 @@ def test_the_theme_is_changed_and_kept(pages):
     page.click("#theme")
     dark = page.evaluate(paper)
     assert all(before != after for before, after in zip(light, dark, strict=True))
+    page.focus("#explore-h")
+    assert faint(page) == []
     page.reload()
     settled(page, points=64)
     assert page.evaluate(paper) == dark
@@ -65,14 +60,19 @@ def test_tabs_are_changed_by_arrows(small):
     assert small.get_attribute("#tab-area", "aria-selected") == "true"
 
 
-def test_everything_is_done_by_keys_alone(pages):
-    page = pages.open(SMALL)
-    settled(page, points=64)
-    wanted, reached, unseen = tabbed(page, "explore")
+def test_what_rests_is_spoken(small):
+    typed(small, "F", "0.3")
+    settled(small, points=64, F=0.3)
+    spoken = small.locator("#explore [data-spoken]").inner_text()
+    assert "k̄ (3D)" in spoken
+    assert "certified" in spoken
+
+
+def test_everything_is_done_by_keys_alone(small):
+    wanted, reached, unseen = tabbed(small, "explore")
     assert reached == wanted
     assert unseen == []
-    press_by_keys(page)
-    page.context.close()
+    press_by_keys(small)
 
 
 def press_by_keys(page):
@@ -115,35 +115,23 @@ def press_by_keys(page):
     assert page.evaluate(ends) == pytest.approx(whole)
 
 
-def test_what_rests_is_spoken(small):
-    typed(small, "F", "0.3")
-    settled(small, points=64, F=0.3)
-    spoken = small.locator("#explore [data-spoken]").inner_text()
-    assert "k̄ (3D)" in spoken
-    assert "certified" in spoken
-
-
-@pytest.mark.parametrize(("width", "height"), [(390, 844), (1200, 800), (1600, 1100), (3840, 2160)])
-def test_nothing_is_cut_off(pages, width, height):
-    page = pages.open(SMALL + "&theories=persson,greenwood-williamson", width=width, height=height)
-    settled(page, points=64)
-    if width == 390:
-        assert not page.is_visible("#explore-D_f")
-        page.click("#explore .drawer")
-        assert page.get_attribute("#explore .drawer", "aria-expanded") == "true"
-        typed(page, "D_f", "2.5")
-        drawn(page, D_f=2.5)
-        page.mouse.wheel(0, 3000)
-        page.wait_for_timeout(100)
-        strip = page.locator("#explore .strip").bounding_box()
-        assert 0 <= strip["y"] < 10
-    assert asked(page, "width") == width
-    assert asked(page, "cut", "explore") == []
-    assert asked(page, "tiny", "explore") == []
-    page.context.close()
-
-
-def test_on_a_phone_a_refusal_is_seen_although_controls_are_folded(pages):
-    page = pages.open("?view=explore&v=1&F=abc&n=64", width=390, height=844)
-    sentence(page, "").filter(has_text="load").wait_for()
+def test_nothing_is_cut_off_at_any_width_and_on_a_phone_a_refusal_is_seen(pages):
+    page = pages.open(SMALL + "&theories=persson,greenwood-williamson&F=abc", width=390, height=844)
+    sentence(page, "").filter(has_text="load").wait_for()  # although controls are folded
+    assert not page.is_visible("#explore-D_f")
+    page.click("#explore .drawer")
+    assert page.get_attribute("#explore .drawer", "aria-expanded") == "true"
+    typed(page, "F", "0.2")
+    typed(page, "D_f", "2.5")
+    settled(page, D_f=2.5, F=0.2)
+    page.mouse.wheel(0, 3000)
+    page.wait_for_function(
+        """() => {
+            const {top} = document.querySelector("#explore .strip").getBoundingClientRect();
+            return scrollY > 100 && top >= 0 && top < 10;
+        }"""
+    )
+    for width, height in ((390, 844), (1200, 800), (1600, 1100), (3840, 2160)):
+        assert cut_off(page, "explore", width, height) == []
+        assert asked(page, "tiny", "explore") == []
     page.context.close()

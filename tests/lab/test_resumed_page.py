@@ -179,15 +179,16 @@ def test_a_link_has_all_that_is_set_and_asks_for_the_file_by_its_name(pressed, p
 
 def test_a_copy_of_a_tab_takes_the_file_and_the_first_keeps_what_it_shows(pressed, files):
     page, before = pressed
+    lines = {"first": [], "copied": []}
+    page.on("websocket", lambda each: lines["first"].append(each))
     with page.context.expect_page() as coming:
         page.evaluate("open(location.href)")
     copied = coming.value
     assert answers(copied) == before
+    copied.on("websocket", lambda each: lines["copied"].append(each))
     page.locator('[data-note="file"]', has_text="now with the other tab").wait_for()
     assert page.inner_text('[data-table="measured-answers"]') == before
     assert page.is_disabled("[data-press]")
-    copied.wait_for_timeout(2000)  # neither takes it from the other again
-    assert not copied.is_visible("#connection")
     copied.wait_for_selector("[data-press]:not([disabled])")
     choose(page, files[NAME])
     page.click("[data-press]:not([disabled])")
@@ -197,21 +198,38 @@ def test_a_copy_of_a_tab_takes_the_file_and_the_first_keeps_what_it_shows(presse
     copied.locator('[data-note="file"]', has_text="are deleted").wait_for()
     assert copied.is_disabled("[data-press]")
     copied.wait_for_url(lambda address: "of=" not in address)
+    assert not copied.is_visible("#connection")
+    # neither has taken it from the other again
+    assert {name: len(opened) for name, opened in lines.items()} == {"first": 1, "copied": 0}
     copied.close()
 
 
-def test_a_lab_that_is_started_anew_asks_for_the_file_and_keeps_the_rest(
+def test_a_lab_that_is_started_anew_asks_for_password_and_file_and_keeps_the_rest(
     pressed, pages, relay, lab, files, tmp_path
 ):
     page, before = pressed
-    other = RunningLab(tmp_path / "log")
+    password = tmp_path / "password"
+    password.write_text("correct horse")
+    password.chmod(0o600)
+    other = RunningLab(tmp_path / "log", "--password-file", str(password))
     try:
         with dropped(pages, relay, page):
             relay.lead_to(other.address)
             relay.restore()
-            page.locator("#connection", has_text="open the address that its terminal").wait_for()
-            page.context.request.get(relay.through(other.address))  # which logs in
+            page.locator("#connection", has_text="started anew").wait_for()
+            assert page.inner_text('[data-table="measured-answers"]') == before
+            with page.context.expect_page() as coming:
+                page.click("#connection a")
+            again = coming.value
+            again.wait_for_load_state()
+            assert parse_qs(urlsplit(again.url).query)["next"] == [f"/?{urlsplit(page.url).query}"]
+            again.fill("#password", password.read_text())
+            again.click("button")
+            again.wait_for_selector("#connection", state="hidden")
+            page.bring_to_front()
+            page.wait_for_selector("#connection", state="hidden")
             page.locator('[data-note="file"]', has_text="choose that file again").wait_for()
+        again.close()
         assert NAME in said(page)
         assert page.inner_text('[data-table="measured-answers"]') == before
         assert page.is_disabled("[data-press]")
@@ -224,38 +242,3 @@ def test_a_lab_that_is_started_anew_asks_for_the_file_and_keeps_the_rest(
     finally:
         relay.lead_to(lab.address)
         assert other.close() == (0, "")
-
-
-def test_a_page_finds_out_that_a_lab_started_anew_wants_its_password_again(browser, tmp_path):
-    password = tmp_path / "password"
-    password.write_text("correct horse")
-    password.chmod(0o600)
-    labs = [RunningLab(tmp_path / f"log {i}", "--password-file", str(password)) for i in (0, 1)]
-    relay = Relay(labs[0].address)
-    pages = Pages(browser, relay.address)
-
-    def log_in(page):
-        page.fill("#password", password.read_text())
-        page.click("button")
-
-    page = pages.open("?view=published&low_1D=0.002")
-    log_in(page)
-    page.goto(relay.address + "?view=published&low_1D=0.002")
-    page.wait_for_selector('#published .strip [data-answer="exponent_1D"]')
-    shown = page.inner_text("#published .strip")
-    with dropped(pages, relay, page):
-        relay.lead_to(labs[1].address)
-        relay.restore()
-        page.locator("#connection", has_text="started anew").wait_for()
-    assert page.inner_text("#published .strip") == shown
-    with page.context.expect_page() as coming:
-        page.click("#connection a")
-    again = coming.value
-    assert parse_qs(urlsplit(again.url).query)["next"] == [f"/?{urlsplit(page.url).query}"]
-    log_in(again)
-    again.wait_for_selector("#connection", state="hidden")
-    page.bring_to_front()
-    page.wait_for_selector("#connection", state="hidden", timeout=20_000)
-    pages.close()
-    relay.close()
-    assert [each.close() for each in labs] == [(0, ""), (0, "")]

@@ -4,12 +4,14 @@ import re
 
 import pytest
 
+from lab.explore_driven import SMALL
+
 SHOWN = "#plot-explore-contact[data-shown]"
 
 
 @pytest.fixture(scope="module")
 def one_page(pages):
-    return pages.open()
+    return pages.open(SMALL)
 
 
 def test_the_first_page_draws_a_contact_and_complains_of_nothing(one_page):

@@ -38,33 +38,39 @@ LEFT_SOCKETS = pytest.mark.filterwarnings(  # Tornado leaves those that it canno
 )
 
 
-@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM])
-def test_it_is_stopped_with_pages_open(stop, tmp_path):
+def stopped_with_pages_open(lab, stop):
+    """Stop a lab by a signal while it computes for a page."""
+
+    async def scenario():
+        async with lab.page() as page:
+            await upload(lab, page.token, b"1 2\n", "a.txt")
+            await page.ask("explore.full", state={"n": "512"})
+            await asyncio.sleep(0.1)
+            children = psutil.Process(lab.process.pid).children(recursive=True)
+            asked = time.monotonic()
+            lab.process.send_signal(stop)
+            while await page.heard() is not None:
+                pass
+        lab.process.wait(10)
+        assert time.monotonic() - asked < 5
+        wait_until(lambda: not any(child.is_running() for child in children), 5)
+
+    run(scenario)
+    assert lab.process.returncode == 0
+    assert lab.process.stdout.read() == "The lab is closed.\n"
+    for word in ("Task was", "never retrieved", "KeyboardInterrupt", "ignored", "tornado"):
+        assert word not in lab.log.read_text()
+    assert not list(lab.temporary.glob(f"roughline-lab-{lab.process.pid}-*"))
+
+
+def test_it_is_stopped_with_pages_open(tmp_path):
     with running_lab(temporary=tmp_path) as lab:
-
-        async def scenario():
-            async with lab.page() as page:
-                await upload(lab, page.token, b"1 2\n", "a.txt")
-                await page.ask("explore.full", state={"n": "512"})
-                await asyncio.sleep(0.1)
-                children = psutil.Process(lab.process.pid).children(recursive=True)
-                asked = time.monotonic()
-                lab.process.send_signal(stop)
-                while await page.heard() is not None:
-                    pass
-            lab.process.wait(10)
-            assert time.monotonic() - asked < 5
-            wait_until(lambda: not any(child.is_running() for child in children), 5)
-
-        run(scenario)
-        assert lab.process.returncode == 0
-        assert lab.process.stdout.read() == "The lab is closed.\n"
-        for word in ("Task was", "never retrieved", "KeyboardInterrupt", "ignored", "tornado"):
-            assert word not in lab.log.read_text()
-        assert not list(tmp_path.glob("roughline-lab-*"))
+        folder = lab.folder
+        stopped_with_pages_open(lab, signal.SIGTERM)
+        assert not folder.exists()
 
 
-def test_what_a_killed_server_leaves_is_removed_by_the_next(tmp_path):
+def test_what_a_killed_server_leaves_is_removed_by_the_next_which_stops_by_ctrl_c(tmp_path):
     with running_lab(temporary=tmp_path, closes=False) as lab:
         children = psutil.Process(lab.process.pid).children(recursive=True)
         left = lab.folder
@@ -75,6 +81,7 @@ def test_what_a_killed_server_leaves_is_removed_by_the_next(tmp_path):
     (tmp_path / "roughline-lab-999999-linked").symlink_to(others)
     with running_lab(temporary=tmp_path) as lab:
         assert not left.exists()
+        stopped_with_pages_open(lab, signal.SIGINT)
     assert others.is_dir()
 
 
