@@ -210,6 +210,21 @@ def test_what_cannot_be_used_is_refused_where_it_stands(said, at):
     assert "\n" not in str(refused.value)
 
 
+def test_a_cutoff_that_the_grid_does_not_carry_is_told_at_its_control():
+    def told(**state):
+        header, _ = answer(pictures.reduced, {"n": "64", **state})
+        return header["refused"], header["numbers"]["cutoff"]
+
+    refused, used = told(cutoff="0.005")
+    assert used == 2 / 64
+    assert refused == {
+        "cutoff": "64 points carry no waves shorter than 0.03125 sides; that is used meanwhile"
+    }
+    assert told(cutoff="0.1") == ({}, 0.1)
+    assert told() == ({}, 2 / 64)
+    assert told(cutoff="0.00195312") == ({}, 2 / 64)  # the default, which follows the grid
+
+
 def test_as_python_gives_the_same_numbers(curve):
     header, _ = answer(code.code, SMALL, which="python")
     done = subprocess.run(

@@ -87,7 +87,7 @@ class Control:
         """
         try:
             refuse_decimal_comma(text, self.name)
-            if not is_number(text):
+            if not is_number(text) or math.isinf(float(text)):
                 raise rl.InputError(f"{self.name} is {shown(text)}")
             return self.checked(float(text))
         except ControlError:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import roughline as rl
 from roughline.assessment.question import UNLOADING
 from roughline.contact.scaling import stiffness_bar
+from roughline.lab.controls import as_text
 from roughline.lab.explore.address import usable_state
 from roughline.lab.explore.bodies import (
     LINES,
@@ -22,6 +23,7 @@ from roughline.lab.explore.bodies import (
     spectrum_of,
     surface_of,
 )
+from roughline.lab.explore.controls import CUTOFF
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.explore.words import (
     area_rows,
@@ -173,6 +175,10 @@ def _is_first_step(arguments: Arguments) -> bool:
 
 def _settled(state: ExploreState, refused: Mapping[str, str]) -> dict[str, Any]:
     """What the page is told of its controls: what counts, and what is not used and why."""
+    if state.cutoff not in (CUTOFF.default, state.cutoff_used):
+        finest = f"{as_text(state.shortest)} sides"
+        why = f"{state.n} points carry no waves shorter than {finest}; that is used meanwhile"
+        refused = {CUTOFF.key: why, **refused}
     names = ("D_f", "roll_off", "cutoff", "h", "slope", "seed", "n", "F", "hardness_bar")
     values = {name: getattr(state, name) for name in names} | {"cutoff": state.cutoff_used}
     return {
