@@ -163,7 +163,30 @@ def test_sliders_and_texts_of_the_paper(pages):
         page.inner_text('#published [data-error="low_3D"]'),
         page.inner_text('#published [data-fit-error="3D"]'),
     ]
+    page.click("#published-windows")  # all four edges as they were
+    drag_edges(page)
     page.context.close()
+
+
+def drag_edges(page):
+    """Drag each edge of both windows to both ends: beyond the other one it is refused, and back."""
+    for low, high in published.WINDOWS.values():
+        for edge, wrong_end in ((low, 1), (high, 0)):
+            slider = page.locator(f"#published-{edge.key}")
+            for share, end in ((0, edge.low), (1, edge.high)):
+                dragged(page, slider, share)
+                shown = float(page.input_value(f"#published-{edge.key}-text"))
+                assert math.isclose(shown, end, rel_tol=5e-4)
+                page.wait_for_function(
+                    """([key, isRefused]) => isRefused === document.querySelector(
+                        `#published [data-error="${key}"]`).textContent.includes("meanwhile")""",
+                    arg=[edge.key, share == wrong_end],
+                )
+            slider.press("Home")
+            assert float(page.input_value(f"#published-{edge.key}-text")) == edge.low
+            slider.dblclick()
+            assert float(page.input_value(f"#published-{edge.key}-text")) == edge.default
+    page.wait_for_function("() => !document.querySelector('#published .error:not(:empty)')")
 
 
 def test_refused_controls_of_my_surface_leave_the_others_alive(pages):
