@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions lab-attack paper paper-full test quick check benchmark peers memory grid-error coverage interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
+.PHONY: lab lab-sessions lab-attack paper paper-full test quick check benchmark peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -59,6 +59,10 @@ bootstrap-coverage: $(VENV)/installed
 
 interface-stiffness: $(VENV)/installed
 	$(BIN)/python benchmarks/interface_stiffness.py
+
+# Every interval on every kind of surface, in about an hour; resumable.
+intervals: $(VENV)/installed
+	$(BIN)/python benchmarks/measured_coverage.py
 
 part-coverage: $(VENV)/installed
 	$(BIN)/python benchmarks/part_coverage.py
