@@ -5,6 +5,7 @@ from __future__ import annotations
 from roughline.assessment import notes as say
 from roughline.assessment.answers import broken_assumptions
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.assumptions import departures_in_words
 from roughline.assessment.grid import why_without_grid_error
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
@@ -22,6 +23,7 @@ def warnings_of(
     said_elsewhere = {of_borders, *grave_effects(result.body)}
     bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
     warnings = [
+        *departures_in_words(result),
         *say.of_each(bodies, suspicions),
         *say.of_each(bodies, grave_effects),
         *broken_assumptions(result, spectrum),

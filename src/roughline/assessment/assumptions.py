@@ -1,0 +1,89 @@
+"""What rests on which assumption of a topography, and what is said where the data break one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal
+
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.kinds import is_map
+from roughline.spectra.departures import Assumption, Departure, departures
+from roughline.topography.body import Body, Line
+
+Prediction = Literal["line scan", "larger surface", "part", "theories", "grid", "fit"]
+"""What is predicted from a topography beyond the numbers of its own heights."""
+
+RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
+    # reduced lines of Gaussian surfaces with the spectrum of the scan
+    "line scan": frozenset({"gaussian", "stationary", "longer waves"}),
+    # k_i, h_c and reflection of one map, and all answers of a joint
+    "larger surface": frozenset({"gaussian", "isotropic", "stationary", "longer waves"}),
+    # several maps show how places differ; what none of them shows are longer waves
+    "part": frozenset({"longer waves"}),
+    "theories": frozenset({"gaussian", "isotropic"}),
+    "grid": frozenset(),
+    # H, roll-off and cutoff of one law for all directions and places
+    "fit": frozenset({"isotropic", "stationary", "resolution"}),
+}
+"""By what is predicted, the assumptions on whose breaking its interval is taken down."""
+
+_OF_INTERFACE = ("interface_stiffness", "thermal_conductance_per_area", "reflection")
+
+
+def broken(prediction: Prediction, body: Body) -> tuple[Departure, ...]:
+    """Departures of a body on which a prediction rests, gravest first; empty where it holds."""
+    return tuple(each for each in departures(body) if each.assumption in RESTS_ON[prediction])
+
+
+def departures_in_words(result: Assessment) -> list[str]:
+    """Say how what was pressed departs from assumptions, gravest first, and what that takes down.
+
+    Nothing is said of a departure on which no answer to the question rests.
+    """
+    said = []
+    for departure in departures(result.body):
+        down = [
+            _without_interval(result, prediction)
+            for prediction in _predictions(result)
+            if departure.assumption in RESTS_ON[prediction]
+        ]
+        if down:
+            said.append("; ".join([departure.text, *filter(None, dict.fromkeys(down))]))
+    return said
+
+
+def _predictions(result: Assessment) -> Sequence[Prediction]:
+    """What is predicted beyond the body itself."""
+    found: list[Prediction] = []
+    if isinstance(result.body, Line):
+        found += ["line scan"] if result.body.kind == "profile" else []
+    elif is_map(result.body) and result.answers:
+        found.append("larger surface")
+    if result.theories:
+        found.append("theories")
+    return found
+
+
+def _without_interval(result: Assessment, prediction: Prediction) -> str:
+    """Say which answers come without an interval, as far as there are any."""
+    if prediction == "theories":
+        return "theories assume otherwise"
+    given = result.answers
+    keys = [*given] if prediction == "line scan" or result.question.joint else _OF_INTERFACE
+    names = [given[key].symbol for key in keys if key in given and _is_bare(result, key)]
+    if not given and prediction == "line scan" and result.intervals is None:
+        return "the stiffness comes without an interval"
+    if not names:
+        return ""
+    verb = "comes" if len(names) == 1 else "come"
+    return f"{_listed(names)} {verb} without an interval"
+
+
+def _is_bare(result: Assessment, key: str) -> bool:
+    """Whether an answer that depends on the heights has no interval."""
+    return key not in ("normal_force", "mean_pressure", "depth") and result.answers[key].low is None
+
+
+def _listed(names: Sequence[str]) -> str:
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
