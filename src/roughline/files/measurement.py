@@ -15,7 +15,7 @@ from roughline.topography.crop import Crop, points_between, points_in, settings_
 from roughline.topography.effects import effect_of_trend
 from roughline.topography.heights import rms_deviation
 from roughline.topography.missing import Missing
-from roughline.topography.settings import AS_RECORDED, Settings, checked_trend
+from roughline.topography.settings import AS_RECORDED, Settings, checked_trend, record_of_tilt
 from roughline.topography.trend import Trend, remove_trend
 
 
@@ -185,6 +185,8 @@ class Measurement:
             heights, settings["resampled"] = _on_even_points(self.positions * scale.metres, heights)
         if removed != "none":
             before = rms_deviation(heights)
+            spacings = [side / n for side, n in zip(sides, heights.shape, strict=True)]
+            settings |= record_of_tilt(heights, spacings, removed, settings)
             remove_trend(heights, removed)
             settings["detrended"] = removed
             settings |= effect_of_trend(before, rms_deviation(heights))

@@ -25,38 +25,39 @@ class Chance:
     Attributes
     ----------
     correlation : ndarray
-        Over lags, of which one half suffices along the last side; zero beyond their reach. [1]
+        Over lags, from minus to plus their reach along each side. [1]
     pairs : ndarray
         Number of pairs of values at each lag, over that of values. [1]
     count : int
         Number of values.
+    reach : int
+        Largest lag. [1]
     """
 
     correlation: Real
     pairs: Real
     count: int
+    reach: int
 
     @classmethod
     def of(cls, field: Real, reach: int) -> Chance:
         """Take the correlation of a field up to some lag along each side."""
-        field = field[tuple(slice(0, _MOST) for _ in field.shape)]
+        field = fine_part(field)
         field = field - field.mean()
-        lags = [min(reach, n // 2) for n in field.shape]
-        padded = [fft.good_size(n + lag) for n, lag in zip(field.shape, lags, strict=True)]
-        wide = np.zeros(padded)
-        wide[tuple(slice(0, n) for n in field.shape)] = field
-        axes = range(field.ndim)
-        sums = np.fft.irfftn(np.abs(np.fft.rfftn(wide)) ** 2, padded, axes)
-        near = [np.r_[-lag : lag + 1] for lag in lags]
         pairs = np.ones(())
-        for n, lag in zip(field.shape, near, strict=True):
-            pairs = np.multiply.outer(pairs, (n - np.abs(lag)) / n)
-        correlation = sums[np.ix_(*near)] / pairs
-        return cls(correlation / correlation[tuple(lags)], pairs, field.size)
+        for n in field.shape:
+            lags = np.abs(np.arange(-min(reach, n // 2), min(reach, n // 2) + 1))
+            pairs = np.multiply.outer(pairs, (n - lags) / n)
+        correlation = correlated(field, reach) / pairs
+        middle = tuple(n // 2 for n in correlation.shape)
+        scale = correlation[middle]
+        return cls(correlation / scale if scale else correlation, pairs, field.size, reach)
 
     def independent(self, power: int) -> float:
         """Number of independent values with the same scatter of sums of that power."""
-        total = float((self.pairs * self.correlation**power).sum())
+        # where the mean and the tilt are removed, distant values have a correlation below zero,
+        # which says nothing of how many are independent
+        total = float((self.pairs * np.abs(self.correlation) ** power).sum())
         if power == 2:  # squares of a correlation's own scatter add up
             total /= 1 + self.correlation.size / self.count
         return self.count / max(total, 1.0)
@@ -117,6 +118,22 @@ def coarser_selves(body: Body) -> Iterator[CoarserSelf]:
         for axis, n in enumerate(heights.shape):
             even = np.moveaxis(heights, axis, 0)[: n - n % 2]
             heights = np.moveaxis((even[::2] + even[1::2]) / 2, 0, axis)
+
+
+def fine_part(field: Real) -> Real:
+    """Return the part of a field from which correlations are taken: all but of large ones."""
+    return field[tuple(slice(0, _MOST) for _ in field.shape)]
+
+
+def correlated(values: Real, reach: int) -> Real:
+    """Sums of products of values over lags up to a reach, or to half a side."""
+    lags = [min(reach, n // 2) for n in values.shape]
+    padded = [fft.good_size(n + lag) for n, lag in zip(values.shape, lags, strict=True)]
+    wide = np.zeros(padded)
+    wide[tuple(slice(0, n) for n in values.shape)] = values
+    axes = range(values.ndim)
+    sums = np.fft.irfftn(np.abs(np.fft.rfftn(wide)) ** 2, padded, axes)
+    return np.asarray(sums[np.ix_(*(np.r_[-lag : lag + 1] for lag in lags))])
 
 
 def skewness_score(skewness: float, n: float) -> float:

@@ -11,19 +11,23 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from scipy import special
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.spectra.coarser_selves import (
     Chance,
     CoarserSelf,
     coarser_selves,
+    correlated,
+    fine_part,
     kurtosis_score,
     skewness_score,
 )
-from roughline.spectra.fit import fit_self_affine
+from roughline.spectra.fit import SelfAffineFit, fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
+from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
 from roughline.spectra.profile import profile_spectrum
 from roughline.topography.body import Body, Line, Surface
+from roughline.topography.settings import MOUNTING, TILT
 from roughline.units import decimal, engineering
 
 Assumption = Literal[
@@ -32,15 +36,24 @@ Assumption = Literal[
 """What predictions from a topography rest on."""
 
 _CHANCE = 0.002  # of a departure from an assumption that a topography fulfils, over all its tests
+_CHANCE_OF_WAVES = 0.01  # of tilt and bow: what few coefficients show is easily missed
 _LEAST_VALUES = 8  # independent values, from which a skewness or a kurtosis says something
-_SKEW = 0.3  # skewness that matters
-_EXCESS = 0.8  # kurtosis over 3 that matters
-_FOLLOWS = 0.15  # relative rise of the variance of slopes with an rms height that matters
-_GROUPED = 4  # cells along a group whose slopes are compared with its height
+_SKEW = 0.45  # skewness that matters
+_EXCESS = (1.0, 2.5)  # kurtosis over 3 that matters, of heights and of curvatures
+_LACK = 0.6  # kurtosis under 3 that matters
+_HIGHEST = (0.02, 0.05, 0.1, 0.2)  # shares of the highest places whose slopes are judged
+_AS_OF_ALL = 0.3  # logarithm of the ratio of their rms slope to that of all that matters
+_HEAVY = 0.88  # of a score: squares that correlate have heavier tails than those that do not
+_LEAST_CELLS = 16  # along a side, for their slopes
+_LEAST_SLOPES = 24  # independent slopes of the highest places
+_SLOPE_REACH = 32  # cells over which slopes are correlated at most
 _ALIKE = 0.7  # least over largest slope, from which on a surface counts as isotropic
 _VARIES = 0.1  # relative scatter of rms slopes between places that matters
 _TILES = (2, 4, 8)  # along a side, whose slopes are compared
 _LEAST_OF_TILE = 10  # independent squares of slopes in a tile
+_LONGER = 0.02  # mean square of longer waves, over that of the rest, that matters
+_NO_ROLL_OFF = 2.0  # gravity of a roll-off that is not seen
+_LEVELLED = 1.01  # gravity of a tilt that is not known
 _CORRELATED = 3.78  # modes that vary together under a Hann window
 
 
@@ -99,7 +112,7 @@ def _departures(body: Body) -> tuple[Departure, ...]:
     if isinstance(body, Surface):
         found.append(_first("isotropic", _of_directions(body)))
     if body.is_cut_out and selves:
-        found.append(_without_roll_off(body))
+        found += _of_long_waves(body)
     return tuple(sorted(filter(None, found), key=lambda each: -each.gravity))
 
 
@@ -122,24 +135,30 @@ def _first(assumption: Assumption, findings: Iterable[_Finding]) -> Departure | 
 def _of_heights(body: Body, selves: Sequence[CoarserSelf]) -> Iterable[_Finding]:
     """Shapes of the distributions of heights and of detail on every scale."""
     for own in selves:
-        yield from _shape(own.heights, own.of_heights, _named(body, own, "heights"))
-        yield from _shape(own.detail, own.of_detail, _named(body, own, "curvatures"))
-        yield from _detail_by_height(body, own)
+        yield from _shape(own.heights, own.of_heights, _named(body, own, "heights"), _EXCESS[0])
+        yield from _shape(own.detail, own.of_detail, _named(body, own, "curvatures"), _EXCESS[1])
+        yield from _slopes_of_the_highest(body, own)
 
 
 def _named(body: Body, own: CoarserSelf, what: str) -> str:
-    """Name heights or detail by the size of their cells."""
+    """Name heights or curvatures by the size of their cells."""
     if own.cell == 1:
         return f"the {what}"
-    side = engineering(own.cell * _spacing(body), body.unit or "", 2).strip()
-    return f"the {what} on cells of {side}"
+    return f"the {what} of{_cells(body, own)}"
+
+
+def _cells(body: Body, own: CoarserSelf) -> str:
+    """Name cells by their size."""
+    if own.cell == 1:
+        return " points"
+    return f" cells of {engineering(own.cell * _spacing(body), body.unit or '', 2).strip()}"
 
 
 def _spacing(body: Body) -> float:
     return max(body.spacing) if isinstance(body, Surface) else body.spacing
 
 
-def _shape(values: Real, chance: Chance, name: str) -> Iterable[_Finding]:
+def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[_Finding]:
     """Skewness and kurtosis of values."""
     third, fourth = chance.independent(3), chance.independent(4)
     if min(third, fourth) < _LEAST_VALUES or not values.any():
@@ -161,40 +180,82 @@ def _shape(values: Real, chance: Chance, name: str) -> Iterable[_Finding]:
         )
 
     yield _Finding(skewness_score(skewness, third), abs(skewness) / _SKEW, skewed)
-    yield _Finding(kurtosis_score(kurtosis, fourth), abs(kurtosis - 3) / _EXCESS, tailed)
+    gravity = (kurtosis - 3) / (excess if kurtosis > 3 else -_LACK)
+    yield _Finding(kurtosis_score(kurtosis, fourth), gravity, tailed)
 
 
-def _detail_by_height(body: Body, own: CoarserSelf) -> Iterable[_Finding]:
-    """Whether detail is rougher where the surface is higher."""
-    detail = own.detail
-    inner = own.heights[(slice(1, -1),) * detail.ndim]
-    if min(inner.shape) < 4 * _GROUPED:
+def _slopes_of_the_highest(body: Body, own: CoarserSelf) -> Iterable[_Finding]:
+    """Whether slopes of the highest places are those of all, as on a Gaussian surface.
+
+    The mean of the corners of a square of cells and the slopes across it do not correlate.
+    """
+    means, slopes = _mean_and_slopes(own.heights)
+    squares = np.sum([each**2 for each in slopes], axis=0)
+    mean = float(squares.mean())
+    if min(squares.shape) < _LEAST_CELLS or not mean:
         return
-    heights, squares = (_means(values, _GROUPED) for values in (inner, detail**2))
-    heights, squares = heights - heights.mean(), squares / squares.mean() - 1
-    scatter = heights.std() * squares.std()
-    if not scatter:
-        return
-    together = float((heights * squares).mean() / scatter)
-    reach = max(heights.shape)
-    of_heights, of_squares = Chance.of(heights, reach), Chance.of(squares, reach)
-    pairs = of_heights.pairs * of_heights.correlation * of_squares.correlation
-    count = heights.size / max(float(pairs.sum()), 1.0)
-    if count < _LEAST_VALUES:
-        return
-    rise = float(together * squares.std())
-    root = math.sqrt(count - 3)
-    score = math.atanh(max(-0.999, min(together, 0.999))) * root
+    chances = [Chance.of(each, _SLOPE_REACH) for each in slopes]
+    for share in _HIGHEST:
+        highest = means > np.quantile(means, 1 - share)
+        count = int(highest.sum())
+        if not count:
+            continue
+        variance = sum(
+            (float((each**2).mean()) / mean) ** 2 * _scatter_within(highest, chance)
+            for each, chance in zip(slopes, chances, strict=True)
+        )
+        if variance > 2 / _LEAST_SLOPES:
+            continue
+        ratio = float(squares[highest].mean()) / mean
+        yield _as_of_all(body, own, share, ratio, variance)
+
+
+def _mean_and_slopes(heights: Real) -> tuple[Real, list[Real]]:
+    """Means over neighbours along all sides, and differences along each."""
+    if heights.ndim == 1:
+        return (heights[1:] + heights[:-1]) / 2, [heights[1:] - heights[:-1]]
+    along, across = heights[1:] + heights[:-1], heights[1:] - heights[:-1]
+    slopes = [(across[:, 1:] + across[:, :-1]) / 2, (along[:, 1:] - along[:, :-1]) / 2]
+    return (along[:, 1:] + along[:, :-1]) / 4, slopes
+
+
+def _scatter_within(places: Mask, chance: Chance) -> float:
+    """Relative variance of the mean square of a Gaussian field over some places."""
+    part = fine_part(places.astype(np.float64))
+    if not part.any():
+        return math.inf
+    total = float((correlated(part, chance.reach) * chance.correlation**2).sum())
+    total /= 1 + chance.correlation.size / chance.count  # the correlation's own scatter adds up
+    return 2 * max(total / float(part.sum()), 1.0) / float(places.sum())
+
+
+def _as_of_all(
+    body: Body, own: CoarserSelf, share: float, ratio: float, variance: float
+) -> _Finding:
+    """Judge the mean square slope of the highest places over that of all."""
+    shape = 2 / variance  # of a chi-squared variable with as many degrees of freedom
+    score = _HEAVY * _score_of_square(shape, ratio)
 
     def text(limit: float) -> str:
-        allowed = math.tanh(limit / root) * float(squares.std())
+        chance = special.ndtr(-limit / _HEAVY)
+        least, most = (
+            math.sqrt(special.chdtri(shape, each) / shape) for each in (1 - chance, chance)
+        )
         return (
-            f"heights are not Gaussian: the mean square of {_named(body, own, 'curvatures')} "
-            f"{'rises' if rise > 0 else 'falls'} by {abs(rise):.0%} with an rms height, and "
-            f"chance allows {allowed:.0%}"
+            f"heights are not Gaussian: the rms slope of the highest {share:.0%} of"
+            f"{_cells(body, own)} is {decimal(math.sqrt(ratio), 2)} of that of all, and chance "
+            f"allows {decimal(least, 2)} to {decimal(most, 2)}"
         )
 
-    yield _Finding(score, abs(rise) / _FOLLOWS, text)
+    return _Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _AS_OF_ALL, text)
+
+
+def _score_of_square(freedom: float, ratio: float) -> float:
+    """Standard score of a chi-squared variable over its mean."""
+    over = float(special.chdtrc(freedom, freedom * ratio))
+    if over < 0.5:
+        return -float(special.ndtri(max(over, 1e-300)))
+    return float(special.ndtri(max(float(special.chdtr(freedom, freedom * ratio)), 1e-300)))
 
 
 def _means(values: Real, cells: int) -> Real:
@@ -229,9 +290,7 @@ def _scatter(logs: Real, shape: float, tiles: int) -> _Finding:
     """Compare the scatter of logarithms of mean squares with that of gamma variates."""
     expected = float(special.polygamma(1, shape))
     variance, freedom = float(logs.var(ddof=1)), logs.size - 1
-    score = -float(
-        special.ndtri(max(special.chdtrc(freedom, freedom * variance / expected), 1e-300))
-    )
+    score = _score_of_square(freedom, variance / expected)
     varies = math.sqrt(max(0.0, variance - expected)) / 2
     spread = math.exp(float(np.ptp(logs)) / 2)
 
@@ -304,22 +363,64 @@ def _ratio(lay: float) -> float:
     return math.sqrt((1 - lay) / (1 + lay))
 
 
-# Roll-off
+# Roll-off and longer waves
 
 
-def _without_roll_off(body: Body) -> Departure | None:
-    """Say that a piece shows no roll-off."""
+def _of_long_waves(body: Body) -> list[Departure | None]:
+    """Say whether a piece shows a roll-off, and whether it lies on waves longer than itself."""
     what = "map" if isinstance(body, Surface) else "scan"
     try:
         spectrum = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
         fit = fit_self_affine(spectrum)
     except InputError:
-        return None
-    if fit.q_roll is not None and fit.q_roll_interval[0] > fit.q_low * (1 + 1e-9):
-        return None
-    return Departure(
-        "roll-off",
-        f"the {what} shows no roll-off: its spectrum still rises at its longest waves, so longer "
-        f"ones are missing: a longer {what} would hold more of them",
-        2.0,
+        return []
+    found = [_of_shapes(body, fit, what)]
+    if fit.q_roll is None or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):
+        text = (
+            f"the {what} shows no roll-off: its spectrum still rises at its longest waves, so "
+            f"longer ones are missing: a longer {what} would hold more of them"
+        )
+        found.append(Departure("roll-off", text, _NO_ROLL_OFF))
+    return found
+
+
+def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
+    """Say whether tilt and bow are more than waves of the body's own spectrum explain."""
+    shapes = list(long_shapes(body, fit))
+    grave = [
+        each
+        for each in shapes
+        if each.chance < _CHANCE_OF_WAVES / len(shapes) and each.share > _LONGER
+    ]
+    if grave:
+        worst = max(grave, key=lambda each: each.share)
+        return Departure("longer waves", _in_words(worst, body, what), worst.share / _LONGER)
+    if tilt_of(body) is None and body.settings.get(TILT) != MOUNTING:
+        text = (
+            f"the {what} was levelled before it was given, so its heights do not tell whether it "
+            f"lies on waves longer than itself: give it as it was measured, or {_SAY_SO}"
+        )
+        return Departure("longer waves", text, _LEVELLED)
+    return None
+
+
+def _in_words(shape: LongShape, body: Body, what: str) -> str:
+    """Say what waves longer than a body leave in it."""
+    rms, explained = (
+        engineering(each, body.unit or "", 2).strip() for each in (shape.rms, shape.explained)
     )
+    remedy = "map a larger area, or several places" if what == "map" else "scan a longer line"
+    if shape.degree == 1:
+        return (
+            f"the {what} is tilted: the tilt has an rms height of {rms}, of which its own waves "
+            f"explain {explained}, and the rest is the mounting's or of waves longer than the "
+            f"{what}: {remedy}, or {_SAY_SO}"
+        )
+    name = "bow" if shape.degree == 2 else "longest shape"
+    return (
+        f"the {what} lies on waves longer than itself: its {name} has an rms height of {rms}, and "
+        f"its own waves explain {explained}: {remedy}"
+    )
+
+
+_SAY_SO = 'say that the tilt is the mounting\'s (tilt="mounting")'

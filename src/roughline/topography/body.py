@@ -25,11 +25,13 @@ from roughline.topography.heights import (
 from roughline.topography.notebook import described, html_of_body
 from roughline.topography.settings import (
     AS_RECORDED,
+    TILT_REMOVED,
     Settings,
     checked_cut_out,
     checked_settings,
     checked_trend,
     read_only,
+    record_of_tilt,
 )
 from roughline.topography.surfacetopography import fields_of_topography
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
@@ -203,7 +205,7 @@ class Surface:
 
     def scaled(self, factor: float) -> Surface:
         """Return the surface with heights times `factor`."""
-        return with_heights(self, self.heights * factor, height_factor=factor)
+        return _scaled(self, factor)
 
 
 @public
@@ -295,7 +297,7 @@ class Line:
 
     def scaled(self, factor: float) -> Line:
         """Return the line with heights times `factor`."""
-        return with_heights(self, self.heights * factor, height_factor=factor)
+        return _scaled(self, factor)
 
 
 Body = Surface | Line
@@ -307,12 +309,25 @@ def with_heights(body: BodyType, heights: Real, **settings: Any) -> BodyType:
     return replace(body, heights=heights, settings={**body.settings, **settings})
 
 
+def _scaled(body: BodyType, factor: float) -> BodyType:
+    settings = {**body.settings, "height_factor": factor}
+    for name in TILT_REMOVED:
+        if name in settings:
+            settings[name] = float(settings[name]) * factor
+    return replace(body, heights=body.heights * factor, settings=settings)
+
+
 def _detrended(body: BodyType, trend: Trend) -> BodyType:
     refuse_unknown_trend(trend)
+    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
     return replace(
         body,
         heights=without_trend(body.heights, trend),
-        settings={**body.settings, "detrended": trend},
+        settings={
+            **body.settings,
+            "detrended": trend,
+            **record_of_tilt(body.heights, spacings, trend, body.settings),
+        },
         removed_trend=trend,
     )
 

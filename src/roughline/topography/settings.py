@@ -7,14 +7,17 @@ they are not given, they follow from the record.
 from __future__ import annotations
 
 import copyreg
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
 from roughline.errors.checks import one_of, refuse
-from roughline.topography.trend import Trend
+from roughline.topography.trend import Trend, slopes_of_plane
+
+if TYPE_CHECKING:
+    from roughline.computing.arrays import Real
 
 Settings = Mapping[str, str | int | float]
 
@@ -51,6 +54,12 @@ PIECE = "topography"
 
 PERIODIC = "periodic topography"
 """Origin of a topography of SurfaceTopography that is periodic."""
+
+TILT_REMOVED = ("tilt_removed_x", "tilt_removed_y")
+"""Slopes of the planes that were removed from a body, along each side. [1]"""
+
+TILT, MOUNTING = "tilt", "mounting"
+"""Name and value of the setting that says that the tilt of a body is that of its mounting."""
 
 GENERATED = "self-affine"
 """First word of the origin of what was generated with a spectrum."""
@@ -100,6 +109,31 @@ def checked_trend(given: Trend | None, settings: Settings) -> Trend:
         names: tuple[Trend, ...] = get_args(Trend)
         return next((name for name in names if name == settings.get("detrended")), "none")
     return one_of("removed_trend", given, get_args(Trend))
+
+
+def record_of_tilt(
+    heights: Real, spacings: Sequence[float], trend: Trend, before: Settings
+) -> Settings:
+    """Return the record of the plane that is removed with a trend, and of those removed before.
+
+    Parameters
+    ----------
+    heights : ndarray, shape (nx, ny) or (n,)
+        Heights from which the trend is removed. [length]
+    spacings : sequence of float
+        Distance of points along each side. [length]
+    trend : {"none", "mean", "tilt", "curvature"}
+        The trend.
+    before : mapping
+        Settings of the body.
+    """
+    if trend not in ("tilt", "curvature"):
+        return {}
+    slopes = slopes_of_plane(heights, spacings)
+    return {
+        name: slope + float(before.get(name, 0.0))
+        for name, slope in zip(TILT_REMOVED, slopes, strict=False)
+    }
 
 
 def as_body(settings: Settings) -> Settings:

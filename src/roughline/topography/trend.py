@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -49,7 +50,7 @@ def remove_trend(heights: Real, trend: Trend) -> None:
         heights = heights.T  # the polynomials of x and y change places
     heights -= heights.mean()
     # the polynomials are orthonormal along each side, so that projections give the coefficients
-    bases = [_polynomials(n, min(degree, n - 1)) for n in heights.shape]
+    bases = [polynomials(n, min(degree, n - 1)) for n in heights.shape]
     shares = heights
     for basis in bases:
         shares = np.tensordot(shares, basis, axes=(0, 0))
@@ -82,6 +83,26 @@ def tilt_share(heights: Real, rms_height: float) -> float:
     return min(share, 1.0)
 
 
+def slopes_of_plane(heights: Real, spacings: Sequence[float]) -> tuple[float, ...]:
+    """Return the slopes of the least-squares plane along each side. [1]
+
+    Parameters
+    ----------
+    heights : ndarray, shape (nx, ny) or (n,)
+        Heights on an even grid. [length]
+    spacings : sequence of float
+        Distance of points along each side. [length]
+    """
+    slopes = []
+    for axis, (n, spacing) in enumerate(zip(heights.shape, spacings, strict=True)):
+        x = np.arange(n) - (n - 1) / 2
+        others = tuple(each for each in range(heights.ndim) if each != axis)
+        across = heights.mean(axis=others) if others else heights
+        spread = float(x @ x) * spacing
+        slopes.append(float(x @ (across - across.mean())) / spread if spread else 0.0)
+    return tuple(slopes)
+
+
 def refuse_unknown_trend(trend: str) -> None:
     """Refuse an unknown name of a trend.
 
@@ -93,8 +114,8 @@ def refuse_unknown_trend(trend: str) -> None:
     one_of("trend", trend, DEGREES)
 
 
-def _polynomials(n: int, degree: int) -> Real:
-    """Orthonormal polynomials on n even points, one a column."""
+def polynomials(n: int, degree: int) -> Real:
+    """Return orthonormal polynomials on n even points, one a column, of all degrees up to one."""
     x = np.linspace(-1.0, 1.0, n)
     basis, _ = np.linalg.qr(np.polynomial.legendre.legvander(x, degree))
     return np.asarray(basis)

@@ -1,0 +1,168 @@
+"""Tilt and bow of a piece, compared with what waves of its own spectrum explain.
+
+Heights are projected on products of Legendre polynomials. Those of one degree share waves of about
+the same length: a plateau of the spectrum gives each of them the same mean square, and waves longer
+than the piece appear in the first degrees alone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy import special
+
+from roughline.computing.arrays import Real
+from roughline.spectra.fit import SelfAffineFit
+from roughline.topography.body import Body, Line, Surface
+from roughline.topography.settings import MOUNTING, TILT, TILT_REMOVED
+from roughline.topography.trend import polynomials, slopes_of_plane
+
+_DEGREES = 8  # of polynomials, from 0
+_OWN = 4  # degree from which on waves are the piece's own
+_LONGEST = 1 / 32  # wavenumber of the longest waves of a law without a roll-off [q_low]
+_SHORTEST = 32.0  # that of the shortest waves that leave a trace in these degrees [q_low]
+_WAVES, _DIRECTIONS = 160, 48
+_ROUNDING = 1e-12  # share of the mean square, below which a plane is rounding
+
+
+@dataclass(frozen=True)
+class LongShape:
+    """The part of heights that lies in polynomials of one degree.
+
+    Attributes
+    ----------
+    degree : int
+        1 for a tilt, 2 for a bow.
+    rms : float
+        Its rms height. [length]
+    explained : float
+        That which waves of the piece's own spectrum have in the mean. [length]
+    share : float
+        Its mean square over that of the heights without it. [1]
+    chance : float
+        Chance of as much or more.
+    """
+
+    degree: int
+    rms: float
+    explained: float
+    share: float
+    chance: float
+
+
+def tilt_of(body: Body) -> tuple[float, ...] | None:
+    """Slopes of the plane that a body had before it was levelled; None if it is not known. [1]"""
+    shape = body.heights.shape
+    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
+    removed = [body.settings.get(name) for name in TILT_REMOVED[: len(shape)]]
+    left = slopes_of_plane(body.heights, spacings)
+    found = [slope + float(before or 0.0) for slope, before in zip(left, removed, strict=True)]
+    sides = [n * spacing for n, spacing in zip(shape, spacings, strict=True)]
+    lies = sum((slope * side) ** 2 / 12 for slope, side in zip(found, sides, strict=True))
+    if not any(removed) and lies < _ROUNDING * body.rms_height**2:
+        return None
+    return tuple(found)
+
+
+def long_shapes(body: Body, fit: SelfAffineFit) -> Iterator[LongShape]:
+    """Yield the tilt, the bow and the third degree of a piece, as far as they are known.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        Cut out of a larger one.
+    fit : SelfAffineFit
+        The law of its spectrum.
+    """
+    sides = body.sizes if isinstance(body, Surface) else (body.length,)
+    squares, counts = _mean_squares(body.detrended())
+    slopes = tilt_of(body)
+    if slopes is not None and body.settings.get(TILT) != MOUNTING:
+        squares[1] = sum((s * side) ** 2 / 12 for s, side in zip(slopes, sides, strict=True))
+    rest = body.detrended().rms_height ** 2
+    laws = [_expected(body, fit.hurst, roll) for roll in _rolls(fit)]
+    own = slice(_OWN, _DEGREES)
+    for degree in range(1, _OWN):
+        if squares[degree] <= _ROUNDING * rest:  # removed, and not known
+            continue
+        found = []
+        for law in laws:
+            level = float((squares[own] / law[own] * counts[own]).sum() / counts[own].sum())
+            explained = law[degree] * level
+            ratio = squares[degree] / counts[degree] / explained
+            chance = float(special.fdtrc(counts[degree], counts[own].sum(), ratio))
+            found.append((chance, explained * counts[degree]))
+        chance, explained = max(found)
+        without = max(rest - (squares[degree] if degree > 1 else 0.0), _ROUNDING * rest)
+        yield LongShape(
+            degree,
+            math.sqrt(squares[degree]),
+            math.sqrt(explained),
+            float(squares[degree]) / without,
+            chance,
+        )
+
+
+def _rolls(fit: SelfAffineFit) -> list[float]:
+    """Roll-offs of the law and of both ends of its interval. [q_low]"""
+    ends = [*fit.q_roll_interval] if fit.q_roll is None else [*fit.q_roll_interval, fit.q_roll]
+    return [max(each / fit.q_low, _LONGEST) for each in ends]
+
+
+def _mean_squares(body: Body) -> tuple[Real, Real]:
+    """Sums of mean squares over the polynomials of each degree, and their number."""
+    heights = body.heights - body.heights.mean()
+    shares = heights
+    for n in heights.shape:
+        shares = np.tensordot(shares, polynomials(n, min(_DEGREES, n) - 1), axes=(0, 0))
+    degree = np.indices(shares.shape).sum(axis=0).ravel()
+    sums = np.bincount(degree, shares.ravel() ** 2 / heights.size)
+    counts = np.bincount(degree).astype(np.float64)
+    return np.array(sums[:_DEGREES], dtype=np.float64), counts[:_DEGREES]
+
+
+def _expected(body: Body, hurst: float, roll: float) -> Real:
+    """Expected mean square in one polynomial of each degree, for a law with some level."""
+    if isinstance(body, Line):
+        q, response = _of_scan()
+        k = np.geomspace(_LONGEST / 4, 64 * _SHORTEST, 400)
+        along = np.hypot(q[:, np.newaxis], k)
+        law = np.trapezoid(np.maximum(along / roll, 1.0) ** (-2 - 2 * hurst), k, axis=1)
+    else:
+        q, response = _of_map(round(body.sizes[0] / body.sizes[1], 2))
+        law = np.maximum(q / roll, 1.0) ** (-2 - 2 * hurst)
+    return response @ law
+
+
+@lru_cache(maxsize=8)
+def _of_map(aspect: float) -> tuple[Real, Real]:
+    """Waves of a surface, and what each leaves in one polynomial of each degree of a map."""
+    q = np.geomspace(_LONGEST, _SHORTEST, _WAVES)
+    angle = (np.arange(_DIRECTIONS) + 0.5) / _DIRECTIONS * math.pi / 2
+    sides = math.sqrt(aspect), 1 / math.sqrt(aspect)
+    along_x, along_y = (
+        _legendre(np.outer(q, of_angle) * side)
+        for of_angle, side in zip((np.cos(angle), np.sin(angle)), sides, strict=True)
+    )
+    response = np.zeros((_DEGREES, q.size))
+    for degree in range(_DEGREES):
+        pairs = [along_x[a] * along_y[degree - a] for a in range(degree + 1)]
+        response[degree] = np.mean(pairs, axis=(0, 2)) * 2 * math.pi * q**2
+    return q, response
+
+
+@lru_cache(maxsize=1)
+def _of_scan() -> tuple[Real, Real]:
+    """Waves of a scan, and what each leaves in the polynomial of each degree."""
+    q = np.geomspace(_LONGEST, _SHORTEST, _WAVES)
+    return q, _legendre(q) * q
+
+
+def _legendre(q: Real) -> Real:
+    """Mean square of a unit wave in the Legendre polynomial of each degree, over a side of 1."""
+    degrees = np.arange(_DEGREES).reshape(-1, *[1] * q.ndim)
+    return np.asarray((2 * degrees + 1) * special.spherical_jn(degrees, math.pi * q) ** 2)
