@@ -15,16 +15,44 @@ from validation import hold
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
 
-def pytest_collection_modifyitems(items):
-    """Keep the tests of a file in one process; mark what needs a browser.
+# Folders whose tests share a cluster or a store; and what takes longest, which therefore goes first,
+# so that no process is left with a long file at the end.
+_SHARING = ("campaign", "paper")
+_LONGEST = (
+    *("campaign", "lab/test_hands", "lab/test_resumed_page", "lab/test_measured_page"),
+    *("lab/test_controls_walk", "lab/test_explore_page", "lab/test_published_page", "paper"),
+)
 
-    Those that share a cluster or a store stay in one process too.
-    """
+
+def pytest_collection_modifyitems(items):
+    """Begin with what takes longest; mark what needs a browser."""
+    order = {group: i for i, group in enumerate(_LONGEST)}
+    items.sort(key=lambda item: order.get(_group_of(item.nodeid), len(order)))
     for item in items:
-        folder, file = item.path.parent.name, item.path.stem
-        item.add_marker(pytest.mark.xdist_group(folder if folder == "campaign" else file))
         if "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.browser)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Keep the tests of a file in one process, and those of a folder that share what costs much.
+
+    pytest-xdist's own groups are lost from pytest 9.2 on, which lets no test be renamed.
+    """
+    from xdist.scheduler import LoadScopeScheduling
+
+    class Groups(LoadScopeScheduling):
+        def _split_scope(self, nodeid):
+            return _group_of(nodeid)
+
+    config.option.loadscopereorder = False  # the order is that above
+    return Groups(config, log)
+
+
+def _group_of(nodeid):
+    """Return the name of the tests that stay in one process with this one."""
+    *_, folder, file = nodeid.partition("::")[0].split("/")
+    return folder if folder in _SHARING else f"{folder}/{file.removesuffix('.py')}"
 
 
 @pytest.fixture(scope="session")
