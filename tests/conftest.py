@@ -15,8 +15,8 @@ from validation import hold
 _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 
 
-# Folders whose tests share a cluster or a store; and what takes longest, which therefore goes first,
-# so that no process is left with a long file at the end.
+# Folders whose tests share a cluster or a store; and what takes longest, which therefore goes
+# first, so that no process is left with a long file at the end.
 _SHARING = ("campaign", "paper")
 _LONGEST = (
     *("campaign", "lab/test_hands", "lab/test_resumed_page", "lab/test_measured_page"),
