@@ -17,6 +17,7 @@ from roughline.files.read import measurement
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation, as_prepared
+from roughline.topography.settings import MOUNTING, TILT
 from roughline.topography.trend import Trend
 from roughline.topography.two_bodies import facing
 
@@ -122,6 +123,8 @@ def measured_body(
     """
     trend: Trend = "none" if preparation and preparation.trend else "tilt"
     filling = Missing(reading.missing, reading.most_missing)
+    if reading.tilt == MOUNTING:
+        content = replace(content, settings={**content.settings, TILT: MOUNTING})
     return content.body(reading.unit, reading.sizes, filling, trend, in_place=in_place)
 
 

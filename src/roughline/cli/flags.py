@@ -28,6 +28,7 @@ _FLAGS = {
     "sizes": "--size",
     "missing": "--fill",
     "most_missing": "--max-missing",
+    "tilt": "--tilt",
     "trend": "--trend",
     "crop": "--crop",
     "low_pass": "--low-pass",

@@ -27,6 +27,13 @@ class FillingChoice(StrEnum):
     nearest = "nearest"
 
 
+class TiltChoice(StrEnum):
+    """Whose the tilt of a measured topography is."""
+
+    unknown = "unknown"
+    mounting = "mounting"
+
+
 class TrendChoice(StrEnum):
     """What is removed from the heights."""
 
@@ -58,6 +65,14 @@ MaxMissing = Annotated[
     typer.Option(
         help="Largest share of missing points, 0 to below 1, that is filled; a file with more is "
         "refused.",
+        rich_help_panel=FILE,
+    ),
+]
+Tilt = Annotated[
+    TiltChoice,
+    typer.Option(
+        help="Whose the tilt of measured heights is: the mounting's alone, or also that of waves "
+        "longer than the topography.",
         rich_help_panel=FILE,
     ),
 ]
@@ -130,10 +145,15 @@ Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units, for 
 
 
 def reading_of(
-    unit: str | None, channel: str | None, size: str | None, fill: FillingChoice, max_missing: float
+    unit: str | None,
+    channel: str | None,
+    size: str | None,
+    fill: FillingChoice,
+    max_missing: float,
+    tilt: TiltChoice = TiltChoice.unknown,
 ) -> rl.Reading:
     """How the options say that files are read."""
-    return rl.Reading(unit, channel, size, fill.value, max_missing)
+    return rl.Reading(unit, channel, size, fill.value, max_missing, tilt=tilt.value)
 
 
 def preparation_of(

@@ -26,6 +26,7 @@ def info(
     size: options.Size = None,
     fill: options.Fill = options.FillingChoice.harmonic,
     max_missing: options.MaxMissing = 0.1,
+    tilt: options.Tilt = options.TiltChoice.unknown,
     trend: options.TrendOption = None,
     crop: options.Crop = None,
     low_pass: options.LowPass = None,
@@ -52,11 +53,14 @@ def info(
 
     if curve := curve_in(file):
         return print_json(as_json(curve)) if json else print_curve_file(curve)
-    reading = options.reading_of(unit, channel, size, fill, max_missing)
+    reading = options.reading_of(unit, channel, size, fill, max_missing, tilt)
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     with writable(out):
         result = describe(file, reading, steps)
     result = replace(result, obstacles=[in_flags(each) for each in result.obstacles])
+    if (parameters := result.roughness) is not None:
+        remarks = [in_flags(each) for each in parameters.remarks]
+        result = replace(result, roughness=replace(parameters, remarks=remarks))
     files: list[Path] = []
     if out is not None:
         from roughline.report.description_figures import write_description

@@ -6,11 +6,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughline.assessment.assumptions import broken
 from roughline.topography.body import Surface
 from roughline.units import engineering, metres_per
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from roughline.assessment.description import Description
+    from roughline.spectra.departures import Departure
+    from roughline.spectra.fit import SelfAffineFit
     from roughline.spectra.roughness import Roughness
 
 _MAPPED_FROM = 0.01  # share of missing points from which on a coarse map shows more than words
@@ -28,7 +33,7 @@ def description_table(description: Description) -> list[tuple[str, str]]:
             (f"{letter}dq, rms slope", f"{body.rms_slope:.4g}"),
         ]
         if description.roughness is not None:
-            rows += _rows_of_roughness(description.roughness, letter)
+            rows += _rows_of_roughness(description.roughness, letter, broken("fit", body))
     return rows
 
 
@@ -93,7 +98,9 @@ def _rows_of_sizes(description: Description) -> list[tuple[str, str]]:
     ]
 
 
-def _rows_of_roughness(parameters: Roughness, letter: str) -> list[tuple[str, str]]:
+def _rows_of_roughness(
+    parameters: Roughness, letter: str, departures: Sequence[Departure]
+) -> list[tuple[str, str]]:
     fit = parameters.fit
     rows = [
         (f"{letter}sk, skewness", _number(parameters.skewness)),
@@ -117,10 +124,19 @@ def _rows_of_roughness(parameters: Roughness, letter: str) -> list[tuple[str, st
             ("cutoff wavelength", _wavelength(fit.q_high, fit.q_high_interval, "the grid's")),
             (
                 "self-affine",
-                "yes" if not fit.objections else f"no: {'; '.join(fit.objections)}",
+                _verdict(fit, departures),
             ),
         ]
     return rows
+
+
+def _verdict(fit: SelfAffineFit, departures: Sequence[Departure]) -> str:
+    """Say whether a self-affine law describes a topography, or what forbids to say so."""
+    if fit.objections:
+        return f"no: {'; '.join(fit.objections)}"
+    if departures:
+        return f"not known: {departures[0].text}"
+    return "yes"
 
 
 def _wavelength(q: float | None, interval: tuple[float, float], otherwise: str) -> str:

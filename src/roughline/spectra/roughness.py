@@ -11,9 +11,11 @@ from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.spectra.fit import SelfAffineFit, fit_self_affine
-from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
-from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
+from roughline.spectra.departures import departures
+from roughline.spectra.fit import SelfAffineFit
+from roughline.spectra.fitted import fitted
+from roughline.spectra.isotropic import IsotropicSpectrum
+from roughline.spectra.profile import ProfileSpectrum
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.borders import border_doubts
 
@@ -43,7 +45,8 @@ class Roughness:
     fit : SelfAffineFit or None
         The self-affine law that fits best; None if there is no fit.
     remarks : list of str
-        Why there is no spectrum or no fit, or why it is not to be trusted.
+        How the topography departs from what predictions rest on, the gravest first; why there is
+        no spectrum or no fit, or why it is not to be trusted.
     """
 
     rms_height: float
@@ -115,18 +118,17 @@ def roughness(body: Body) -> Roughness:
     skewness, kurtosis = _shape(body.heights)
     summits = _summits(body.heights)
     remarks, spectrum, fit = [*border_doubts(body)], None, None
+    remarks += [each.text for each in departures(body)]
     try:
-        estimate = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
-        spectrum, fit = estimate, fit_self_affine(estimate)
-        remarks += fit.objections
+        estimate, law = fitted(body)
+        if isinstance(law, SelfAffineFit):
+            spectrum, fit = estimate, law
+            remarks += law.objections
+        else:
+            remarks.append(str(law))
     except InputError as error:
         remarks.append(str(error))
     ratio = isotropy(body) if isinstance(body, Surface) else None
-    if ratio is not None and ratio < ALIKE:
-        remarks.append(
-            f"slopes differ by direction, smallest over largest {ratio:.2f}: a spectrum averaged "
-            "over directions, and a line scan, do not describe such a surface"
-        )
     return Roughness(
         rms_height=body.rms_height,
         rms_slope=body.rms_slope,

@@ -14,6 +14,7 @@ _CONTROLS = {
     "sizes": "size",
     "missing": "filling",
     "most_missing": "most missing",
+    "tilt": "on the command line, --tilt",
     "trend": "trend",
     "crop": "crop",
     "hardness": "hardness",

@@ -1,0 +1,121 @@
+"""Whether a topography is alike everywhere and in all directions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from scipy import special
+
+from roughline.computing.arrays import Real
+from roughline.spectra.chance import Finding, in_digits, score_of_square
+from roughline.spectra.coarser_selves import CoarserSelf
+from roughline.topography.body import Surface
+from roughline.topography.notebook import in_words
+
+_VARIES = 0.1  # relative scatter of rms slopes between places that matters
+_TILES = (2, 4, 8)  # along a side, whose slopes are compared
+_LEAST_OF_TILE = 10  # independent squares of slopes in a tile
+_ALIKE = 0.7  # least over largest slope, from which on a surface counts as isotropic
+_LEAST_POINTS = 16  # along a side, for slopes by direction
+_CORRELATED = 3.78  # modes that vary together under a Hann window: (35 / 18)²
+
+
+def of_places(selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
+    """Yield the scatter of rms slopes between parts of the body, on every scale."""
+    for own in selves:
+        squares = own.detail**2
+        independent = own.of_detail.independent(2)
+        for tiles in _TILES:
+            cells = min(squares.shape) // tiles
+            if not cells:
+                continue
+            means = _means(squares, cells)
+            shape = independent * cells**squares.ndim / squares.size / 2
+            if shape < _LEAST_OF_TILE / 2 or means.min() <= 0:
+                continue
+            yield _scatter(np.log(means), shape, tiles)
+
+
+def _scatter(logs: Real, shape: float, tiles: int) -> Finding:
+    """Compare the scatter of logarithms of mean squares with that of gamma variates."""
+    expected = float(special.polygamma(1, shape))
+    variance, freedom = float(logs.var(ddof=1)), logs.size - 1
+    score = score_of_square(freedom, variance / expected)
+    varies = math.sqrt(max(0.0, variance - expected)) / 2
+    spread = math.exp(float(np.ptp(logs)) / 2)
+
+    def text(limit: float) -> str:
+        return (
+            f"roughness is not alike everywhere: between {logs.size} parts the rms slope scatters "
+            f"by {math.sqrt(variance) / 2:.0%}, up to a factor of {in_digits(spread)}, and chance "
+            f"explains {math.sqrt(expected) / 2:.0%}"
+        )
+
+    return Finding(score, varies / _VARIES, text)
+
+
+def of_directions(surface: Surface) -> Iterable[Finding]:
+    """Yield slopes by direction, of all waves and of those longer than some."""
+    if min(surface.shape) < _LEAST_POINTS:
+        return
+    level = surface.detrended() if surface.is_cut_out else surface
+    heights = level.heights - level.heights.mean()
+    if not heights.any():
+        return
+    heights /= np.abs(heights).max()
+    if surface.is_cut_out:
+        heights *= np.outer(*(np.hanning(n + 1)[:-1] for n in surface.shape))
+    power = np.abs(np.fft.rfft2(heights)) ** 2
+    (nx, ny), (dx, dy) = surface.shape, surface.spacing
+    qx, qy = np.fft.fftfreq(nx, dx)[:, np.newaxis], np.fft.rfftfreq(ny, dy)
+    q2 = qx**2 + qy**2
+    power *= q2
+    power[:, 0] /= 2  # both halves of the plane are alike
+    lowest, end = 1 / min(surface.sizes), 0.5 / max(surface.spacing)
+    together = _CORRELATED if surface.is_cut_out else 1.0
+    while end >= 4 * lowest:
+        longer = (q2 >= lowest**2) & (q2 < end**2)
+        weights = power[longer]
+        turned = ((qx + 1j * qy) ** 2)[longer] / q2[longer]
+        total = float(weights.sum())
+        if total > 0:
+            lay = abs(complex((weights * turned).sum())) / total
+            variance = together * float((weights**2).sum()) / 4 / total**2
+            yield _lay(lay, variance, 1 / end, surface.unit)
+        end /= 2
+
+
+def _lay(lay: float, variance: float, wave: float, unit: str | None) -> Finding:
+    """Judge how far slopes of waves longer than one prefer a direction."""
+    chance = math.exp(-min(lay**2 / 2 / variance, 600.0))
+    score = -float(special.ndtri(chance / 2))
+
+    def text(limit: float) -> str:
+        allowed = math.sqrt(-2 * variance * math.log(2 * special.ndtr(-limit)))
+        length = in_words(wave, unit, 2)
+        return (
+            f"slopes differ by direction: of waves over {length}, the least is "
+            f"{_ratio(lay):.2f} of the largest, and chance allows {_ratio(min(allowed, 1.0)):.2f}"
+        )
+
+    return Finding(score, lay / _lay_of(_ALIKE), text)
+
+
+def _lay_of(ratio: float) -> float:
+    return (1 - ratio**2) / (1 + ratio**2)
+
+
+def _ratio(lay: float) -> float:
+    """Least over largest slope."""
+    return math.sqrt((1 - lay) / (1 + lay))
+
+
+def _means(values: Real, cells: int) -> Real:
+    """Means over groups of so many cells along each side."""
+    for axis, n in enumerate(values.shape):
+        whole = np.moveaxis(values, axis, 0)[: n - n % cells]
+        groups = whole.reshape(n // cells, cells, *whole.shape[1:]).mean(axis=1)
+        values = np.moveaxis(groups, 0, axis)
+    return values

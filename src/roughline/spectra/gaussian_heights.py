@@ -1,0 +1,153 @@
+"""Whether heights are Gaussian on every scale, and slopes of the highest places those of all."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from scipy import special
+
+from roughline.computing.arrays import Mask, Real
+from roughline.spectra.chance import (
+    Chance,
+    Finding,
+    correlated,
+    fine_part,
+    in_digits,
+    kurtosis_score,
+    score_of_square,
+    skewness_score,
+)
+from roughline.spectra.coarser_selves import CoarserSelf
+from roughline.topography.body import Body, Surface
+from roughline.topography.notebook import in_words
+
+_LEAST_VALUES = 8  # independent values, from which a skewness or a kurtosis says something
+_SKEW = 0.45  # skewness that matters
+_EXCESS = (1.0, 2.5)  # kurtosis over 3 that matters, of heights and of curvatures
+_LACK = 0.6  # kurtosis under 3 that matters
+_HIGHEST = (0.02, 0.05, 0.1, 0.2)  # shares of the highest places whose slopes are judged
+_AS_OF_ALL = 0.3  # logarithm of the ratio of their rms slope to that of all that matters
+_HEAVY = 0.88  # of a score: squares that correlate have heavier tails than those that do not
+_LEAST_CELLS = 16  # along a side, for their slopes
+_LEAST_SLOPES = 24  # independent slopes of the highest places
+_SLOPE_REACH = 32  # cells over which slopes are correlated at most
+
+
+def of_heights(body: Body, selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
+    """Yield shapes of the distributions of heights and of detail on every scale."""
+    for own in selves:
+        yield from _shape(own.heights, own.of_heights, _named(body, own, "heights"), _EXCESS[0])
+        yield from _shape(own.detail, own.of_detail, _named(body, own, "curvatures"), _EXCESS[1])
+        yield from _slopes_of_the_highest(body, own)
+
+
+def _named(body: Body, own: CoarserSelf, what: str) -> str:
+    """Name heights or curvatures by the size of their cells."""
+    if own.cell == 1:
+        return f"the {what}"
+    return f"the {what} of{_cells(body, own)}"
+
+
+def _cells(body: Body, own: CoarserSelf) -> str:
+    """Name cells by their size."""
+    if own.cell == 1:
+        return " points"
+    return f" cells of {in_words(own.cell * _spacing(body), body.unit, 2)}"
+
+
+def _spacing(body: Body) -> float:
+    return max(body.spacing) if isinstance(body, Surface) else body.spacing
+
+
+def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[Finding]:
+    """Skewness and kurtosis of values."""
+    third, fourth = chance.independent(3), chance.independent(4)
+    if min(third, fourth) < _LEAST_VALUES or not values.any():
+        return
+    values = values - values.mean()
+    values /= values.std()
+    skewness, kurtosis = float((values**3).mean()), float((values**4).mean())
+
+    def skewed(limit: float) -> str:
+        return (
+            f"heights are not Gaussian: the skewness of {name} is {in_digits(skewness)}, and "
+            f"chance allows {in_digits(limit * math.sqrt(6 / third))}"
+        )
+
+    def tailed(limit: float) -> str:
+        return (
+            f"heights are not Gaussian: the kurtosis of {name} is {in_digits(kurtosis)}, and "
+            f"chance allows 3 with {in_digits(limit * math.sqrt(24 / fourth))} more or less"
+        )
+
+    yield Finding(skewness_score(skewness, third), abs(skewness) / _SKEW, skewed)
+    gravity = (kurtosis - 3) / (excess if kurtosis > 3 else -_LACK)
+    yield Finding(kurtosis_score(kurtosis, fourth), gravity, tailed)
+
+
+def _slopes_of_the_highest(body: Body, own: CoarserSelf) -> Iterable[Finding]:
+    """Whether slopes of the highest places are those of all, as on a Gaussian surface.
+
+    The mean of the corners of a square of cells and the slopes across it do not correlate.
+    """
+    means, slopes = _mean_and_slopes(own.heights)
+    squares = np.sum([each**2 for each in slopes], axis=0)
+    mean = float(squares.mean())
+    if min(squares.shape) < _LEAST_CELLS or not mean:
+        return
+    chances = [Chance.of(each, _SLOPE_REACH) for each in slopes]
+    for share in _HIGHEST:
+        highest = means > np.quantile(means, 1 - share)
+        count = int(highest.sum())
+        if not count:
+            continue
+        variance = sum(
+            (float((each**2).mean()) / mean) ** 2 * _scatter_within(highest, chance)
+            for each, chance in zip(slopes, chances, strict=True)
+        )
+        if variance > 2 / _LEAST_SLOPES:
+            continue
+        ratio = float(squares[highest].mean()) / mean
+        yield _as_of_all(body, own, share, ratio, variance)
+
+
+def _mean_and_slopes(heights: Real) -> tuple[Real, list[Real]]:
+    """Means over neighbours along all sides, and differences along each."""
+    if heights.ndim == 1:
+        return (heights[1:] + heights[:-1]) / 2, [heights[1:] - heights[:-1]]
+    along, across = heights[1:] + heights[:-1], heights[1:] - heights[:-1]
+    slopes = [(across[:, 1:] + across[:, :-1]) / 2, (along[:, 1:] - along[:, :-1]) / 2]
+    return (along[:, 1:] + along[:, :-1]) / 4, slopes
+
+
+def _scatter_within(places: Mask, chance: Chance) -> float:
+    """Relative variance of the mean square of a Gaussian field over some places."""
+    part = fine_part(places.astype(np.float64))
+    if not part.any():
+        return math.inf
+    total = float((correlated(part, chance.reach) * chance.correlation**2).sum())
+    total /= 1 + chance.correlation.size / chance.count  # the correlation's own scatter adds up
+    return 2 * max(total / float(part.sum()), 1.0) / float(places.sum())
+
+
+def _as_of_all(
+    body: Body, own: CoarserSelf, share: float, ratio: float, variance: float
+) -> Finding:
+    """Judge the mean square slope of the highest places over that of all."""
+    shape = 2 / variance  # of a chi-squared variable with as many degrees of freedom
+    score = _HEAVY * score_of_square(shape, ratio)
+
+    def text(limit: float) -> str:
+        chance = special.ndtr(-limit / _HEAVY)
+        least, most = (
+            math.sqrt(special.chdtri(shape, each) / shape) for each in (1 - chance, chance)
+        )
+        return (
+            f"heights are not Gaussian: the rms slope of the highest {share:.0%} of"
+            f"{_cells(body, own)} is {in_digits(math.sqrt(ratio))} of that of all, and chance "
+            f"allows {in_digits(least)} to {in_digits(most)}"
+        )
+
+    return Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _AS_OF_ALL, text)
