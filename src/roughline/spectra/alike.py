@@ -9,13 +9,14 @@ import numpy as np
 from scipy import special
 
 from roughline.computing.arrays import Real
-from roughline.spectra.chance import Finding, in_digits, score_of_square
+from roughline.spectra.chance import Finding, score_of_square
 from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Surface
 from roughline.topography.notebook import in_words
 
 _VARIES = 0.1  # relative scatter of rms slopes between places that matters
 _TILES = (2, 4, 8)  # along a side, whose slopes are compared
+_NONE = 1e-6  # of the largest mean square slope: none
 _LEAST_OF_TILE = 10  # independent squares of slopes in a tile
 _ALIKE = 0.7  # least over largest slope, from which on a surface counts as isotropic
 _LEAST_POINTS = 16  # along a side, for slopes by direction
@@ -33,12 +34,11 @@ def of_places(selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
                 continue
             means = _means(squares, cells)
             shape = independent * cells**squares.ndim / squares.size / 2
-            if shape < _LEAST_OF_TILE / 2 or means.min() <= 0:
-                continue
-            yield _scatter(np.log(means), shape, tiles)
+            if shape >= _LEAST_OF_TILE / 2 and means.max() > 0:
+                yield _scatter(np.log(np.maximum(means, _NONE * means.max())), shape)
 
 
-def _scatter(logs: Real, shape: float, tiles: int) -> Finding:
+def _scatter(logs: Real, shape: float) -> Finding:
     """Compare the scatter of logarithms of mean squares with that of gamma variates."""
     expected = float(special.polygamma(1, shape))
     variance, freedom = float(logs.var(ddof=1)), logs.size - 1
@@ -49,8 +49,8 @@ def _scatter(logs: Real, shape: float, tiles: int) -> Finding:
     def text(limit: float) -> str:
         return (
             f"roughness is not alike everywhere: between {logs.size} parts the rms slope scatters "
-            f"by {math.sqrt(variance) / 2:.0%}, up to a factor of {in_digits(spread)}, and chance "
-            f"explains {math.sqrt(expected) / 2:.0%}"
+            f"by a factor of {math.exp(math.sqrt(variance) / 2):.3g}, from least to largest by "
+            f"{spread:.3g}, and chance explains {math.exp(math.sqrt(expected) / 2):.3g}"
         )
 
     return Finding(score, varies / _VARIES, text)

@@ -13,6 +13,8 @@ from roughline.spectra.chance import Chance
 from roughline.topography.body import Body
 
 _LEAST = 8  # cells along the shortest side of a coarser self
+_MOST = 1024  # points along a side that are searched for steps
+_ROUNDING = 1e-9  # of the largest height
 _FINE_REACH = 32  # cells over which detail is correlated at most
 
 
@@ -71,3 +73,18 @@ def coarser_selves(body: Body) -> Iterator[CoarserSelf]:
         for axis, n in enumerate(heights.shape):
             even = np.moveaxis(heights, axis, 0)[: n - n % 2]
             heights = np.moveaxis((even[::2] + even[1::2]) / 2, 0, axis)
+
+
+def share_on_lines(heights: Real) -> float:
+    """Return the share of heights in line with their neighbours along every side."""
+    if min(heights.shape) < _LEAST:
+        return 0.0
+    heights = heights[tuple(slice(0, _MOST) for _ in heights.shape)]
+    inner = (slice(1, -1),) * heights.ndim
+    scale = float(np.abs(heights).max())
+    in_line = np.ones(heights[inner].shape, dtype=bool)
+    for axis in range(heights.ndim):
+        along = np.moveaxis(np.diff(heights, n=2, axis=axis), axis, 0)
+        others = np.moveaxis(along[(slice(None), *inner[1:])], 0, axis)
+        in_line &= np.abs(others) <= _ROUNDING * scale
+    return 0.0 if in_line.all() else float(in_line.mean())

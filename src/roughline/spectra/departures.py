@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
@@ -12,7 +13,7 @@ from scipy import special
 from roughline.errors import InputError
 from roughline.spectra.alike import of_directions, of_places
 from roughline.spectra.chance import Finding
-from roughline.spectra.coarser_selves import coarser_selves
+from roughline.spectra.coarser_selves import coarser_selves, share_on_lines
 from roughline.spectra.fit import SelfAffineFit
 from roughline.spectra.fitted import fitted
 from roughline.spectra.gaussian_heights import of_heights
@@ -29,6 +30,7 @@ Assumption = Literal[
 _CHANCE = 0.002  # of a departure from an assumption that a topography fulfils, over all its tests
 _CHANCE_OF_WAVES = 0.01  # of tilt and bow: what few coefficients show is easily missed
 _LONGER = 0.02  # mean square of longer waves, over that of the rest, that matters
+_ON_LINES = 0.1  # share of heights that stand in steps that matters
 _NO_ROLL_OFF = 2.0  # gravity of a roll-off that is not seen
 _LEVELLED = 1.01  # gravity of a tilt that is not known
 
@@ -80,7 +82,21 @@ def _departures(body: Body) -> tuple[Departure, ...]:
         found.append(_first("isotropic", of_directions(body), body))
     if body.is_cut_out and selves:
         found += _of_long_waves(body)
+    found.append(_of_steps(body))
     return tuple(sorted(filter(None, found), key=lambda each: -each.gravity))
+
+
+def _of_steps(body: Body) -> Departure | None:
+    """Say whether heights stand in steps, as an instrument rounds them or ends its range."""
+    share = share_on_lines(body.heights)
+    if share <= _ON_LINES:
+        return None
+    text = (
+        f"{share:.0%} of the heights lie in line with their neighbours to the last digit, which "
+        "chance does not do: they are rounded, filled, or at the end of the instrument's "
+        "range, so slopes there are not the surface's: measure with finer steps or a larger range"
+    )
+    return Departure("resolution", text, share / _ON_LINES)
 
 
 def _first(assumption: Assumption, findings: Iterable[Finding], body: Body) -> Departure | None:
@@ -133,7 +149,9 @@ def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     ]
     if grave:
         worst = max(grave, key=lambda each: each.share)
-        return Departure("longer waves", _in_words(worst, body, what), worst.share / _LONGER)
+        return Departure(
+            "longer waves", _in_words(worst, body, what), math.sqrt(worst.share / _LONGER)
+        )
     if tilt_of(body) is None and body.settings.get(TILT) != MOUNTING:
         text = (
             f"the {what} was levelled before it was given, so its heights do not tell whether it "
@@ -149,9 +167,9 @@ def _in_words(shape: LongShape, body: Body, what: str) -> str:
     remedy = "map a larger area, or several places" if what == "map" else "scan a longer line"
     if shape.degree == 1:
         return (
-            f"the {what} is tilted: the tilt has an rms height of {rms}, of which its own waves "
-            f"explain {explained}, and the rest is the mounting's or of waves longer than the "
-            f"{what}: {remedy}, or {_SAY_SO}"
+            f"the tilt of the {what} has an rms height of {rms}, and its own waves explain "
+            f"{explained}: the rest is the mounting's, or of waves longer than the {what}: "
+            f"{remedy}, or {_SAY_SO}"
         )
     name = "bow" if shape.degree == 2 else "longest shape"
     return (
