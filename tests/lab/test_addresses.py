@@ -87,7 +87,7 @@ def test_an_address_of_the_paper_gives_its_state_again(said):
     assert published_state(state.address()) == state
 
 
-CHOICES = (measured.FILLING, measured.TREND, measured.OUTLIERS, measured.BODIES)
+CHOICES = (measured.FILLING, measured.TILT, measured.TREND, measured.OUTLIERS, measured.BODIES)
 CHOICES += (measured.BOUNDARY, measured.GRID)
 LENGTHS = quantities("m", 1e-9, 1)
 LOADS = quantities("N", 1e-9, 1e6) | quantities("Pa", 1, 1e12)

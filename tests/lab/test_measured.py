@@ -18,6 +18,7 @@ from roughline.lab.measured import documents
 from roughline.lab.measured.controls import EXAMPLES
 from roughline.lab.measured.examples import path_of
 from roughline.lab.measured.state import question_of, said_of, source_of
+from roughline.lab.measured.words import in_controls
 from roughline.lab.tasks import TASKS
 from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import answer_table, curve_table, formula_table
@@ -146,7 +147,7 @@ def test_answers_are_those_of_the_library(page, key):
     ]
     assert [header["answers"], header["formulas"]] == rows
     assert header["curve"] == list(curve_table(expected))
-    assert header["remarks"] == [each.replace("trend=", "trend ") for each in expected.remarks]
+    assert header["remarks"] == [in_controls(each) for each in expected.remarks]
     assert bool(page.steps) == (expected.fields is not None)  # a line scan is solved at once
     assert all(done <= total for done, total in page.steps)
     if expected.fields is not None:

@@ -7,6 +7,7 @@ from typing import Literal
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.kinds import is_map
+from roughline.assessment.notes import of_each
 from roughline.spectra.departures import Assumption, Departure, departures
 from roughline.topography.body import Body, Line
 
@@ -40,8 +41,16 @@ def departures_in_words(result: Assessment) -> list[str]:
 
     Nothing is said of a departure on which no answer to the question rests.
     """
+    if isinstance(result.body, Line):
+        bodies = [each.body for each in result.topographies]
+        return of_each(bodies, lambda body: _of_body(result, body))
+    return _of_body(result, result.body)
+
+
+def _of_body(result: Assessment, body: Body) -> list[str]:
+    """Say how a body departs from assumptions on which answers rest."""
     said = []
-    for departure in departures(result.body):
+    for departure in departures(body):
         down = [
             _without_interval(result, prediction)
             for prediction in _predictions(result)

@@ -9,7 +9,7 @@ import numpy as np
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.topography.body import Surface
-from roughline.topography.settings import MEASURED
+from roughline.topography.settings import MEASURED, MOUNTING, TILT, TILT_REMOVED
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
@@ -69,6 +69,7 @@ def facing(first: Surface, second: Surface) -> Surface:
         "origin": MEASURED if is_measured else "two surfaces",
         **{f"first_{key}": value for key, value in first.settings.items()},
         **{f"second_{key}": value for key, value in second.settings.items()},
+        **_record_of_tilts(first, second),
     }
     is_cropped = False
     for name, body in (("first", first), ("second", second)):
@@ -81,6 +82,19 @@ def facing(first: Surface, second: Surface) -> Surface:
     if not same_grid:
         settings["second_resampled_to"] = f"{shape[0]} x {shape[1]}"
     return Surface(heights, sizes, first.unit, settings, is_cut_out=is_measured or is_cropped)
+
+
+def _record_of_tilts(first: Surface, second: Surface) -> dict[str, str | int | float]:
+    """What is known of the planes that were removed from both; the second is turned over x."""
+    bodies = (first, second)
+    if all(body.settings.get(TILT) == MOUNTING for body in bodies):
+        return {TILT: MOUNTING}
+    if not any(name in body.settings for body in bodies for name in TILT_REMOVED):
+        return {}
+    return {
+        name: float(first.settings.get(name, 0.0)) + sign * float(second.settings.get(name, 0.0))
+        for name, sign in zip(TILT_REMOVED, (-1, 1), strict=True)
+    }
 
 
 def _on_grid_of_first(

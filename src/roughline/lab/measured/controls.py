@@ -35,6 +35,14 @@ TREND = Choice(
     "What is removed from the heights by least squares. By default, the tilt of the stage is "
     "removed from files of an instrument; our own files stay as they are.",
 )
+TILT = Choice(
+    "tilt",
+    "tilt is of",
+    {"unknown": "not known", "mounting": "the mounting"},
+    "unknown",
+    "Whose the tilt of a measured topography is: the mounting's alone, such as the stage's, or "
+    "also that of waves longer than the topography, which change the answers for a larger surface.",
+)
 OUTLIERS = Choice(
     "outliers",
     "spikes",
@@ -77,7 +85,18 @@ GRID = Choice(
 GRID_ERRORS = {"default": None, "yes": True, "no": False}
 
 KEYS = (
-    *("unit", "channel", "size", "fill", "most_missing", "trend", "outliers", "crop", "low_pass"),
+    *(
+        "unit",
+        "channel",
+        "size",
+        "fill",
+        "most_missing",
+        "tilt",
+        "trend",
+        "outliers",
+        "crop",
+        "low_pass",
+    ),
     *("resample", "bodies", "first", "second", "E", "loads", "boundary", "friction"),
     *("frequency", "theories", "grid_error", "elastic", "hardness", "joint_area"),
 )
@@ -85,7 +104,7 @@ KEYS = (
 
 
 DEFAULTS = {
-    **{each.key: each.default for each in (FILLING, TREND, OUTLIERS, BODIES, ELASTIC)},
+    **{each.key: each.default for each in (FILLING, TILT, TREND, OUTLIERS, BODIES, ELASTIC)},
     **{each.key: each.default for each in (BOUNDARY, GRID)},
     "most_missing": "10 %",
 }

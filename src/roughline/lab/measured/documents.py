@@ -39,6 +39,7 @@ _FLAGS = {
     "channel": "--channel",
     "size": "--size",
     "fill": "--fill",
+    "tilt": "--tilt",
     "crop": "--crop",
     "low_pass": "--low-pass",
     "resample": "--resample",

@@ -141,6 +141,7 @@ def reading_of(said: Said, name: str | None) -> Reading:
         missing=c.FILLING.read(said.get("fill", c.FILLING.default)),  # type: ignore[arg-type]
         most_missing=_share(said.get("most_missing")),
         name=name,
+        tilt=c.TILT.read(said.get("tilt", c.TILT.default)),  # type: ignore[arg-type]
     )
 
 

@@ -14,7 +14,7 @@ _CONTROLS = {
     "sizes": "size",
     "missing": "filling",
     "most_missing": "most missing",
-    "tilt": "on the command line, --tilt",
+    "tilt": "tilt is of",
     "trend": "trend",
     "crop": "crop",
     "hardness": "hardness",
