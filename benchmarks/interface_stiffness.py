@@ -1,189 +1,162 @@
-"""Compare the interface stiffness of pieces with that of the surface behind them.
+"""Count how often a map tells of the larger surface behind it: ``make interface-stiffness``.
 
-``make interface-stiffness``. Each parent is a periodic surface. Pieces of it, without their tilt,
-are pressed into a free and into a periodic half-space under the mean pressures of the parent, and
-their stiffness per area is divided by its. Rows go to a file as they are made; what is there is not
-made again. Of instrument files given as arguments the whole map is the parent, and its quarters are
-the pieces. With ``--hardness-bar BAR`` the bodies yield at BAR times the rms slope of the parent,
-and the stiffness is that of unloading.
+Parents of every kind of made_surfaces.py are pressed as they are, and some maps of each as parts of
+a joint as large as the parent, with their tiles. With files as arguments the maps are the quarters
+of a measured map, which is the truth. Both are on one grid, so that its error is left out here.
+Rows go to a file as they are made; what is there is not made again.
 """
 
+from __future__ import annotations
+
 import argparse
-import csv
 import math
-import sys
-from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from zlib import crc32
 
 import numpy as np
+from interval_coverage import recorded
+from made_surfaces import GAUSSIAN, KINDS, Make, parent_of, piece_of
+from page import Page
 from scipy.special import erfinv
 
 import roughline as rl
-from roughline.assessment.larger_surface import roll_offs_along_a_side
-from roughline.assessment.pieces import AREA_OF_ONE, STIFFNESS_OF_ONE, share_of_the_whole
-from roughline.engineering.answers import saturated_stiffness
-from roughline.engineering.formulas import interface_stiffness
+from roughline.assessment.assumptions import broken
+from roughline.assessment.larger_surface import larger_surface, roll_offs_along_a_side
+from roughline.assessment.tiles import Beyond, pressed_tiles
 
-# wanted contact area fractions of the parent, about
-WANTED = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.33, 0.5, 0.65, 0.8, 0.9, 0.95)
-NUMBERS = ("wanted", "touching", "resolved", "free", "periodic", "roll_offs", "area")
-FIELDS = ("kind", "n", "m", "cells", "hurst", "waves", "seed", *NUMBERS)
-SHOWN = (0.01, 0.05, 0.2, 0.33, 0.5, 0.65, 0.8, 0.9)
+WANTED = np.array([0.002, 0.01, 0.05, 0.2, 0.5, 0.8])  # contact area fractions, about
+BARS = {"elastic": None, "yielding": 0.15}  # hardness over E* and the rms slope
+MAPS = 3  # of each parent
+KEY = ["kind", "option", "seed"]
 
 
-def cases():
-    """Kind; points of parent and piece, cells to the shortest wave, H, roll-offs a side, seed."""
-    for seed in range(3):
-        for waves in (0.25, 1, 4, 16, 2, 8, 0.5):
-            for hurst in (0.8, 0.2, 1.0, 0.5):
-                cells = 4 if seed % 2 or waves == 16 else 8
-                yield "chosen on", 512, 128, cells, hurst, waves, seed
-    for seed in (20, 21):
-        for waves in (0.35, 0.7, 1.5, 3, 6, 12):
-            for hurst in (0.35, 0.65, 0.9):
-                yield ("other" if seed == 20 else "half as wide"), 448, 112, 4, hurst, waves, seed
-    for waves in (3, 6, 12):
-        for hurst in (0.3, 0.8):
-            yield "worn", 512, 128, 4, hurst, waves, 30
-    for waves in (2, 8):
-        for hurst in (0.5, 0.8):
-            yield "larger", 1024, 256, 8, hurst, waves, 10
+def make_of(kind, seed):
+    """How a parent is made; every fifth one is eight maps long."""
+    rng = np.random.default_rng([crc32(kind.encode()), seed])
+    points, maps = (64, 8) if seed % 5 == 4 else (96 if seed % 2 else 64, 4)
+    hurst, waves = rng.uniform(0.2, 1.0), rng.uniform(3, 12)
+    return Make(points, maps, hurst, waves, rng.choice([2.0, 4.0, 6.0])), rng
 
 
-def parent_and_pieces(kind, n, m, cells, hurst, waves, seed):
-    """A surface, and pieces on its diagonal."""
-    roll = {} if waves * n <= m else {"q_roll": math.tau * waves * n / m}
-    spectrum = rl.SelfAffine(hurst=hurst, rms_height=1e-2, q_high=math.tau * n / cells, **roll)
-    whole = spectrum.surface(n, 1000 + seed)
-    if kind == "worn":  # summits above the rms height are pressed flat to a tenth
-        h = whole.heights
-        whole = replace(whole, heights=np.where(h > 1e-2, 1e-2 + (h - 1e-2) / 10, h))
-    width = m // 2 if kind == "half as wide" else m
-    return whole, [whole.cropped((i, i + m), (i, i + width)) for i in range(0, n, m)]
+def made(kind, option, seed):
+    """A parent, some of its maps, and what is left out of them."""
+    make, rng = make_of(kind, seed)
+    whole = parent_of(kind, make, rng)
+    return rows_of(whole, [piece_of(whole, make, rng) for _ in range(MAPS)], BARS[option])
 
 
-def map_and_quarters(file):
+def quarters(files, name, option, seed):
     """A measured map on at most 600 points a side, and its quarters."""
-    whole = rl.prepared(rl.read(file))
+    whole = rl.prepared(rl.read(files[name]))
     while min(whole.shape) > 600:
         whole = whole.cropped(*((0, n - n % 2) for n in whole.shape)).coarsened()
     halves = [[(0, n // 2), (n // 2, n)] for n in whole.shape]
-    return whole, [whole.cropped(x, y) for x in halves[0] for y in halves[1]]
+    maps = [whole.cropped(x, y) for x in halves[0] for y in halves[1]]
+    return rows_of(whole, maps, BARS[option])
 
 
-def rows(whole, pieces, hardness_bar):
-    """Ratios of pieces to their parent, at each load."""
+def rows_of(whole, maps, bar):
+    """Intervals of maps, each for a joint as large as the whole, and what the whole gives."""
     # erf(sqrt(2) p / (E* slope)) of an elastic surface is in contact, or about so (Persson 2001)
-    pressure = whole.rms_slope * erfinv(WANTED) / math.sqrt(2)
-    given, name = {"E_star": 1.0, "throw": False}, "stiffness"
-    if hardness_bar is not None:
-        given["hardness"], name = hardness_bar * whole.rms_slope, "unloading_stiffness"
-        pressure = 1 / (1 / pressure + 1 / (given["hardness"] * np.array(WANTED)))
-    truth = rl.press(whole, forces=pressure * whole.area, periodic=True, **given)
-    stiffness = getattr(truth, name) / whole.area
-    for piece in (each.detrended() for each in pieces):
-        free, periodic = (
-            rl.press(piece, forces=pressure * piece.area, periodic=each, **given)
-            for each in (False, True)
-        )
-        own = interface_stiffness(getattr(free, name), saturated_stiffness(piece, 1.0))
-        ratio = getattr(periodic, name) / piece.area / stiffness
-        roll_offs = roll_offs_along_a_side(piece)
-        for i, wanted in enumerate(WANTED):
-            yield (
-                wanted,
-                periodic.area_fraction_corrected[i],
-                float(periodic.resolved[i] and np.isfinite(ratio[i])),
-                own[i] / piece.area / stiffness[i],
-                ratio[i],
-                roll_offs or math.nan,
-                periodic.area_fraction_corrected[i] / truth.area_fraction_corrected[i],
-            )
+    pressures, hardness = whole.rms_slope * erfinv(WANTED) / math.sqrt(2), None
+    if bar is not None:
+        hardness = bar * whole.rms_slope
+        pressures = 1 / (1 / pressures + 1 / (hardness * WANTED))
+
+    def pressed(surface, rtol=1e-6):
+        given = {"E_star": 1.0, "hardness": hardness, "periodic": True, "throw": False}
+        return rl.press(surface, forces=pressures * surface.area, rtol=rtol, **given)
+
+    truth = pressed(whole)
+    true = {"k_i": truth.unloading_stiffness / whole.area, "A": truth.area_fraction_corrected}
+    for number, piece in enumerate(maps):
+        level = piece.detrended()
+        curve = pressed(level)
+        value = {"k_i": curve.unloading_stiffness / piece.area, "A": curve.area_fraction_corrected}
+        beyond = Beyond.of(roll_offs_along_a_side(piece), piece.area, whole.area)
+        tiles = pressed_tiles(level, curve, partial(pressed, rtol=1e-4))
+        k, area = curve.unloading_stiffness, curve.area_fraction_corrected
+        larger = larger_surface(curve, beyond, tiles, (k, k), (area, area))
+        ends = {"k_i": np.array(larger.stiffness.ends) / piece.area, "A": np.array(larger.area)}
+        down = [each.assumption for each in broken("larger surface", piece)]
+        for i in np.flatnonzero(curve.resolved & np.isfinite(true["k_i"])):
+            for quantity in ("k_i", "A"):
+                yield {
+                    "map": number,
+                    "maps": round(math.sqrt(whole.area / piece.area)),
+                    "quantity": quantity,
+                    "load": WANTED[i],
+                    "truth": true[quantity][i],
+                    "value": value[quantity][i],
+                    "low": ends[quantity][0][i],
+                    "high": ends[quantity][1][i],
+                    "roll_offs": beyond.roll_offs or 0.0,
+                    "broken": ", ".join(down) or "nothing",
+                }
 
 
-def measured(file, files, hardness_bar):
-    """Make the rows that the file lacks, and read all."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    if not file.exists():
-        file.write_text(",".join(FIELDS) + "\n")
-    with file.open() as stream:
-        there = {tuple(row[:7]) for row in csv.reader(stream)}
-    todo = [(case, parent_and_pieces) for case in cases()]
-    todo += [((f"quarters of {each.name}", *"000000"), each) for each in files]
-    for case, make in todo:
-        if tuple(map(str, case)) in there:
-            continue
-        found = map_and_quarters(make) if isinstance(make, Path) else make(*case)
-        made = rows(*found, hardness_bar)
-        lines = [[*case, *(f"{number:.5g}" for number in row)] for row in made]
-        with file.open("a", newline="") as stream:
-            csv.writer(stream).writerows(lines)
-        print(".", end="", file=sys.stderr, flush=True)
-    table = np.genfromtxt(file, delimiter=",", names=True, dtype=None, encoding="utf-8")
-    return table[table["resolved"] == 1]
+def summary(rows):
+    """Count of intervals, share that is silent, that hold, median width, and how much too wide.
+
+    The last is by how much all logarithms of these intervals could be divided so that 95 of 100
+    still hold.
+    """
+    printed = rows[rows.broken == "nothing"]
+    silent = f"{1 - len(printed) / len(rows):.0%}"
+    if not len(printed):
+        return len(rows), silent, "–", "–", "–"
+    off = np.log(printed.truth / printed.value)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        below, above = np.log(printed.value / printed.low), np.log(printed.high / printed.value)
+        used = np.where(off < 0, -off / below, off / above)
+    width = np.exp(np.median((below + above) / 2))
+    needed = np.quantile(used, 0.95)
+    return len(rows), silent, f"{(used <= 1).mean():.0%}", f"{width:.2f}", f"{1 / needed:.1f}"
 
 
-def print_ratios(table):
-    """Print medians, and between what 90 of 100 lie."""
-    print("| roll-offs a side | half-space | " + " | ".join(f"{each:.0%}" for each in SHOWN) + " |")
-    print("|---" * (2 + len(SHOWN)) + "|")
-    for waves in np.unique(table["waves"]):
-        for boundary in ("free", "periodic"):
-            cells = []
-            for wanted in SHOWN:
-                here = (table["waves"] == waves) & (table["wanted"] == wanted)
-                low, middle, high = np.quantile(table[boundary][here], (0.05, 0.5, 0.95))
-                cells.append(f"{middle:.2f} ({low:.2f}–{high:.2f})")
-            print(f"| {waves:g} | {boundary} | {' | '.join(cells)} |")
-
-
-def shares(here, of):
-    """Both ends of the whole over its pieces, (loads, 2)."""
-    return np.array(
-        [
-            share_of_the_whole(share, None if np.isnan(roll_offs) else roll_offs, of)
-            for share, roll_offs in zip(here["touching"], here["roll_offs"], strict=True)
-        ]
-    )
-
-
-def held(ends, truth):
-    """Share of intervals that hold the truth."""
-    return np.mean((ends[:, 0] <= truth) & (truth <= ends[:, 1]))
-
-
-def print_coverage(table):
-    """Print how often the interval holds the parent, and how wide it is."""
-    print(
-        "\n| pieces | roll-offs a side | loads | none seen | covered | from | to | area covered |"
-    )
-    print("|---|---|---|---|---|---|---|---|")
-    for kind in dict.fromkeys(table["kind"]):
-        for waves in np.unique(table["waves"][table["kind"] == kind]):
-            here = table[(table["kind"] == kind) & (table["waves"] == waves)]
-            ends = shares(here, STIFFNESS_OF_ONE)
-            covered = held(ends, 1 / here["periodic"])
-            area = held(shares(here, AREA_OF_ONE), 1 / here["area"])
-            usual = (here["touching"] > 0.02) & (here["touching"] < 0.7)
-            low, high = np.median(ends[usual], axis=0)
-            none = np.mean(np.isnan(here["roll_offs"]))
-            print(
-                f"| {kind} | {waves:g} | {here.size} | {none:.0%} | {covered:.1%} | "
-                f"{low:.2f} | {high:.2f} | {area:.1%} |"
-            )
+def written(rows, page):
+    """Write the tables: by kind, by load, and on Gaussian surfaces by roll-off and size."""
+    columns = ("intervals", "silent", "held", "half width", "too wide")
+    for quantity, some in rows.groupby("quantity", sort=False):
+        page.say(f"\n## {quantity} of the larger surface\n")
+        page.table("surfaces", *columns)
+        page.row("all", *summary(some))
+        for kind, here in some.groupby("kind", sort=False):
+            page.row(kind, *summary(here))
+        page.say("")
+        page.table("contact", *columns)
+        for load, here in some.groupby("load"):
+            page.row(f"{load:.1%}", *summary(here))
+        page.say("")
+        page.table("Gaussian, maps along a side", "roll-off", *columns)
+        for maps, of_size in some[some.kind.isin(GAUSSIAN)].groupby("maps"):
+            for seen, here in of_size.groupby(of_size.roll_offs > 0):
+                page.row(maps, "seen" if seen else "not seen", *summary(here))
 
 
 def main():
-    """Measure, and print both tables."""
+    """Make the trials, and print the tables."""
     parser = argparse.ArgumentParser()
     parser.add_argument("files", nargs="*", type=Path)
-    parser.add_argument("--hardness-bar", type=float)
     parser.add_argument("--rows", type=Path, default=Path("out/interface_stiffness.csv"))
+    parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--first", type=int, default=0, help="seed")
+    parser.add_argument("--kinds", nargs="*", default=[*KINDS])
     arguments = parser.parse_args()
-    table = measured(arguments.rows, arguments.files, arguments.hardness_bar)
-    print(f"\nroughline {rl.__version__}\n")
-    print_ratios(table[table["kind"] == "chosen on"])
-    print_coverage(table)
+    arguments.rows.parent.mkdir(parents=True, exist_ok=True)
+    if arguments.files:
+        files = {f"quarters of {each.name}": each for each in arguments.files}
+        trials = [(name, option, 0) for name in files for option in BARS]
+        rows = recorded(arguments.rows, KEY, trials, partial(quarters, files))
+    else:
+        seeds = range(arguments.first, arguments.first + arguments.seeds)
+        trials = [
+            (kind, option, seed) for seed in seeds for kind in arguments.kinds for option in BARS
+        ]
+        rows = recorded(arguments.rows, KEY, trials, made)
+    page = Page("interface-stiffness-table.md", "The larger surface", "interface-stiffness")
+    written(rows, page)
 
 
 if __name__ == "__main__":

@@ -50,7 +50,7 @@ def with_answers(
     interface = _interface_stiffness(result, larger)
     intervals = result.intervals_as_asked
     given = _answers(result, pair, interface, intervals, spectrum)
-    if larger is not None and intervals is not None:
+    if larger is not None and intervals is not None and larger.stiffness.shared is not None:
         larger = larger.at(result.asked)
         shared = larger.stiffness.shared
         assert interface is not None

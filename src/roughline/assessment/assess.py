@@ -224,7 +224,9 @@ def _solved_body(
         solution = with_other_filling(solution, case, body, filled, progress)
     if not _needs_larger_surface(question, body):
         return solution, None
-    larger, interrupted = interface_of_the_larger_surface(solution, case, body, filled, progress)
+    larger, interrupted = interface_of_the_larger_surface(
+        solution, case, body, filled, question.joint, progress
+    )
     solution = replace(solution, interrupted=interrupted)
     return (solution if question.joint is None else of_larger_surface(solution, larger)), larger
 

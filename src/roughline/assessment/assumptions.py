@@ -17,8 +17,9 @@ Prediction = Literal["line scan", "larger surface", "part", "theories", "grid", 
 RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
     # reduced lines of Gaussian surfaces with the spectrum of the scan
     "line scan": frozenset({"gaussian", "stationary", "longer waves"}),
-    # k_i, h_c and reflection of one map, and all answers of a joint
-    "larger surface": frozenset({"gaussian", "isotropic", "stationary", "longer waves"}),
+    # k_i, h_c and reflection of one map, and all answers of a joint: its tiles have the heights and
+    # the lay of the map, and speak for both
+    "larger surface": frozenset({"stationary", "steady", "longer waves"}),
     # several maps show how places differ; what none of them shows are longer waves
     "part": frozenset({"longer waves"}),
     "theories": frozenset({"gaussian", "isotropic"}),
@@ -33,7 +34,20 @@ _OF_INTERFACE = ("interface_stiffness", "thermal_conductance_per_area", "reflect
 
 def broken(prediction: Prediction, body: Body) -> tuple[Departure, ...]:
     """Departures of a body on which a prediction rests, gravest first; empty where it holds."""
-    return tuple(each for each in departures(body) if each.assumption in RESTS_ON[prediction])
+    return tuple(each for each in departures(body) if _takes_down(each, prediction, body))
+
+
+def _takes_down(departure: Departure, prediction: Prediction, body: Body) -> bool:
+    """Whether a departure of a body takes down the interval of a prediction.
+
+    Places of a surface that is not Gaussian scatter more than those of a Gaussian one even if it is
+    alike everywhere. Tiles of a map show by how much, unless the roughness drifts.
+    """
+    if departure.assumption not in RESTS_ON[prediction]:
+        return False
+    if prediction == "larger surface" and departure.assumption == "stationary":
+        return all(each.assumption != "gaussian" for each in departures(body))
+    return True
 
 
 def departures_in_words(result: Assessment) -> list[str]:
@@ -54,7 +68,7 @@ def _of_body(result: Assessment, body: Body) -> list[str]:
         down = [
             _without_interval(result, prediction)
             for prediction in _predictions(result)
-            if departure.assumption in RESTS_ON[prediction]
+            if _takes_down(departure, prediction, result.body)
         ]
         if down:
             said.append("; ".join([departure.text, *filter(None, dict.fromkeys(down))]))

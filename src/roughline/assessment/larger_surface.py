@@ -7,15 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.pieces import (
-    AREA_OF_MANY,
-    AREA_OF_ONE,
-    STIFFNESS_OF_MANY,
-    STIFFNESS_OF_ONE,
-    WAVES_OVER_SIDE,
-    Share,
-    share_of_the_whole,
-)
+from roughline.assessment.tiles import MOST_DOUBLINGS, Beyond, Tiles, logit
 from roughline.assessment.uncertainty import interval, loading_under_unloading
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
@@ -27,9 +19,10 @@ from roughline.engineering.declared import DECLARED
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals, ends_at
 from roughline.errors import InputError
-from roughline.spectra.fit import fit_self_affine
-from roughline.spectra.isotropic import isotropic_spectrum
+from roughline.spectra.fitted import fitted
 from roughline.topography.body import Body, Line, Surface
+
+_LEAST_SHARE = 1e-9  # of the area that is in contact, or is not; less counts as this
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,10 +32,11 @@ class LargerSurface:
     Attributes
     ----------
     stiffness : Answer
-        Interface stiffness of as much of it as the piece is large. [N / m]
+        Interface stiffness of as much of it as the piece is large; without an interval where the
+        piece does not tell. [N / m]
     area, shared_area : tuple of ndarray, shape (loads,), or None
         Ends of its corrected area fraction, and of that part of the interval which other pieces
-        would miss in the same way; None where the grid's error is not known. [1]
+        would miss in the same way; None where they are not known. [1]
     """
 
     stiffness: Answer
@@ -88,10 +82,13 @@ class LargerSurface:
             share = curve.stiffness / curve.unloading_stiffness
             loading = share * ends[0], share * ends[1]
             if curve.stiffness_error is not None:
-                shares = ends[0] / self.stiffness.values, ends[1] / self.stiffness.values
+                further = (
+                    np.log(ends[0] / self.stiffness.values),
+                    np.log(ends[1] / self.stiffness.values),
+                )
                 own = interval(curve.stiffness, curve.stiffness_error)
                 yields = share < 1
-                with_own = loading_under_unloading(_widened(curve.stiffness, own, shares), ends)
+                with_own = loading_under_unloading(_widened(curve.stiffness, own, further), ends)
                 loading = (
                     np.where(yields, with_own[0], loading[0]),
                     np.where(yields, with_own[1], loading[1]),
@@ -108,7 +105,7 @@ def roll_offs_along_a_side(surface: Surface) -> float | None:
     Parameters
     ----------
     surface : Surface
-        Without its tilt. [length]
+        [length]
 
     Returns
     -------
@@ -117,10 +114,14 @@ def roll_offs_along_a_side(surface: Surface) -> float | None:
         none, or if there are too few points for a fit.
     """
     try:
-        fit = fit_self_affine(isotropic_spectrum(surface))
+        _, fit = fitted(surface)
     except InputError:
         return None
-    if fit.q_roll is None or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):
+    if (
+        isinstance(fit, InputError)
+        or fit.q_roll is None
+        or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9)
+    ):
         return None
     return fit.q_roll * surface.length / (2 * math.pi)
 
@@ -168,19 +169,26 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
 
 
 def larger_surface(
-    piece: Surface, curve: Curve, stiffness: Ends | None = None, area: Ends | None = None
+    curve: Curve,
+    beyond: Beyond,
+    tiles: tuple[Tiles, Tiles] | None,
+    stiffness: Ends | None = None,
+    area: Ends | None = None,
 ) -> LargerSurface:
     """Stiffness and area of the part of a large surface that a piece was cut out of.
 
     The intervals are those of the large surface under the same mean pressure: they combine the
-    curve's with what one piece does not show of the large surface, as independent.
+    curve's with what the piece's tiles say of the large surface, as independent.
 
     Parameters
     ----------
-    piece : Surface
-        Without its tilt, in SI units.
     curve : Curve
         Of the piece in the periodic half-space.
+    beyond : Beyond
+        The larger surface.
+    tiles : tuple of Tiles, or None
+        Logarithms of the stiffness, and logits of the contact area fraction; without them there are
+        no intervals.
     stiffness, area : tuple of ndarray, shape (loads,), optional
         Both ends of its stiffness on unloading [N / m] and of its corrected area fraction [1].
     """
@@ -188,44 +196,69 @@ def larger_surface(
     k = curve.unloading_stiffness
     assert touching is not None
     assert k is not None
-    roll_offs = roll_offs_along_a_side(piece)
-
-    def widened(values: Real, ends: Ends | None, of: Share) -> Ends:
-        return _widened(values, ends, share_of_the_whole(touching, roll_offs, of))
-
-    if roll_offs is None:
-        held = (
-            "it shows no roll-off, so that longer waves are missing: the interval allows for waves "
-            f"{WAVES_OVER_SIDE} times as long as its side, longer ones lower the stiffness further"
-        )
-    else:
-        held = f"it holds {roll_offs:.2g} roll-off wavelengths along a side"
-    answer = _declared(
-        k,
-        widened(k, stiffness, STIFFNESS_OF_ONE),
-        f"of the larger surface that the map was cut out of; {held}",
-        formula="dF/dd of the map in a periodic half-space under the same force, on unloading",
+    formula = "dF/dd of the map in a periodic half-space under the same force, on unloading"
+    if tiles is None:
+        return LargerSurface(_declared(k, (None, None), _which(beyond), formula=formula))
+    of_stiffness, of_area = tiles
+    (low, high), shared = (
+        _widened(k, stiffness, of_stiffness.beyond(beyond, mean=mean)) for mean in (False, True)
     )
-    answer = replace(answer, shared=widened(k, stiffness, STIFFNESS_OF_MANY))
+    answer = _declared(k, (low, high), _which(beyond), formula=formula)
+    answer = replace(answer, shared=shared)
     if area is None:
         return LargerSurface(answer)
-    one, many = (widened(touching, area, each) for each in (AREA_OF_ONE, AREA_OF_MANY))
-    return LargerSurface(
-        answer, (one[0], np.minimum(one[1], 1.0)), (many[0], np.minimum(many[1], 1.0))
+    one, many = (
+        _widened_share(touching, area, of_area.beyond(beyond, mean=mean)) for mean in (False, True)
+    )
+    return LargerSurface(answer, one, many)
+
+
+def _which(beyond: Beyond) -> str:
+    """Say which larger surface is meant, and how much of its waves the map holds."""
+    if beyond.roll_offs is not None:
+        return (
+            "of the larger surface that the map was cut out of; it holds "
+            f"{beyond.roll_offs:.2g} roll-off wavelengths along a side"
+        )
+    times = f"{2**beyond.doublings:.2g} times as long as the map, which shows no roll-off"
+    if not beyond.is_joint:
+        return (
+            f"of a surface {times}: on a larger one longer waves lower the stiffness further; give "
+            "the joint's area (joint_area=), or measure a larger map"
+        )
+    if beyond.is_told:
+        return f"of a joint {times}: the interval allows for waves as long as the joint"
+    return (
+        f"of a joint {times}: the longer waves that it lacks leave the stiffness open; measure a "
+        f"map at least 1/{2**MOST_DOUBLINGS:g} as long as the joint"
     )
 
 
-def _widened(values: Real, ends: Ends | None, shares: Ends) -> Ends:
-    """Ends of values times shares of the whole, combined with the values' own ends."""
+def _widened(values: Real, ends: Ends | None, further: Ends) -> Ends:
+    """Ends of values whose logarithms differ further, combined with their own as independent."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        halves = [np.log(share) for share in shares]
+        logs = np.log(values)
         if ends is not None:
-            halves = [
-                sign * np.hypot(half, np.log(end / values))
-                for sign, half, end in zip((-1, 1), halves, ends, strict=True)
-            ]
-        low, high = (np.where(values == 0, 0.0, values * np.exp(half)) for half in halves)
-    return low, high
+            further = _combined(further, (np.log(ends[0]) - logs, np.log(ends[1]) - logs))
+        low, high = (values * np.exp(each) for each in further)
+    low = np.where(np.isneginf(further[0]), 0.0, low)
+    return np.where(values == 0, 0.0, low), np.where(values == 0, 0.0, high)
+
+
+def _widened_share(values: Real, ends: Ends, further: Ends) -> Ends:
+    """The same of shares of the area, and of their logits."""
+    logits, *own = (
+        logit(np.clip(each, _LEAST_SHARE, 1 - _LEAST_SHARE)) for each in (values, *ends)
+    )
+    further = _combined(further, (own[0] - logits, own[1] - logits))
+    with np.errstate(over="ignore"):
+        low, high = (1 / (1 + np.exp(-(logits + each))) for each in further)
+    return np.where(values == 0, 0.0, low), np.where(values == 0, 0.0, high)
+
+
+def _combined(first: Ends, second: Ends) -> Ends:
+    """Both ends of a sum of independent differences."""
+    return -np.hypot(first[0], second[0]), np.hypot(first[1], second[1])
 
 
 def _declared(

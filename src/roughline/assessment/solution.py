@@ -7,13 +7,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from roughline.assessment.larger_surface import LargerSurface, larger_surface
+from roughline.assessment.assumptions import broken
+from roughline.assessment.larger_surface import (
+    LargerSurface,
+    larger_surface,
+    roll_offs_along_a_side,
+)
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads
 from roughline.assessment.source import Topography, pressed_body
+from roughline.assessment.tiles import FEWEST, Beyond, Tiles, pressed_tiles
 from roughline.assessment.uncertainty import Changes, Solution, change
+from roughline.contact.curve import Curve
+from roughline.contact.press import press
+from roughline.contact.selection import among_loads
+from roughline.errors import Interrupted
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
 
+_RTOL_OF_TILES = 1e-4  # their scatter need not be known better
 _SMALL = 0.001  # changes below this are reported as less than this [%]
 
 
@@ -58,12 +69,13 @@ def interface_of_the_larger_surface(
     case: LoadCase,
     body: Surface,
     filled: Sequence[Topography],
+    joint: float | None,
     progress: LoadProgress | None,
 ) -> tuple[LargerSurface, bool]:
     """Interface of the larger surface that a body was cut out of.
 
-    The body is pressed again, into a periodic half-space, unless that was asked for to begin with.
-    The second result says whether Ctrl-C came.
+    The body is pressed again, into a periodic half-space, unless that was asked for to begin with,
+    and its tiles are pressed like it. The second result says whether Ctrl-C came.
 
     Parameters
     ----------
@@ -75,6 +87,8 @@ def interface_of_the_larger_surface(
         What was pressed.
     filled : sequence of Topography
         To fill missing points otherwise; empty if none were missing.
+    joint : float or None
+        Nominal area of the larger surface, where it is known. [m²]
     progress : callable, optional
         As for :func:`roughline.press`.
     """
@@ -82,29 +96,60 @@ def interface_of_the_larger_surface(
     periodic = solution
     if not case.periodic and (solution.interrupted or not borne.any()):
         unknown = replace(curve, unloading_stiffness=np.full(borne.size, np.nan))
-        periodic = replace(solution, curve=unknown)
+        periodic = replace(solution, curve=unknown, intervals=None)
     elif not case.periodic:
         case = replace(case.under_forces_of(curve), periodic=True, levelled=True)
         periodic = solved(case, body, [], progress)
         if filled and not periodic.interrupted:
             periodic = with_other_filling(periodic, case, body, filled, progress)
+    level = body.detrended()
+    beyond = Beyond.of(roll_offs_along_a_side(body), body.area, joint)
+    tiles, interrupted = None, solution.interrupted or periodic.interrupted
     known = periodic.intervals
-    unloading, area = (known.unloading, known.area) if known else (None, None)
-    larger = larger_surface(body, periodic.curve, unloading, area)
+    if known and not interrupted and beyond.is_told and not broken("larger surface", body):
+        tiles, interrupted = _tiles(level, periodic.curve, case)
+    ends = (known.unloading, known.area) if known else (None, None)
+    larger = larger_surface(periodic.curve, beyond, tiles, *ends)
     if larger.stiffness.values.size < borne.size:  # loads that failed before have no force
         larger = larger.among(borne)
-    return larger, solution.interrupted or periodic.interrupted
+    return larger, interrupted
+
+
+def _tiles(level: Surface, curve: Curve, case: LoadCase) -> tuple[tuple[Tiles, Tiles] | None, bool]:
+    """Press the tiles of a map at the mean pressures of its curve; says whether Ctrl-C came."""
+    borne = case.borne(curve)
+    pressures = curve.force[borne] / level.area
+    if min(level.shape) < FEWEST or not borne.any():
+        return None, False
+
+    def pressed(tile: Surface) -> Curve:
+        curve = press(
+            tile,
+            E_star=case.E_star,
+            hardness=case.hardness,
+            forces=pressures * tile.area,
+            periodic=True,
+            rtol=_RTOL_OF_TILES,
+            throw=False,
+        )
+        return among_loads(curve, borne)
+
+    try:
+        return pressed_tiles(level, curve, pressed), False
+    except Interrupted:
+        return None, True
 
 
 def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
     """Return a periodic body's solution with the intervals of the larger surface behind it.
 
     Without the grid's errors there are no intervals: an interval of the other uncertainties alone
-    would be too narrow.
+    would be too narrow. Nor are there where the body does not tell of the larger surface.
     """
     if solution.intervals is None:
         return solution
-    return replace(solution, intervals=larger.intervals(solution.curve))
+    known = larger.stiffness.ends is not None
+    return replace(solution, intervals=larger.intervals(solution.curve) if known else None)
 
 
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:

@@ -14,6 +14,7 @@ from roughline.errors import InputError
 from roughline.spectra.alike import of_directions, of_places
 from roughline.spectra.chance import Finding
 from roughline.spectra.coarser_selves import coarser_selves, share_on_lines
+from roughline.spectra.drift import drifts
 from roughline.spectra.fit import SelfAffineFit
 from roughline.spectra.fitted import fitted
 from roughline.spectra.gaussian_heights import of_heights
@@ -21,13 +22,16 @@ from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.notebook import in_words
 from roughline.topography.settings import MOUNTING, TILT
+from roughline.units import decimal
 
 Assumption = Literal[
-    "gaussian", "isotropic", "stationary", "roll-off", "longer waves", "resolution"
+    "gaussian", "isotropic", "stationary", "steady", "roll-off", "longer waves", "resolution"
 ]
 """What predictions from a topography rest on."""
 
 _CHANCE = 0.002  # of a departure from an assumption that a topography fulfils, over all its tests
+_CHANCE_OF_DRIFT = 0.02  # of a drift over a map, which goes on beyond it
+_DRIFTS = 0.1  # logarithm of the ratio of rms slopes at both sides that matters
 _CHANCE_OF_WAVES = 0.01  # of tilt and bow: what few coefficients show is easily missed
 _LONGER = 0.02  # mean square of longer waves, over that of the rest, that matters
 _ON_LINES = 0.1  # share of heights that stand in steps that matters
@@ -80,6 +84,8 @@ def _departures(body: Body) -> tuple[Departure, ...]:
     ]
     if isinstance(body, Surface):
         found.append(_first("isotropic", of_directions(body), body))
+        if body.is_cut_out:
+            found.append(_of_drift(body))
     if body.is_cut_out and selves:
         found += _of_long_waves(body)
     found.append(_of_steps(body))
@@ -118,6 +124,23 @@ def _what(body: Body) -> str:
 
 
 _REMEDIES = {"map": "several maps of a part show what one does not", "scan": "measure a map"}
+
+
+def _of_drift(surface: Surface) -> Departure | None:
+    """Say whether roughness drifts over a map, so that what is beyond is likely to differ."""
+    found = drifts(surface)
+    chance = _CHANCE_OF_DRIFT / max(len(found), 1)
+    grave = [each for each in found if each.chance < chance and abs(each.change) > _DRIFTS]
+    if not grave:
+        return None
+    worst = max(grave, key=lambda each: abs(each.change))
+    change, allowed = math.exp(abs(worst.change)), math.exp(worst.allowed(chance))
+    text = (
+        f"roughness drifts over the map: along {worst.along} the rms slope changes by a factor of "
+        f"{decimal(change, 2)}, and chance allows {decimal(allowed, 2)}, so that the surface "
+        "beyond is likely to differ as well: several maps of a part show what one does not"
+    )
+    return Departure("steady", text, abs(worst.change) / _DRIFTS)
 
 
 def _of_long_waves(body: Body) -> list[Departure | None]:

@@ -1,0 +1,239 @@
+"""What the tiles of a map say of the larger surface that the map is itself a tile of."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.contact.curve import Curve
+from roughline.engineering.intervals import Ends
+from roughline.topography.body import Surface
+
+FEWEST = 32
+"""Points along the shorter side of a map, from which on it has tiles."""
+
+MOST_DOUBLINGS = 4
+"""From a map without a roll-off to the larger surface: maps a sixteenth as long were tried."""
+
+_USUAL = 2.0  # doublings where the larger surface has no size
+
+_POINTS = 2**16  # of a map whose tiles are pressed; a finer one is coarsened before
+_STUDENT = 2.131  # of 95 %, with the 15 degrees of freedom of sixteen tiles
+_DECAY = 0.5  # of a step, from one doubling of the side to the next: that of a border's share
+
+
+@dataclass(frozen=True)
+class Beyond:
+    """The larger surface that a map was cut out of.
+
+    Attributes
+    ----------
+    roll_offs : float or None
+        Roll-off wavelengths along a side of the map; None if it shows none.
+    doublings : float
+        How often the map's side is doubled until it is as long as the larger surface.
+    is_joint : bool
+        Whether the larger surface is a joint of known area.
+    """
+
+    roll_offs: float | None
+    doublings: float = _USUAL
+    is_joint: bool = False
+
+    @classmethod
+    def of(cls, roll_offs: float | None, area: float, joint: float | None) -> Beyond:
+        """The larger surface behind a map of a nominal area [m²], a joint's whose area is known."""
+        if joint is None:
+            return cls(roll_offs)
+        return cls(roll_offs, max(0.0, math.log2(joint / area) / 2), is_joint=True)
+
+    @property
+    def is_told(self) -> bool:
+        """Whether a map's tiles tell of a surface as large as that."""
+        return self.roll_offs is not None or self.doublings <= MOST_DOUBLINGS
+
+
+@dataclass(frozen=True, eq=False)
+class Tiles:
+    """A quantity of a map and of its tiles under one mean pressure, all of them periodic.
+
+    Attributes
+    ----------
+    whole : ndarray, shape (loads,)
+        Of the map, on a scale on which it scatters evenly, such as a logarithm. Infinite in full
+        contact, NaN where it is not known.
+    halves : ndarray, shape (2, 2, loads)
+        Of tiles half as long as the map.
+    quarters : ndarray, shape (4, 4, loads)
+        Of tiles a quarter as long.
+    """
+
+    whole: Real
+    halves: Real
+    quarters: Real
+
+    def steps(self, beyond: Beyond) -> Ends:
+        """Both ends of the mean difference between the larger surface and maps of this size.
+
+        It is due to waves that a map does not hold, and to its border. The steps from quarters to
+        halves and from halves to the map show how it goes on. Where there is a roll-off, each
+        further step is half the one before, so that all of them together are as large as the last
+        one. Without a roll-off the map is to the larger surface as its quarters are to the map.
+        """
+        with np.errstate(invalid="ignore"):
+            first = _mean(self.halves) - _mean(self.quarters)
+            last = np.where(np.isfinite(self.whole), self.whole, np.nan) - _mean(self.halves)
+        if beyond.roll_offs is None:
+            further = [beyond.doublings / 2 * (first + last)]
+        else:
+            further = [last, _DECAY * first]
+        none = np.zeros_like(first)
+        return np.minimum.reduce([none, *further]), np.maximum.reduce([none, *further])
+
+    def scatter(self, beyond: Beyond) -> Real:
+        """Half width of the scatter of maps about their mean, from that of tiles.
+
+        A map is the mean of its four halves and of its sixteen quarters, and scatters as the one or
+        the other says, whichever is more. Tiles that hold a roll-off wavelength are independent. Of
+        quarters that hold less there are only as many independent ones as wavelengths. Without a
+        roll-off a map scatters as its halves do, and again in each two doublings of its side.
+        """
+        halves = np.sqrt(_variance(self.halves))
+        quarters = np.sqrt(np.maximum(_variance(self.quarters), _variance_across(self.quarters)))
+        if beyond.roll_offs is not None:
+            waves = min(4.0, max(1.0, beyond.roll_offs))
+            return _STUDENT * np.maximum(halves / 2, quarters / waves)
+        return _STUDENT * math.sqrt(beyond.doublings / 2) * np.maximum(halves, quarters / 2)
+
+    def beyond(self, beyond: Beyond, *, mean: bool = False) -> Ends:
+        """Both ends of the difference between the larger surface and the map.
+
+        Where the map is above its quarters by more than it scatters, as a map of a plateau is that
+        its own plane tilts, the map is not large yet under this load, and its roll-off does not
+        count.
+
+        Parameters
+        ----------
+        beyond : Beyond
+            The larger surface.
+        mean : bool, optional
+            Whether the map stands for the mean of many, in which chance cancels.
+        """
+        low, high = self._beyond(beyond, mean=mean)
+        if beyond.roll_offs is not None:
+            unlike = self.whole - _mean(self.quarters) > self.scatter(beyond)
+            ends = self._beyond(Beyond(None), mean=mean)
+            low = np.where(unlike, np.fmin(low, ends[0]), low)
+            high = np.where(unlike, np.fmax(high, ends[1]), high)
+        full = np.isinf(self.whole) | np.isinf(self.quarters).any(axis=(0, 1))
+        return np.where(np.isnan(low), -np.inf, low), np.where(full | np.isnan(high), np.inf, high)
+
+    def _beyond(self, beyond: Beyond, *, mean: bool) -> Ends:
+        low, high = self.steps(beyond)
+        scatter = 0.0 if mean else self.scatter(beyond)
+        return low - scatter, high + scatter
+
+
+def pressed_tiles(
+    piece: Surface, curve: Curve, press: Callable[[Surface], Curve]
+) -> tuple[Tiles, Tiles]:
+    """Press the tiles of a map; returns logarithms of its stiffness, and logits of its contact.
+
+    Parameters
+    ----------
+    piece : Surface
+        The map, without its tilt.
+    curve : Curve
+        Of the map in the periodic half-space.
+    press : callable
+        Presses another surface under the same mean pressures.
+    """
+    coarse = _coarsened(piece)
+    if coarse is not piece:
+        curve = press(coarse)
+    halves, quarters = ([press(tile) for tile in _tiles(coarse, n)] for n in (2, 4))
+
+    def tiles(of: Callable[[Curve, int], Real]) -> Tiles:
+        points = coarse.heights.size
+        return Tiles(
+            of(curve, points),
+            np.stack([of(each, points // 4) for each in halves]).reshape(2, 2, -1),
+            np.stack([of(each, points // 16) for each in quarters]).reshape(4, 4, -1),
+        )
+
+    return tiles(_stiffness), tiles(_contact)
+
+
+def _stiffness(curve: Curve, points: int) -> Real:
+    """Logarithm of the stiffness on unloading per area."""
+    assert curve.unloading_stiffness is not None
+    with np.errstate(divide="ignore"):
+        return np.log(curve.unloading_stiffness / curve.length**2)
+
+
+def _contact(curve: Curve, points: int) -> Real:
+    """Logit of the contact area fraction; half a cell is left where all or none touch."""
+    assert curve.area_fraction_corrected is not None
+    share = np.clip(curve.area_fraction_corrected, 0.5 / points, 1 - 0.5 / points)
+    return logit(share)
+
+
+def logit(share: Real) -> Real:
+    """Logarithm of a share over the rest."""
+    with np.errstate(divide="ignore"):
+        return np.log(share) - np.log1p(-share)
+
+
+def _coarsened(piece: Surface) -> Surface:
+    """Return a map of many points on fewer, where its tiles keep enough."""
+    while piece.heights.size > _POINTS and min(piece.shape) >= 4 * FEWEST:
+        piece = piece.cropped(*((0, n - n % 2) for n in piece.shape)).coarsened()
+    return piece
+
+
+def _tiles(piece: Surface, count: int) -> list[Surface]:
+    """Cut a map into so many tiles along each side, each without its tilt."""
+    ends = [np.linspace(0, n, count + 1).astype(int) for n in piece.shape]
+    return [
+        piece.cropped(
+            (int(ends[0][i]), int(ends[0][i + 1])), (int(ends[1][j]), int(ends[1][j + 1]))
+        ).detrended()
+        for i in range(count)
+        for j in range(count)
+    ]
+
+
+def _mean(tiles: Real) -> Real:
+    """Mean over the tiles that are known, and not in full contact; NaN if most are not."""
+    known = np.isfinite(tiles)
+    count = known.sum(axis=(0, 1))
+    total = np.where(known, tiles, 0.0).sum(axis=(0, 1))
+    return np.where(2 * count >= tiles.shape[0] ** 2, total / np.maximum(count, 1), np.nan)
+
+
+def _off(tiles: Real) -> Real:
+    """Deviations from the mean; none of tiles that are not known."""
+    with np.errstate(invalid="ignore"):
+        return np.where(np.isfinite(tiles), tiles - _mean(tiles), 0.0)
+
+
+def _variance(tiles: Real) -> Real:
+    """Variance of the tiles."""
+    count = np.isfinite(tiles).sum(axis=(0, 1))
+    return (_off(tiles) ** 2).sum(axis=(0, 1)) / np.maximum(count - 1, 1)
+
+
+def _variance_across(tiles: Real) -> Real:
+    """Variance of the tiles' mean times their number, where rows or columns scatter as a whole.
+
+    Tiles along a lay are not independent. It is that of an analysis of variance in two ways.
+    """
+    side, off = tiles.shape[0], _off(tiles)
+    rows, columns = off.mean(axis=1, keepdims=True), off.mean(axis=0, keepdims=True)
+    of_rows, of_columns = (side * (each**2).sum(axis=(0, 1)) for each in (rows, columns))
+    rest = ((off - rows - columns) ** 2).sum(axis=(0, 1)) / (side - 1) ** 2
+    return (of_rows + of_columns) / (side - 1) - rest

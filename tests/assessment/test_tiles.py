@@ -1,0 +1,181 @@
+"""What the tiles of a map say of the larger surface behind it."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from benchmarks.made_surfaces import Make, parent_of, piece_of
+from roughline.assessment.larger_surface import larger_surface
+from roughline.assessment.tiles import Beyond, Tiles
+
+MATERIALS = "E=200 GPa nu=0.3, E=200 GPa nu=0.3"
+SEEN, NOT_SEEN = Beyond(6.0), Beyond(None)
+
+
+def drawn(rng, of_map=0.0, of_tile=1.0, loads=400):
+    """Tiles of many maps: means of quarters that scatter, and of what a map has on its own."""
+    quarters = of_map * rng.normal(size=(1, 1, loads)) + of_tile * rng.normal(size=(4, 4, loads))
+    halves = quarters.reshape(2, 2, 2, 2, loads).mean(axis=(1, 3))
+    return Tiles(halves.mean(axis=(0, 1)), halves, quarters)
+
+
+def test_the_mean_of_independent_tiles_is_held_in_95_of_100():
+    tiles = drawn(np.random.default_rng(1))
+    low, high = tiles.beyond(SEEN)
+    held = np.mean((tiles.whole + low <= 0) & (tiles.whole + high >= 0))
+    assert 0.95 <= held < 0.995
+    width = np.median(high - low) / 2 / 1.96 * 4  # over that which just holds as many
+    assert 1.0 < width < 1.4
+    assert (tiles.beyond(NOT_SEEN)[1] > high).all()
+
+
+def test_a_lay_makes_tiles_count_for_less():
+    """Quarters in a row are alike: there are four, not sixteen."""
+    rng = np.random.default_rng(2)
+    rows = rng.normal(size=(4, 1, 400)) + 0.1 * rng.normal(size=(4, 4, 400))
+    halves = rows.reshape(2, 2, 2, 2, 400).mean(axis=(1, 3))
+    tiles = Tiles(halves.mean(axis=(0, 1)), halves, rows)
+    low, high = tiles.beyond(SEEN)
+    assert np.mean((tiles.whole + low <= 0) & (tiles.whole + high >= 0)) >= 0.9
+    assert np.median(tiles.scatter(SEEN)) > 1.5 * np.median(drawn(rng).scatter(SEEN))
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_steps_from_tiles_to_the_map_go_on(sign):
+    """With a roll-off as much again as the last, without one as much as all so far."""
+    quarters = np.zeros((4, 4, 1))
+    tiles = Tiles(np.array([0.3 * sign]), np.full((2, 2, 1), 0.2 * sign), quarters)
+    ends = sorted(abs(np.ravel(tiles.steps(SEEN))))
+    assert ends == pytest.approx([0.0, 0.1])  # half of 0.2, and 0.1
+    assert sorted(abs(np.ravel(tiles.steps(NOT_SEEN)))) == pytest.approx([0.0, 0.3])
+    twice = replace(NOT_SEEN, doublings=4.0)
+    assert sorted(abs(np.ravel(tiles.steps(twice)))) == pytest.approx([0.0, 0.6])
+
+
+def test_full_contact_of_a_tile_leaves_no_upper_end():
+    tiles = drawn(np.random.default_rng(3), loads=3)
+    tiles.quarters[0, 0, 1] = np.inf
+    tiles.quarters[..., 2] = np.nan
+    low, high = tiles.beyond(SEEN)
+    assert np.isinf(high).tolist() == [False, True, True]
+    assert np.isfinite(low).tolist() == [True, True, False]
+
+
+def test_a_map_without_roll_off_tells_of_joints_up_to_sixteen_times_as_long():
+    for side, is_told in ((4, True), (16, True), (17, False)):
+        assert Beyond.of(None, 1.0, side**2).is_told == is_told
+    assert Beyond.of(5.0, 1.0, 1e6).is_told
+    assert Beyond.of(None, 1.0, None).doublings == 2
+
+
+@pytest.fixture(scope="module")
+def made():
+    """A part with a roll-off, and a map of it."""
+    make = Make(points=64, hurst=0.7, waves=8.0)
+    rng = np.random.default_rng(5)
+    part = parent_of("sharp roll-off", make, rng)
+    return part, piece_of(part, make, rng)
+
+
+def test_both_uncertainties_are_combined(made):
+    _, piece = made
+    level = piece.detrended()
+    curve = rl.press(level, E_star=1.0, forces=[0.02 * level.rms_slope * level.area], periodic=True)
+    tiles = (drawn(np.random.default_rng(4), loads=1),) * 2
+    k, a = curve.unloading_stiffness, curve.area_fraction_corrected
+    alone, with_own = (
+        larger_surface(curve, SEEN, tiles, (k / f, k * f), (a, a)).stiffness for f in (1.0, 10.0)
+    )
+    for end, wide in zip(alone.ends, with_own.ends, strict=True):
+        own = math.hypot(math.log(10), abs(math.log(end[0] / k[0])))
+        assert abs(np.log(wide / k)) == pytest.approx([own])
+    assert larger_surface(curve, SEEN, None, (k, k), (a, a)).stiffness.ends is None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("kind", "waves", "bar"),
+    [("sharp roll-off", 6.0, None), ("lognormal pits", 6.0, 0.15), ("no roll-off", 0.0, None)],
+)
+def test_intervals_hold_parents_of_several_kinds(kind, waves, bar):
+    """Maps of a joint, as they are asked for, and the whole joint in the full model."""
+    make, rng = Make(points=64, hurst=0.6, waves=waves), np.random.default_rng(17)
+    part = parent_of(kind, make, rng)
+    pair = rl.Question(part, MATERIALS).pair
+    pressures = np.array([0.003, 0.03, 0.2]) * pair.E_star * part.rms_slope
+    hardness = None if bar is None else bar * pair.E_star * part.rms_slope
+    if bar is not None:
+        pressures = 1 / (1 / pressures + 1 / (0.6 * hardness))
+    truth = rl.press(
+        part,
+        E_star=pair.E_star,
+        forces=pressures * part.area,
+        hardness=hardness,
+        periodic=True,
+    )
+    asked = {"joint_area": part.area, "hardness": hardness, "elastic": bar is None}
+    loads = (pressures * part.area).tolist()
+    held = []
+    for _ in range(3):
+        piece = piece_of(part, make, rng)
+        question = rl.Question(
+            piece, MATERIALS, loads=loads, grid_error=True, fields=False, **asked
+        )
+        answers = rl.assess(question).answers
+        for key, true in (
+            ("interface_stiffness", truth.unloading_stiffness),
+            ("contact_area_fraction", truth.area_fraction_corrected),
+        ):
+            low, high = answers[key].ends
+            held.append((low <= true) & (true <= high))
+    assert np.mean(held) >= 0.9
+
+
+def test_waves_longer_than_the_map_take_down_what_rests_on_the_map_alone(made):
+    """The map's own answers keep their intervals."""
+    part, piece = made
+    x = np.linspace(0, 1, 64)[:, np.newaxis] * np.ones(64)
+    bowed = replace(piece, heights=piece.heights + 6 * piece.rms_height * x**2)
+    asked = {"loads": "200 MPa", "elastic": True, "fields": False, "grid_error": True}
+    found = rl.assess(rl.Question(bowed, MATERIALS, **asked))
+    assert found.answers["interface_stiffness"].ends is None
+    for key in ("contact_stiffness", "contact_area"):
+        assert found.answers[key].ends is not None
+    assert "waves longer" in found.warnings[0]
+    joint = rl.assess(rl.Question(bowed, MATERIALS, joint_area=part.area, **asked))
+    assert joint.answers["contact_area"].ends is None
+    assert joint.intervals is None
+
+
+def test_roughness_that_drifts_takes_it_down_as_well(made):
+    _, piece = made
+    x = np.linspace(-1, 1, 64)[:, np.newaxis]
+    level = piece.detrended().heights * np.exp(0.6 * x)
+    drifting = replace(piece, heights=level)
+    found = rl.assess(
+        rl.Question(drifting, MATERIALS, loads="200 MPa", elastic=True, grid_error=True)
+    )
+    assert found.answers["interface_stiffness"].ends is None
+    assert any("roughness drifts over the map: along x" in each for each in found.warnings)
+
+
+def test_the_answer_says_for_which_surface_it_is():
+    make, rng = Make(points=64, hurst=0.8, waves=0.0), np.random.default_rng(8)
+    part = parent_of("no roll-off", make, rng)
+    piece = piece_of(part, make, rng)
+    asked = {"loads": "100 MPa", "elastic": True, "fields": False, "grid_error": True}
+
+    def k_i(**joint):
+        return rl.assess(rl.Question(piece, MATERIALS, **asked, **joint)).answers[
+            "interface_stiffness"
+        ]
+
+    assert k_i().validity.startswith("of a surface 4 times as long as the map, which shows no")
+    assert "joint_area=" in k_i().validity
+    assert k_i(joint_area=part.area).ends is not None
+    far = k_i(joint_area=1000 * part.area)
+    assert far.ends is None
+    assert "measure a map at least 1/16 as long" in far.validity
