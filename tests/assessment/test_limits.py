@@ -30,7 +30,7 @@ def no_higher(low, high):
 
 
 @pytest.mark.parametrize(
-    "more", [{}, {"hardness": H}, {"joint_area": "1 cm^2"}, {"joint_area": "1 cm^2", "hardness": H}]
+    "more", [{}, {"hardness": H}, {"joint_area": "1 mm^2"}, {"joint_area": "1 mm^2", "hardness": H}]
 )
 def test_points_at_the_hardness_bear_no_more_on_loading(maps, more):
     """So the stiffness on loading is at most that on unloading, at both ends."""
@@ -48,7 +48,7 @@ def test_points_at_the_hardness_bear_no_more_on_loading(maps, more):
 
 def test_the_grid_of_the_stiffness_on_loading_counts_in_a_joint_too(maps):
     """It decides single points at the edges, which the surface behind the map does not mend."""
-    result = asked(maps[0], hardness=H, joint_area="1 cm^2")
+    result = asked(maps[0], hardness=H, joint_area="1 mm^2")
     k, k_i = (result.answers[key] for key in ("contact_stiffness", "interface_stiffness"))
     error = result.curve.stiffness_error
     assert k.low < k.values / (1 + error / (k.values / result.scale)) * (1 + 1e-9)
@@ -69,7 +69,7 @@ def test_loading_lies_between_none_and_unloading_where_its_own_ends_are_not_know
 @pytest.mark.parametrize("more", [{}, {"hardness": H}])
 def test_no_place_of_a_joint_bears_more_than_the_hardness(maps, more):
     """Not of the larger surface behind the map either."""
-    result = asked(maps[0], joint_area="1 cm^2", **more)
+    result = asked(maps[0], joint_area="1 mm^2", **more)
     hardest = H if more else HARDEST
     answers = result.answers
     assert no_higher(answers["contact_pressure"].high, np.array([hardest]))
@@ -87,7 +87,7 @@ def test_a_reflection_is_at_least_that_of_welded_bodies_and_at_most_all(maps, mo
     assert no_higher(reflected.high, np.ones(1))
 
 
-@pytest.mark.parametrize("joint_area", [None, "1 cm^2"])
+@pytest.mark.parametrize("joint_area", [None, "1 mm^2"])
 def test_the_interval_of_a_part_keeps_to_it(maps, joint_area):
     part = asked(maps[:2], joint_area=joint_area, frequency="0.5 MHz")  # two places leave much open
     answers = part.answers
@@ -110,7 +110,7 @@ def test_of_elastic_bodies_the_pressure_may_be_more(maps):
     assert over.high > over.mean > 1
 
 
-@pytest.mark.parametrize("more", [{"periodic": True}, {"joint_area": "1 cm^2"}, {}])
+@pytest.mark.parametrize("more", [{"periodic": True}, {"joint_area": "1 mm^2"}, {}])
 def test_a_load_that_only_the_softest_body_does_not_bear_is_answered(maps, more):
     """In any half-space; how far the answers move is not known then."""
     result = asked(maps[0], loads=f"{0.8 * H:g} Pa", **more)
