@@ -26,6 +26,7 @@ from roughline.assessment.solution import (
     with_other_filling,
 )
 from roughline.assessment.source import Topography, pressed_body, topographies
+from roughline.assessment.tiles import PRESSED_WITH_TILES, coarse_shape
 from roughline.assessment.uncertainty import Solution
 from roughline.assessment.variants import (
     Variation,
@@ -166,13 +167,16 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
             "take a smaller piece or every other point, or E_star= instead of materials",
         )
     if announce is not None and (large or case.count >= _MANY):
-        cost_of = partial(estimate, body.shape, case.count, yielding=yielding, area_fraction=share)
-        told = cost_of(periodic=case.periodic, fields=[0] if question.fields else False)
-        then = cost_of(periodic=True) if twice else told
+        cost_of = partial(estimate, n_loads=case.count, yielding=yielding, area_fraction=share)
+        told = cost_of(body.shape, periodic=case.periodic, fields=[0] if question.fields else False)
+        then = cost_of(body.shape, periodic=True) if twice else told
         memory = _most_memory(question, body, max(told.memory, then.memory))
         cost = f"about {gigabytes(memory)} and {duration(told.seconds)}"
         if twice:
             cost += f", then {duration(then.seconds)} for the interface"
+        if case.grid_error and _needs_larger_surface(question, body):
+            of_tiles = PRESSED_WITH_TILES * cost_of(coarse_shape(body.shape), periodic=True).seconds
+            cost += f", and {duration(of_tiles)} for the surface around the map"
         if more := repeats(question, body):
             cost += (
                 f"; where points yield, up to {more:g} times as long in addition, for elastic "

@@ -21,6 +21,9 @@ MOST_DOUBLINGS = 4
 
 _USUAL = 2.0  # doublings where the larger surface has no size
 
+PRESSED_WITH_TILES = 3
+"""How often as many points as the map has are pressed: halves, quarters, and a coarser map."""
+
 _POINTS = 2**16  # of a map whose tiles are pressed; a finer one is coarsened before
 _STUDENT = 2.131  # of 95 %, with the 15 degrees of freedom of sixteen tiles
 _DECAY = 0.5  # of a step, from one doubling of the side to the next: that of a border's share
@@ -188,9 +191,17 @@ def logit(share: Real) -> Real:
         return np.log(share) - np.log1p(-share)
 
 
+def coarse_shape(shape: tuple[int, int]) -> tuple[int, int]:
+    """Points along the sides of a map whose tiles are pressed."""
+    while shape[0] * shape[1] > _POINTS and min(shape) >= 4 * FEWEST:
+        shape = shape[0] // 2, shape[1] // 2
+    return shape
+
+
 def _coarsened(piece: Surface) -> Surface:
     """Return a map of many points on fewer, where its tiles keep enough."""
-    while piece.heights.size > _POINTS and min(piece.shape) >= 4 * FEWEST:
+    shape = coarse_shape(piece.shape)
+    while piece.shape != shape:
         piece = piece.cropped(*((0, n - n % 2) for n in piece.shape)).coarsened()
     return piece
 

@@ -22,7 +22,6 @@ from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.notebook import in_words
 from roughline.topography.settings import MOUNTING, TILT
-from roughline.units import decimal
 
 Assumption = Literal[
     "gaussian", "isotropic", "stationary", "steady", "roll-off", "longer waves", "resolution"
@@ -137,7 +136,7 @@ def _of_drift(surface: Surface) -> Departure | None:
     change, allowed = math.exp(abs(worst.change)), math.exp(worst.allowed(chance))
     text = (
         f"roughness drifts over the map: along {worst.along} the rms slope changes by a factor of "
-        f"{decimal(change, 2)}, and chance allows {decimal(allowed, 2)}, so that the surface "
+        f"{change:.2f}, and chance allows {allowed:.2f}, so that the surface "
         "beyond is likely to differ as well: several maps of a part show what one does not"
     )
     return Departure("steady", text, abs(worst.change) / _DRIFTS)
