@@ -45,14 +45,14 @@ def test_a_lay_makes_tiles_count_for_less():
 
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_steps_from_tiles_to_the_map_go_on(sign):
-    """With a roll-off as much again as the last, without one as much as all so far."""
+    """With a roll-off as much again as the last, without one the larger at each doubling."""
     quarters = np.zeros((4, 4, 1))
     tiles = Tiles(np.array([0.3 * sign]), np.full((2, 2, 1), 0.2 * sign), quarters)
     ends = sorted(abs(np.ravel(tiles.steps(SEEN))))
     assert ends == pytest.approx([0.0, 0.1])  # half of 0.2, and 0.1
-    assert sorted(abs(np.ravel(tiles.steps(NOT_SEEN)))) == pytest.approx([0.0, 0.3])
+    assert sorted(abs(np.ravel(tiles.steps(NOT_SEEN)))) == pytest.approx([0.0, 0.4])
     twice = replace(NOT_SEEN, doublings=4.0)
-    assert sorted(abs(np.ravel(tiles.steps(twice)))) == pytest.approx([0.0, 0.6])
+    assert sorted(abs(np.ravel(tiles.steps(twice)))) == pytest.approx([0.0, 0.8])
 
 
 def test_full_contact_of_a_tile_leaves_no_upper_end():

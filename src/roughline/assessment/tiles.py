@@ -85,13 +85,13 @@ class Tiles:
         It is due to waves that a map does not hold, and to its border. The steps from quarters to
         halves and from halves to the map show how it goes on. Where there is a roll-off, each
         further step is half the one before, so that all of them together are as large as the last
-        one. Without a roll-off the map is to the larger surface as its quarters are to the map.
+        one. Without a roll-off each further step may be as large as the larger of these two.
         """
         with np.errstate(invalid="ignore"):
             first = _mean(self.halves) - _mean(self.quarters)
             last = np.where(np.isfinite(self.whole), self.whole, np.nan) - _mean(self.halves)
         if beyond.roll_offs is None:
-            further = [beyond.doublings / 2 * (first + last)]
+            further = [beyond.doublings * first, beyond.doublings * last]
         else:
             further = [last, _DECAY * first]
         none = np.zeros_like(first)
@@ -103,14 +103,15 @@ class Tiles:
         A map is the mean of its four halves and of its sixteen quarters, and scatters as the one or
         the other says, whichever is more. Tiles that hold a roll-off wavelength are independent. Of
         quarters that hold less there are only as many independent ones as wavelengths. Without a
-        roll-off a map scatters as its halves do, and again in each two doublings of its side.
+        roll-off a map scatters as its halves and as its quarters do, and again in each two
+        doublings of its side.
         """
-        halves = np.sqrt(_variance(self.halves))
-        quarters = np.sqrt(np.maximum(_variance(self.quarters), _variance_across(self.quarters)))
+        halves = _variance(self.halves)
+        quarters = np.maximum(_variance(self.quarters), _variance_across(self.quarters))
         if beyond.roll_offs is not None:
             waves = min(4.0, max(1.0, beyond.roll_offs))
-            return _STUDENT * np.maximum(halves / 2, quarters / waves)
-        return _STUDENT * math.sqrt(beyond.doublings / 2) * np.maximum(halves, quarters / 2)
+            return _STUDENT * np.sqrt(np.maximum(halves / 4, quarters / waves**2))
+        return _STUDENT * np.sqrt(beyond.doublings / 2 * (halves + quarters) / 2)
 
     def beyond(self, beyond: Beyond, *, mean: bool = False) -> Ends:
         """Both ends of the difference between the larger surface and the map.
