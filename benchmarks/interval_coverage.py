@@ -1,4 +1,4 @@
-"""Count how often intervals of fits and of pressed line scans hold the truth: ``make coverage``.
+"""Count how often intervals of fits hold the truth: ``make coverage``.
 
 Each trial adds its rows to a file at once, and is not done again when the program is started again.
 """
@@ -8,13 +8,11 @@ import math
 import sys
 import time
 from dataclasses import replace
-from functools import cache
-from itertools import product
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from pieces import Q_LOW, cropped, cut_out, of_parent, of_piece, rms_of_piece, tilted
+from pieces import Q_LOW, cropped, cut_out, of_parent, rms_of_piece, tilted
 
 import roughline as rl
 
@@ -23,19 +21,9 @@ ROLL_OFFS = (4, 16)
 CUTOFFS = (0.35, 0.8)  # of the Nyquist wavenumber
 MAPS = {128: 400, 256: 400, 512: 200, 1024: 40}  # points along a side, and how many
 CUTS = {256: 200, 1024: 200, 4096: 200}
-MAP_OF, CUT_OF, SCAN_OF = 4, 8, 4  # length of the parent
-
-HURSTS = (0.2, 0.5, 0.8, 1.0)
-SCAN_ROLL_OFFS = (0, 2, 4, 12)  # 0: none
-SCANS = {128: 80, 256: 40, 1024: 30}  # points, and how many of each law
-FROM_SURFACES = 256  # points up to which scans are rows of surfaces
-FULL_MODEL = 128  # points of the scans that are held against it
-LOADS = np.array([0.01, 0.1, 1.0])  # F / (E* h L)
-TRUE_LINES = 400
-SPRINGS_A_POINT = 16
+MAP_OF, CUT_OF = 4, 8  # length of the parent
 
 FIT_KEY = ["kind", "points", "number"]
-SCAN_KEY = ["points", "hurst", "roll", "number"]
 FITTED = {"hurst": "H", "roll": "roll-off", "cut": "cutoff", "rms": "rms"}
 
 
@@ -66,49 +54,6 @@ def fit_trial(kind, points, number):
         row |= {name: true, f"{name}_fitted": value}
         row |= dict(zip((f"{name}_low", f"{name}_high"), interval, strict=True))
     yield row
-
-
-@cache
-def true_lines(hurst, roll, points):
-    """Stiffness of reduced lines of the true spectrum, over (line, load), and the forces."""
-    spectrum = of_piece(of_parent(hurst, roll, points / 2, SCAN_OF))
-    springs = SPRINGS_A_POINT * points
-    forces = LOADS * spectrum.lattice(springs, "line").rms_height
-    seed = [round(10 * hurst), roll, points]
-    lines = (spectrum.line(springs, np.random.default_rng([*seed, i])) for i in range(TRUE_LINES))
-    stiffness = [rl.press(line, E_star=1.0, forces=forces).stiffness for line in lines]
-    return np.array(stiffness), forces
-
-
-def scan_trial(points, hurst, roll, number):
-    """Press one line scan, and the piece of the surface that it was cut from."""
-    rng = np.random.default_rng([points, round(10 * hurst), roll, number])
-    parent = of_parent(hurst, roll, points / 2, SCAN_OF)
-    stiffness, forces = true_lines(hurst, roll, points)
-    full = np.full(LOADS.size, math.nan)
-    if points <= FROM_SURFACES:
-        piece = cropped(parent, points, rng, "gaussian")
-        heights = piece.heights[rng.integers(points)]
-        if points == FULL_MODEL:
-            full = rl.press(piece.detrended(), E_star=1.0, forces=forces, rtol=1e-4).stiffness
-    else:
-        heights = cut_out(parent, points, rng)
-    scan = rl.Line(tilted(heights, rng), 1.0, kind="profile")
-    start = time.perf_counter()
-    pressed = rl.press_scan(scan, E_star=1.0, forces=forces, rng=number)
-    seconds = time.perf_counter() - start
-    within = (pressed.low <= stiffness) & (stiffness <= pressed.high)
-    for i, load in enumerate(LOADS):
-        yield {
-            "load": load,
-            "seconds": seconds,
-            "stiffness": pressed.curve.stiffness[i],
-            "low": pressed.low[i],
-            "high": pressed.high[i],
-            "true": np.exp(np.log(stiffness[:, i]).mean()),
-            "lines_held": within[:, i].mean(),
-            "full": full[i],
-        }
 
 
 def recorded(file, key, trials, rows_of):
@@ -179,46 +124,6 @@ def fit_tables(rows):
                 cells(kind, f"{low} to {high}", *fit_cells(some))
 
 
-def scan_cells(rows, truth):
-    """Of each load: ratio of geometric means, and share of intervals that hold the truth."""
-    inside = (rows.low <= rows[truth]) & (rows[truth] <= rows.high)
-    ratio = np.exp(np.log(rows.stiffness / rows[truth]).groupby(rows.load).mean())
-    return [
-        " / ".join(f"{each:.2f}" for each in ratio),
-        " / ".join(f"{each:.0%}" for each in inside.groupby(rows.load).mean()),
-    ]
-
-
-def scan_tables(rows):
-    """By law and by number of points, against true lines and against the full model."""
-    loads = "for F / (E* h L) = " + " / ".join(f"{load:g}" for load in LOADS)
-    key = ["points", "hurst", "roll"]
-    groups = [
-        *(((points, "all", "all"), some) for points, some in rows.groupby("points")),
-        *rows.groupby(key),
-    ]
-    print(f"\n{loads}")
-    columns = ["k over true lines", "their mean held", "single lines held", "interval: factor"]
-    table(["points", "H", "roll-off", "scans", *columns])
-    for names, some in groups:
-        lines = " / ".join(f"{each:.0%}" for each in some.groupby("load").lines_held.mean())
-        widths = np.sqrt(some.high / some.low).groupby(some.load).median()
-        spans = " / ".join(f"{each:.2f}" for each in widths)
-        scans = len(some) // LOADS.size
-        cells(*named(names), scans, *scan_cells(some, "true"), lines, spans)
-    table(["points", "H", "roll-off", "scans", "k over the full model", "it is held"])
-    for names, some in groups:
-        solved = some[some.full.notna()]
-        if len(solved):
-            cells(*named(names), len(solved) // LOADS.size, *scan_cells(solved, "full"))
-
-
-def named(names):
-    """Return points, H and roll-off as a table has them."""
-    points, hurst, roll = names
-    return points, hurst, roll if roll else "none"
-
-
 def table(columns):
     """Print the head of a table."""
     print()
@@ -232,23 +137,17 @@ def cells(*values):
 
 
 def main():
-    """Run both studies, or one, and print their tables."""
+    """Run the study, and print its tables."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("studies", nargs="*", default=["fits", "scans"])
     parser.add_argument("--part", type=float, default=1.0, help="of all trials")
     parser.add_argument("--folder", type=Path, default=Path("out/coverage"))
     arguments = parser.parse_args()
     arguments.folder.mkdir(parents=True, exist_ok=True)
     print(f"roughline {rl.__version__}")
-    if "fits" in arguments.studies:
-        pieces = [("map", MAPS), ("scan", CUTS)]
-        counts = {(kind, points): n for kind, sizes in pieces for points, n in sizes.items()}
-        trials = evenly({kind: math.ceil(n * arguments.part) for kind, n in counts.items()})
-        fit_tables(recorded(arguments.folder / "fits.csv", FIT_KEY, trials, fit_trial))
-    if "scans" in arguments.studies:
-        laws = product(SCANS, HURSTS, SCAN_ROLL_OFFS)
-        trials = evenly({law: math.ceil(SCANS[law[0]] * arguments.part) for law in laws})
-        scan_tables(recorded(arguments.folder / "scans.csv", SCAN_KEY, trials, scan_trial))
+    pieces = [("map", MAPS), ("scan", CUTS)]
+    counts = {(kind, points): n for kind, sizes in pieces for points, n in sizes.items()}
+    trials = evenly({kind: math.ceil(n * arguments.part) for kind, n in counts.items()})
+    fit_tables(recorded(arguments.folder / "fits.csv", FIT_KEY, trials, fit_trial))
 
 
 if __name__ == "__main__":

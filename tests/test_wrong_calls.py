@@ -288,6 +288,7 @@ WRONG = {
         rl.press_scan(scan, E_star=1e9, forces=[1.0], against=surface)
         rl.press_scan(scan, E_star=1e9, forces=[1.0], against="other.nc")
         rl.press_scan(scan, E_star=1e9, forces=[1.0], rng="a")
+        rl.press_scan(scan, E_star=1e9, forces=[1.0], gaussian="yes")
         rl.press_scan(scan, E_star=1e9, forces=[1.0], seed=2)
         rl.set_threads("4")
         rl.set_threads(0)

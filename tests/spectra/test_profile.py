@@ -82,31 +82,26 @@ def test_pieces_of_surfaces_have_the_expected_spectrum(hurst, roll):
 @pytest.mark.slow
 @pytest.mark.parametrize(("hurst", "roll"), [(0.8, 4.0), (0.8, 1 / 4), (0.3, 4.0)])
 def test_one_scan_leads_to_the_stiffness_of_its_surface(hurst, roll):
-    """Rows of tilted pieces against reduced lines of the true spectrum, at the same forces."""
+    """Rows of tilted pieces of Gaussian surfaces against the full model of the pieces."""
     n, longer = 128, 4
     parent = rl.SelfAffine(hurst=hurst, length=longer, C_0=1.0, q_roll=roll * Q_0 * (1 + 1e-12))
-    beyond = max(roll, 1.0)
-    truth = rl.SelfAffine(
-        hurst=hurst,
-        C_0=(beyond / roll) ** (-2 * (hurst + 1)),
-        q_roll=beyond * Q_0,
-        q_high=np.pi * n,
-    )
-    lines = [truth.line(4096, seed) for seed in range(200)]
-    forces = np.array([0.01, 0.1, 1.0]) * lines[0].rms_height
-    true = np.array([rl.press(line, E_star=1.0, forces=forces).stiffness for line in lines])
-    ratios, single = [], []
+    ratios, held = [], []
     for seed in range(12):
         heights = parent.surface(longer * n, seed, "gaussian").heights
-        for row in (0, 2 * n):
-            piece = heights[row, row : row + n] + 5 * np.linspace(-1, 1, n)
-            scan = rl.Line(piece, 1.0, kind="profile")
-            found = rl.press_scan(scan, E_star=1.0, forces=forces, rng=seed)
-            ratios.append(np.log(found.curve.stiffness) - np.log(true).mean(axis=0))
-            single.append(((found.low <= true) & (true <= found.high)).mean(axis=0))
-    # of 24 scans, the mean is known to 4 % (one standard error)
-    assert np.abs(np.mean(ratios, axis=0)).max() < math.log(1.1) + 0.08
-    assert np.mean(single) >= 0.92
+        for first in (0, 2 * n):
+            piece = rl.Surface(heights[first : first + n, :n], (1.0, 1.0), is_cut_out=True)
+            forces = np.array([0.01, 0.1, 1.0]) * piece.detrended().rms_height
+            full = rl.press(piece.detrended(), E_star=1.0, forces=forces, rtol=1e-3).stiffness
+            row = heights[first, :n] + 5 * np.linspace(-1, 1, n)
+            scan = rl.Line(row, 1.0, kind="profile")
+            found = rl.press_scan(scan, E_star=1.0, forces=forces, gaussian=True, rng=seed)
+            ratios.append(np.log(found.curve.stiffness / full))
+            if np.isfinite(found.low).all():
+                held.append((found.low <= full) & (full <= found.high))
+    # of 24 scans, the mean is known to 8 % (one standard error)
+    assert np.abs(np.mean(ratios, axis=0)).max() < math.log(1.1) + 0.16
+    assert len(held) >= 20
+    assert np.mean(held) >= 0.92
 
 
 def test_what_does_not_follow_a_law_is_kept():

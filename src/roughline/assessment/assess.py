@@ -16,6 +16,7 @@ from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.line_scan import press_scan
 from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads, load_with_fields
 from roughline.assessment.misfit import refuse_misfit
+from roughline.assessment.notes import is_scan_that_yields
 from roughline.assessment.question import Question
 from roughline.assessment.remarks import notes_of, warnings_of
 from roughline.assessment.slip import slip_at_largest_load
@@ -96,7 +97,7 @@ def assess_body(
     case = LoadCase.of(question, body)
     case = replace(case, grid_error=grid_error_is_estimated(question, body, case))
     if isinstance(body, Line) and body.kind == "profile":
-        solution, larger = _solved_scan(body, parts, case), None
+        solution, larger = _solved_scan(question, body, parts, case), None
     else:
         _tell_cost(question, body, case, announce)
         solution, larger = _solved_body(question, body, case, parts, progress)
@@ -202,13 +203,16 @@ def _expected_share(body: Surface, case: LoadCase) -> float | None:
     return expected_area_fraction(body, case.E_star, loads, case.hardness, periodic=case.periodic)
 
 
-def _solved_scan(body: Line, parts: Sequence[Topography], case: LoadCase) -> Solution:
+def _solved_scan(
+    question: Question, body: Line, parts: Sequence[Topography], case: LoadCase
+) -> Solution:
     """Press a line scan, of one or of two bodies, through its spectrum."""
     second = parts[1].body if len(parts) > 1 else None
     assert second is None or isinstance(second, Line)
     scan = press_scan(body, E_star=case.E_star, forces=case.forces, against=second)
     ends = scan.low, scan.high
-    return Solution(scan.curve, intervals=Intervals(ends, ends))
+    known = not (np.isnan(scan.low).any() or is_scan_that_yields(question, body))
+    return Solution(scan.curve, intervals=Intervals(ends, ends) if known else None)
 
 
 def _solved_body(

@@ -7,16 +7,15 @@ from typing import Literal
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.kinds import is_map
-from roughline.assessment.notes import of_each
 from roughline.spectra.departures import Assumption, Departure, departures
-from roughline.topography.body import Body, Line
+from roughline.topography.body import Body
 
 Prediction = Literal["line scan", "larger surface", "part", "theories", "grid", "fit"]
 """What is predicted from a topography beyond the numbers of its own heights."""
 
 RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
-    # reduced lines of Gaussian surfaces with the spectrum of the scan
-    "line scan": frozenset({"gaussian", "stationary", "longer waves"}),
+    # reduced lines of Gaussian surfaces with its spectrum, for a square as long as it
+    "line scan": frozenset({"gaussian", "stationary"}),
     # k_i, h_c and reflection of one map, and all answers of a joint: its tiles have the heights and
     # the lay of the map, and speak for both
     "larger surface": frozenset({"stationary", "steady", "longer waves"}),
@@ -53,18 +52,11 @@ def _takes_down(departure: Departure, prediction: Prediction, body: Body) -> boo
 def departures_in_words(result: Assessment) -> list[str]:
     """Say how what was pressed departs from assumptions, gravest first, and what that takes down.
 
-    Nothing is said of a departure on which no answer to the question rests.
+    Nothing is said of a departure on which no answer to the question rests. What a line scan
+    shows is said where it is pressed.
     """
-    if isinstance(result.body, Line):
-        bodies = [each.body for each in result.topographies]
-        return of_each(bodies, lambda body: _of_body(result, body))
-    return _of_body(result, result.body)
-
-
-def _of_body(result: Assessment, body: Body) -> list[str]:
-    """Say how a body departs from assumptions on which answers rest."""
     said = []
-    for departure in departures(body):
+    for departure in departures(result.body):
         down = [
             _without_interval(result, prediction)
             for prediction in _predictions(result)
@@ -78,9 +70,7 @@ def _of_body(result: Assessment, body: Body) -> list[str]:
 def _predictions(result: Assessment) -> Sequence[Prediction]:
     """What is predicted beyond the body itself."""
     found: list[Prediction] = []
-    if isinstance(result.body, Line):
-        found += ["line scan"] if result.body.kind == "profile" else []
-    elif is_map(result.body) and result.answers:
+    if is_map(result.body) and result.answers:
         found.append("larger surface")
     if result.theories:
         found.append("theories")
@@ -92,10 +82,8 @@ def _without_interval(result: Assessment, prediction: Prediction) -> str:
     if prediction == "theories":
         return "theories assume otherwise"
     given = result.answers
-    keys = [*given] if prediction == "line scan" or result.question.joint else _OF_INTERFACE
+    keys = [*given] if result.question.joint else _OF_INTERFACE
     names = [given[key].symbol for key in keys if key in given and _is_bare(result, key)]
-    if not given and prediction == "line scan" and result.intervals is None:
-        return "the stiffness comes without an interval"
     if not names:
         return ""
     verb = "comes" if len(names) == 1 else "come"

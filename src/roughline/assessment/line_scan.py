@@ -9,8 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughline.assessment.scan_heights import doubts_of
 from roughline.comparison.trust import trust_map
 from roughline.computing.arrays import Real
+from roughline.contact.arguments import checked_flag
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.errors.public import public
@@ -32,11 +34,13 @@ class PressedScan:
     Attributes
     ----------
     curve : Curve
-        Medians over the lines; of a square with the scan's length as its side.
+        Medians over the lines; of a square with the scan's length as its side. Its stiffness is
+        that of the lines times the ratio of the two models on Gaussian surfaces. Its warnings say
+        why there is no interval.
     low, high : ndarray, shape (loads,)
         95 % interval of the stiffness of one such surface: it holds the uncertainty of the
         spectrum, the scatter of random phases, and the difference of the full model from the
-        reduced one. [force / length]
+        reduced one. NaN where the scan does not show that heights are Gaussian. [force / length]
     """
 
     curve: Curve
@@ -46,13 +50,21 @@ class PressedScan:
 
 @public
 def press_scan(
-    scan: Line, *, E_star: float, forces: ArrayLike, against: Line | None = None, rng: int = 0
+    scan: Line,
+    *,
+    E_star: float,
+    forces: ArrayLike,
+    against: Line | None = None,
+    gaussian: bool = False,
+    rng: int = 0,
 ) -> PressedScan:
     """Press a line scan with the reduced model.
 
     Each of 200 lines belongs to a surface that the scan may be cut from. The spectrum of this
     surface is a self-affine law with deviations from it; both are drawn with the probability that
-    the scan gives them. Phases are random. The surface is assumed to be isotropic.
+    the scan gives them. Phases are random. The surface is assumed to be isotropic, and its heights
+    Gaussian: on others the stiffness may be off by a factor of several. So there is no interval
+    where the scan shows other heights, or is too short to show which it has.
 
     Parameters
     ----------
@@ -65,6 +77,9 @@ def press_scan(
     against : Line, optional
         Scan of the second body, of kind "profile" and from another, independent surface; spectra
         add. Waves that it does not resolve are taken to have no amplitude. [length]
+    gaussian : bool, optional
+        Whether the heights of the surfaces are known to be Gaussian. A scan that is too short to
+        show it then has an interval too; one that shows the contrary has none.
     rng : int, optional
         Root of all seeds.
 
@@ -76,42 +91,63 @@ def press_scan(
     Examples
     --------
     >>> import roughline as rl
-    >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=25.0)
-    >>> surface = spectrum.surface(256, rng=7)
+    >>> spectrum = rl.SelfAffine(hurst=0.8, rms_height=0.01, q_roll=250.0)
+    >>> surface = spectrum.surface(512, rng=7)
     >>> scan = rl.Line(surface.heights[0], length=1.0, kind="profile")
     >>> pressed = rl.press_scan(scan, E_star=1.0, forces=[1e-3])
     >>> print(pressed.curve.stiffness.round(2), pressed.low.round(2), pressed.high.round(2))
-    [0.21] [0.11] [0.4]
+    [0.21] [0.13] [0.27]
     """
+    gaussian = checked_flag("gaussian", gaussian)
     scans = [each for each in (scan, against) if each is not None]
-    springs = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE * scan.heights.size)
     bins = [ScanBins.of(profile_spectrum(each)) for each in scans]
+    curves = _pressed(scans, bins, E_star, forces, rng)
+    curve, low, high = _of_surfaces(_median(curves, scan, rng), curves, bins[0])
+    doubts = []
+    for which, each in enumerate(scans):
+        seed = np.random.SeedSequence(rng, spawn_key=(SCAN_LINES, which, 1))
+        found = doubts_of(each, bins[which], curve.force_bar, is_known_gaussian=gaussian, rng=seed)
+        whose = f"{('first', 'second')[which]} body: " if len(scans) > 1 else ""
+        doubts += [whose + doubt for doubt in found]
+    if doubts:
+        curve = replace(curve, warnings=(*map(_without_interval, doubts), *curve.warnings))
+        low, high = (np.full(curve.stiffness.size, math.nan) for _ in range(2))
+    return PressedScan(curve, low, high)
+
+
+def _pressed(
+    scans: Sequence[Line], bins: Sequence[ScanBins], E_star: float, forces: ArrayLike, seed: int
+) -> list[Curve]:
+    """Press reduced lines of surfaces that the scans may be cut from."""
+    springs = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE * scans[0].heights.size)
     surfaces = [
         _surfaces(
-            bins[which], each.length, np.random.SeedSequence(rng, spawn_key=(SCAN_LINES, which))
+            bins[which], each.length, np.random.SeedSequence(seed, spawn_key=(SCAN_LINES, which))
         )
         for which, each in enumerate(scans)
     ]
     curves = []
     for i, drawn in enumerate(zip(*surfaces, strict=True)):
-        both = drawn[0] if against is None else drawn[0] + drawn[1]
-        line = both.line(springs, np.random.SeedSequence(rng, spawn_key=(i,)))
-        curves.append(press(replace(line, unit=scan.unit), E_star=E_star, forces=forces))
-    median, low, high = _median(curves, scan, rng)
-    less, more = _full_over_reduced(median, bins[0])
-    return PressedScan(median, low * less, high * more)
+        both = drawn[0] if len(drawn) == 1 else drawn[0] + drawn[1]
+        line = both.line(springs, np.random.SeedSequence(seed, spawn_key=(i,)))
+        curves.append(press(replace(line, unit=scans[0].unit), E_star=E_star, forces=forces))
+    return curves
 
 
-def _median(curves: Sequence[Curve], scan: Line, seed: int) -> tuple[Curve, Real, Real]:
-    """Medians over the lines, and both ends of the stiffness of one more."""
-    stiffness = np.array([curve.stiffness for curve in curves])
-    # of so many draws, ranks by Weibull's rule hold another in 95 of 100 cases
-    low, high = np.percentile(stiffness, [2.5, 97.5], axis=0, method="weibull")
+def _without_interval(doubt: str) -> str:
+    return (
+        f"{doubt}; the stiffness comes without an interval, and may be off by a factor of several: "
+        "press a map"
+    )
+
+
+def _median(curves: Sequence[Curve], scan: Line, seed: int) -> Curve:
+    """Medians over the lines, as they are."""
     first = curves[0]
-    median = replace(
+    return replace(
         first,
         depth=np.median([curve.depth for curve in curves], axis=0),
-        stiffness=np.median(stiffness, axis=0),
+        stiffness=np.median([curve.stiffness for curve in curves], axis=0),
         resolved=np.all([curve.resolved for curve in curves], axis=0),
         rms_height=float(np.median([curve.rms_height for curve in curves])),
         settings={
@@ -128,7 +164,17 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> tuple[Curve, Real
             "square whose side is the scan's length",
         ),
     )
-    return median, low, high
+
+
+def _of_surfaces(
+    median: Curve, curves: Sequence[Curve], bins: ScanBins
+) -> tuple[Curve, Real, Real]:
+    """The stiffness that the full model is expected to have, and both ends of its interval."""
+    difference, less, more = _full_over_reduced(median, bins)
+    # of so many draws, ranks by Weibull's rule hold another in 95 of 100 cases
+    stiffness = np.array([curve.stiffness for curve in curves])
+    low, high = np.percentile(stiffness, [2.5, 97.5], axis=0, method="weibull")
+    return replace(median, stiffness=median.stiffness * difference), low * less, high * more
 
 
 def _surfaces(
@@ -148,11 +194,12 @@ def _surfaces(
         )
 
 
-def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real]:
-    """Factors between which the full model's stiffness is over the reduced one's, by the map.
+def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real, Real]:
+    """The full model's stiffness over the reduced one's by the map, and both ends of its interval.
 
-    For the law that explains the scan best; at the nearest place of the map, for laws and loads
-    that are beyond it.
+    For the law that explains the scan best. The map was computed with Gaussian surfaces. Where the
+    law or a load is beyond the map, the ratio is that of the nearest place, and the interval
+    reaches to equal models.
     """
     table = trust_map()
     hurst, roll, _ = bins.laws.values(*bins.laws.best)
@@ -160,7 +207,11 @@ def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real]:
     roll_off = float(np.clip(roll, *table.roll_off_ratios[[0, -1]]))
     loads = np.clip(curve.force_bar, *table.force_bars[[0, -1]])
     differences = [table.at(dimension, load, roll_off) for load in loads]
-    low, high = (
-        np.array([1 + getattr(each, end) for each in differences]) for end in ("low", "high")
+    value, low, high = (
+        np.array([1 + getattr(each, name) for each in differences])
+        for name in ("value", "low", "high")
     )
-    return np.minimum(low, 1.0), np.maximum(high, 1.0)
+    is_beyond = (loads != curve.force_bar) | (dimension != 3 - hurst) | (roll > roll_off)
+    low = np.where(is_beyond, np.minimum(low, 1.0), low)
+    high = np.where(is_beyond, np.maximum(high, 1.0), high)
+    return value, low, high

@@ -169,25 +169,42 @@ def cropping_and_resampling(body: Body) -> list[str]:
     return notes
 
 
+def largest_elastic_slope(question: Question, body: Body) -> float | None:
+    """Rms slope up to which a line, whose model has no yield, stands for metals."""
+    pair = question.pair
+    if pair is None or pair.hardness is None or not isinstance(body, Line):
+        return None
+    return 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
+
+
+def is_scan_that_yields(question: Question, body: Body) -> bool:
+    """Whether a scan is so steep that metals yield, of which its model knows nothing."""
+    most = largest_elastic_slope(question, body)
+    is_scan = isinstance(body, Line) and body.kind == "profile"
+    return is_scan and most is not None and body.rms_slope > most
+
+
 def how_far_a_line_serves(result: Assessment, *, grave: bool) -> list[str]:
     """Say up to which slopes a line, whose model has no yield, stands for metals.
 
     It is grave where the slopes of a scan are larger.
     """
-    pair, body = result.question.pair, result.body
-    if pair is None or pair.hardness is None or not isinstance(body, Line):
+    body = result.body
+    most = largest_elastic_slope(result.question, body)
+    if most is None or not isinstance(body, Line):
         return []
-    most = 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
     said = (
         f"the reduced model {WITHOUT_YIELD}; rms slopes over {2 * ELASTIC_UP_TO:g} H / E* = "
         f"{decimal(most, 2)} exceed that"
     )
-    is_scan = body.kind == "profile"
-    if is_scan:
+    if body.kind == "profile":
         said += f"; the rms slope of the scan is {decimal(body.rms_slope, 2)}"
-    is_grave = is_scan and body.rms_slope > most
+    is_grave = is_scan_that_yields(result.question, body)
     if is_grave:
-        said += ", so these elastic answers do not hold: press a map, whose model has yield"
+        said += (
+            ", so these elastic answers do not hold, and come without intervals: press a map, "
+            "whose model has yield"
+        )
     return [said] if is_grave == grave else []
 
 

@@ -10,7 +10,7 @@ from roughline.assessment.grid import why_without_grid_error
 from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
-from roughline.topography.body import Surface
+from roughline.topography.body import Line, Surface
 from roughline.topography.effects import grave_effects
 
 
@@ -22,15 +22,17 @@ def warnings_of(
     of_borders, _ = say.borders_of_repeated(result.question, result.body)
     said_elsewhere = {of_borders, *grave_effects(result.body)}
     bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
+    of_curve = [text for text in curve.warnings if text not in said_elsewhere]
+    is_scan = isinstance(body, Line) and body.kind == "profile"
     warnings = [
-        *departures_in_words(result),
+        *(of_curve if is_scan else departures_in_words(result)),
         *say.of_each(bodies, suspicions),
         *say.of_each(bodies, grave_effects),
         *broken_assumptions(result, spectrum),
         *say.of_full_contact(result),
         *say.of_wide_interval(result),
         *say.how_far_a_line_serves(result, grave=True),
-        *(text for text in curve.warnings if text not in said_elsewhere),
+        *([] if is_scan else of_curve),
         *say.of_joint_and_borders(result, grave=True),
     ]
     if isinstance(body, Surface) and curve.stiffness_error is None:

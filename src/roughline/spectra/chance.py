@@ -87,7 +87,9 @@ def in_digits(value: float) -> str:
 
 
 def fine_part(field: Real) -> Real:
-    """Return the part of a field from which correlations are taken: all but of large ones."""
+    """Return the part of a field from which correlations are taken: all but of large maps."""
+    if field.ndim == 1:
+        return field
     return field[tuple(slice(0, _MOST) for _ in field.shape)]
 
 

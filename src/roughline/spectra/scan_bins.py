@@ -18,6 +18,8 @@ from roughline.spectra.self_affine_laws import HURSTS, LEAST_MEANS, Laws, Means,
 
 _NOTHING = 1e-300  # replaces a power of zero where logarithms are taken
 _SAME = 1 + 1e-9  # ratio of equal wavenumbers, with rounding
+_TIMES_AS_LONG = 2  # as a scan, are the periodic lines that cuts are taken from
+_TABLED = 80  # wavenumbers of a drawn spectrum of cuts
 _CORRELATED = 35 / 18  # modes that vary together under a Hann window: 1 + 2 (4/9 + 1/36)
 
 
@@ -123,9 +125,38 @@ class ScanBins:
         ndarray, shape (waves,)
             Powers q_low² C_2d at the scan's waves 1, 2, ...
         """
-        laws, means = self.laws, self.means
         m = np.arange(1.0, round(float(self.edges[-1])))
-        of_wave = np.searchsorted(self.edges[1:-1], m)
+        for drawn in self._drawn(count, generator):
+            power = np.exp(drawn.log_powers(m))
+            power[0] += self._left_of_longer(drawn.hurst, drawn.roll) * math.exp(drawn.level)
+            yield power * generator.gamma(np.pi * m) / (np.pi * m)
+
+    def drawn_cuts(self, points: int, count: int, generator: np.random.Generator) -> Iterator[Real]:
+        """Draw straight cuts, as long as the scan, of Gaussian surfaces that it may be cut from.
+
+        Yields
+        ------
+        ndarray, shape (points,)
+            Heights, in the unit of the scan's.
+        """
+        last = float(self.edges[-1])
+        waves = np.arange(1, _TIMES_AS_LONG * points // 2) / _TIMES_AS_LONG
+        q = np.geomspace(waves[0], last, _TABLED)
+        across = np.append(0.0, np.geomspace(waves[0] / 8, last, 2 * _TABLED))
+        widths, waves_of_surface = np.gradient(across), np.hypot(q[:, np.newaxis], across)
+        modes = np.zeros(_TIMES_AS_LONG * points // 2 + 1, dtype=np.complex128)
+        for drawn in self._drawn(count, generator):
+            # Abel's integral, over the wavenumbers across the cut
+            powers = 2 * np.exp(drawn.log_powers(waves_of_surface)) @ widths
+            logs = np.interp(np.log(waves), np.log(q), np.log(np.maximum(powers, _NOTHING)))
+            random = generator.standard_normal((2, waves.size))
+            amplitudes = np.exp(logs / 2) / math.sqrt(2 * _TIMES_AS_LONG)
+            modes[1 : waves.size + 1] = amplitudes * (random[0] + 1j * random[1])
+            yield np.fft.irfft(modes, _TIMES_AS_LONG * points, norm="forward")[:points]
+
+    def _drawn(self, count: int, generator: np.random.Generator) -> Iterator[_DrawnSpectrum]:
+        """Draw spectra: a law by its likelihood, its level and deviations from it at random."""
+        laws, means = self.laws, self.means
         for law in zip(*laws.drawn(count, generator), strict=True):
             hurst, roll, end = laws.values(*law)
             level = laws.log_level[law]
@@ -137,9 +168,7 @@ class ScanBins:
             weight = means.weight[inside].sum()
             level -= math.log(generator.gamma(weight) / weight)
             change = np.where(inside, deviations, beyond)
-            power = np.exp(level + power_law(m, np.array([hurst]), roll)[0] + change[of_wave])
-            power[0] += self._left_of_longer(hurst, roll) * math.exp(level)
-            yield power * generator.gamma(np.pi * m) / (np.pi * m)
+            yield _DrawnSpectrum(hurst, roll, float(level), self.edges, change)
 
     def _left_of_longer(self, hurst: float, roll: float) -> float:
         """Power to add to the longest wave of a square piece for the waves longer than that.
@@ -156,3 +185,19 @@ class ScanBins:
     def _levels(self, hurst: float, roll: float, end: float) -> Real:
         levels = np.exp(power_law(self.cuts.q, np.array([hurst]), roll)[0])
         return np.where(self.cuts.edges[1:] <= end * _SAME, levels, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class _DrawnSpectrum:
+    """A spectrum of a surface: a law with a change in each bin of the scan."""
+
+    hurst: float
+    roll: float
+    level: float  # logarithm of the power on the plateau
+    edges: Real
+    change: Real  # of the logarithm, in each bin
+
+    def log_powers(self, q: Real) -> Real:
+        """Logarithm of q_low² C_2d; beyond the scan's waves the change is that of the nearest."""
+        law = power_law(q.ravel(), np.array([self.hurst]), self.roll)[0].reshape(q.shape)
+        return self.level + law + self.change[np.searchsorted(self.edges[1:-1], q)]
