@@ -1,56 +1,115 @@
-"""How far a curve may differ from its limit on ever finer grids, judged from coarser ones."""
+"""How far a curve may differ from that of ever finer grids, judged from coarser ones."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.contact.scaling import EXACT_PUNCH
+from roughline.contact.loads import Loads
+from roughline.contact.selection import among_loads
 from roughline.errors import InputError
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
 
-# Factors on the difference between the last two grids and on the one to be expected next, chosen so
-# that the errors cover grids four times finer (benchmarks/grid_error.py). For areas at the scale of
-# the cells, the differences of the grids are smaller than the error.
-_SAFETY_OF_LAST = 1.5
-_SAFETY_OF_YIELD = 2.0  # more where all of the contact yields: finer waves cut up its spots further
-_SAFETY_OF_NEXT_STIFFNESS = 1.15
-_SAFETY_OF_NEXT_AREA = 3.25
-_SHARE_OF_AREA = 0.25  # of the area's error is in the stiffness where something yields, at least
-_SHARE_OF_YIELD = 0.3  # of what yield takes from the stiffness on loading is uncertain, at least
-_LEAST_GROWTH = 0.5  # at contact edges the order is one: differences halve at best grid by grid
-_MOST_GROWTH = 2.0  # and double at worst, where noise of the pixels prevails
+# On the difference to be expected, so that errors cover grids four times finer: 95 % of all kinds
+# of surfaces, and at least 90 % of each (benchmarks/grid_error.py).
+_SAFETY = 1.4
+# White noise has the fastest growth of all surfaces: means over two by two points halve its
+# heights, so that its mean square slope is 16 times as large from grid to grid.
+_GROWTH_OF_NOISE = 16.0
+# Means of points of a rougher self-affine surface steepen the last step so much, because the points
+# hold the shorter waves folded into them.
+_FASTEST_OF_POINTS = 4 / 3
+# Of what yield takes from the stiffness on loading, which few cells decide, so much is uncertain.
+_SHARE_OF_YIELD = 0.3
+_NEARLY_ALL = 0.9  # of a softer body at the hardness: as far as it is loaded at most
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
+Press = Callable[[Surface, Loads, float | None], Curve]
+"""Presses another surface under some loads, with a hardness or as elastic bodies."""
 
-def with_grid_error(
-    curve: Curve, surface: Surface, press_coarse: Callable[[Surface], Curve]
-) -> Curve:
-    """Add to a curve the discretisation errors estimated from grids of n / 2 and n / 4 points.
 
-    The coarse grids hold the means of two by two points, or of equal pieces where a side has an odd
-    number of points. Differences between grids are those of logarithms, or of compliances where a
-    coarser grid is in full contact. They are taken to grow from grid to grid as those of the rms
-    slope do, by a factor between a half and two, which belongs to the surface and not to a load.
-    Since a difference is small at times by chance, the last one is drawn twice: as it is, and as
-    the one before times the growth. The error is the larger draw and the difference to be expected
-    next, the growth times the root mean square of both, each times a safety factor: a grid
-    convergence index [1]_. The error under a load does not depend on the other loads. An area is at
-    least as uncertain as its perimeter correction, also on plateaus, where none is made.
+@dataclass(frozen=True, eq=False)
+class _Grids:
+    """A surface and its coarser selves.
 
-    Yield adds to this. The safety factor of stiffnesses grows with the share of the contact that
-    yields. There the error of the logarithm of a stiffness is at least a part of that of the area,
-    a smaller one near the stiffness of the flat punch, because waves which only a finer grid
-    resolves let more of the body yield, and their effects can cancel on the coarser grids. The
-    stiffness on loading depends on single cells: the error of its logarithm is at least that of the
-    stiffness on unloading, and a part of the difference between both.
+    Attributes
+    ----------
+    quarter, half : Surface
+        Means of four by four and of two by two points.
+    thinned : Surface
+        Every other point along both sides.
+    full : Surface
+        The surface.
+    """
 
-    The errors cover grids four times finer, but no noise that begins at the spacing.
+    quarter: Surface
+    half: Surface
+    thinned: Surface
+    full: Surface
+
+    @classmethod
+    def of(cls, surface: Surface) -> _Grids:
+        """The coarser selves of a surface."""
+        half = _halved(surface)
+        return cls(_halved(half), half, _thinned(surface), surface)
+
+    @property
+    def steepening(self) -> float:
+        """How much larger the rms slope of a grid four times finer will be.
+
+        What a grid of means adds to the mean square slope changes by one factor from grid to grid.
+        Slopes that grow faster than those of self-affine surfaces do are those of white noise.
+        """
+        means = np.square([each.rms_slope for each in (self.quarter, self.half, self.full)])
+        points = [each.rms_slope**2 for each in (_thinned(self.thinned), self.thinned)]
+        before, last = np.maximum(np.diff(means), 0.0)
+        if last == 0:
+            return 1.0
+        growth = min(last / before, _GROWTH_OF_NOISE) if before > 0 else _GROWTH_OF_NOISE
+        noise = max(
+            _excess([*points, means[2]], 1.0), _excess(means.tolist(), _FASTEST_OF_POINTS), 0.0
+        )
+        more = last / means[2] * (growth + growth**2) + noise * _GROWTH_OF_NOISE**2
+        return float(np.sqrt(1 + more))
+
+    @property
+    def step(self) -> float:
+        """How much larger the rms slope is than that of the means of two by two points."""
+        half = self.half.rms_slope
+        return max(1.0, self.full.rms_slope / half) if half > 0 else 1.0
+
+
+def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) -> Curve:
+    """Add to a curve the discretisation errors estimated from coarser grids.
+
+    Two grids hold the means of two by two and of four by four points, or of equal pieces where a
+    side has an odd number of points; a third one every other point along both sides. The means
+    lose the finest waves, as the pixels of an instrument do; the points keep them and lose places.
+    The slopes of these grids tell the factor m by which two more grids, each twice as fine, would
+    steepen the surface. The error has two parts whose squares add.
+
+    The first part are the differences between the grids: of the surface from both grids of n / 2
+    points, and between n / 2 and n / 4. A difference is small at times by chance, so that the
+    largest counts. The next ones change by a factor from grid to grid as the heights of the added
+    waves do, half the square root of m: a half for smooth surfaces, as at contact edges, one for
+    slopes that double. The error is that of the next two times a safety factor, as in a grid
+    convergence index [1]_. Differences are those of logarithms, or of compliances where a coarser
+    grid is in full contact. The error under a load does not depend on the other loads.
+
+    The second part is what waves do that no grid here resolves. An area of elastic bodies becomes
+    that of Persson's theory for a slope m times as large [2]_. Yield depends on hardness over
+    slope, so that a body with the hardness H / m shows what yield of these waves does to
+    stiffnesses and area. It is pressed on n / 2 points, with a hardness for which this grid yields
+    as the surface does, and once more softer by m.
+
+    The stiffness on loading is as uncertain as that on unloading, at least, and an area as its
+    perimeter correction, also on plateaus, where none is made. The errors cover grids four times
+    finer, but no noise that begins at the spacing.
 
     Parameters
     ----------
@@ -58,8 +117,10 @@ def with_grid_error(
         Curve of the surface.
     surface : Surface
         Its surface.
-    press_coarse : callable
-        Presses another surface under the same loads.
+    loads : Loads
+        Its loads.
+    press : callable
+        Presses another surface.
 
     Returns
     -------
@@ -72,61 +133,45 @@ def with_grid_error(
     ----------
     .. [1] P. J. Roache, "Perspective: a method for uniform reporting of grid refinement studies",
        J. Fluids Eng. 116, 405-413 (1994).
+    .. [2] B. N. J. Persson, "Theory of rubber friction and contact mechanics", J. Chem. Phys. 115,
+       3840-3861 (2001).
     """
-    half = _halved(surface)
-    grids = _halved(half), half, surface
-    growth, curves = _growth(grids), [*map(press_coarse, grids[:2]), curve]
-    areas = [_area(each) for each in curves]
-    most = curve.area_fraction_most
+    grids = _Grids.of(surface)
+    steepening = grids.steepening
+    coarser = [
+        press(each, loads, curve.hardness) for each in (grids.quarter, grids.half, grids.thinned)
+    ]
+    alike = softer = coarser[1]
+    if curve.hardness is not None and steepening > 1:
+        alike, softer = (
+            _pressed_softer(coarser[1], grids.half, curve.hardness / times, press)
+            for times in (grids.step, grids.step * steepening)
+        )
+
+    def error(name: str) -> Real:
+        return _difference(name, coarser, curve, np.sqrt(steepening) / 2)
+
+    area, most = curve.area_fraction_corrected, curve.area_fraction_most
+    k, k_u = curve.stiffness, curve.unloading_stiffness
+    assert area is not None
     assert most is not None
-    area_error = np.maximum(_error(areas, growth, _SAFETY_OF_NEXT_AREA), most - areas[-1])
-    with np.errstate(invalid="ignore"):  # bodies apart
-        loading, unloading = _stiffness_errors(curves, growth, np.log1p(area_error / areas[-1]))
-    return replace(
-        curve,
-        stiffness_error=loading,
-        unloading_stiffness_error=unloading,
-        area_fraction_error=area_error,
-    )
-
-
-def _growth(grids: Sequence[Surface]) -> float:
-    """Return by what differences of the rms slope's logarithm grow; the least if there are none."""
-    slopes = np.array([grid.rms_slope for grid in grids])
-    slopes = np.maximum(slopes, np.finfo(float).eps * slopes[-1])  # coarser grids may be flat
-    with np.errstate(invalid="ignore", divide="ignore"):
-        first, second = np.abs(np.diff(np.log(slopes)))
-        growth = np.nan_to_num(second / first)
-    return float(np.clip(growth, _LEAST_GROWTH, _MOST_GROWTH))
-
-
-def _stiffness_errors(curves: Sequence[Curve], growth: float, area: Real) -> tuple[Real, Real]:
-    """Return the errors of both stiffnesses from that of the area's logarithm."""
-    plastic = curves[-1].plastic_fraction
-    assert plastic is not None
-    safety = _SAFETY_OF_NEXT_STIFFNESS, _SAFETY_OF_LAST + _SAFETY_OF_YIELD * plastic
-    loading, unloading = [each.stiffness for each in curves], [_unloading(each) for each in curves]
-    k, k_u = loading[-1], unloading[-1]
+    assert k_u is not None
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
-        least = np.where(plastic > 0, _SHARE_OF_AREA * area * _open_share(curves[-1]), 0.0)
-        error = np.maximum(_error(unloading, growth, *safety), _times(k_u, np.expm1(least)))
-        # where all of the contact yields, nothing is left of k
-        taken = np.fmax(_SHARE_OF_YIELD * np.log(k_u / k), np.log1p(error / k_u))
-        taken = np.where((plastic > 0) & (k > 0), taken, 0.0)
-        return np.maximum(_error(loading, growth, *safety), _times(k, np.expm1(taken))), error
-
-
-def _times(stiffness: Real, share: Real) -> Real:
-    """Return a share of a stiffness; none of an infinite one, which has no error of its own."""
-    return np.where(np.isinf(stiffness), 0.0, stiffness * share)
-
-
-def _open_share(curve: Curve) -> Real | float:
-    """Return how far the stiffness on unloading is below that of a flat punch of the same area."""
-    if curve.settings["boundary"] == "periodic":  # a flat one is infinitely stiff
-        return 1.0
-    punch = EXACT_PUNCH * curve.E_star * curve.length
-    return np.clip(1 - _unloading(curve) / punch, 0.0, 1.0)
+        unloading, loading = (
+            np.hypot(error(name), np.abs(_change(name, alike, softer)))
+            for name in ("unloading_stiffness", "stiffness")
+        )
+        yielding = area * np.exp(_change("area_fraction_corrected", alike, softer))
+        of_area = error("area_fraction_corrected") + np.abs(_steeper(yielding, steepening, area))
+        if curve.hardness is not None:  # nothing is left of k where all of the contact yields
+            taken = np.where(k > 0, _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
+            loading = np.fmax(loading, unloading + taken)
+        return replace(
+            curve,
+            stiffness_error=_times(k, loading),
+            unloading_stiffness_error=_times(k_u, unloading),
+            area_fraction_error=np.maximum(_times(area, of_area), most - area),
+        )
 
 
 def refuse_few_points(surface: Surface) -> None:
@@ -136,6 +181,71 @@ def refuse_few_points(surface: Surface) -> None:
             f"grid_error needs grids of n / 2 and n / 4 points, and the surface has "
             f"{surface.shape[0]} x {surface.shape[1]}: give at least {4 * _FEWEST_POINTS} a side"
         )
+
+
+def _difference(name: str, coarser: Sequence[Curve], curve: Curve, growth: float) -> Real:
+    """Return the error of the logarithm of a quantity from its differences between grids.
+
+    Parameters
+    ----------
+    name : str
+        The quantity.
+    coarser : sequence of Curve
+        Of n / 4 and n / 2 points, and of every other point.
+    curve : Curve
+        Of the surface.
+    growth : float
+        Factor of differences from grid to grid.
+    """
+    quarter, half, thinned = values = np.array([getattr(each, name) for each in coarser])
+    full = getattr(curve, name)
+    logs = np.abs(np.log([full / half, half / quarter, full / thinned])).max(axis=0)
+    # compliances over that of the surface; full contact has none, and the difference from it is
+    # the least that the last one can be
+    compliances = np.abs([1 - full / half, full / half - full / quarter, 1 - full / thinned])
+    following = _SAFETY * (growth + growth**2)
+    closed = np.log1p((_SAFETY + following) * compliances.max(axis=0))
+    error = np.where(np.isinf(values).any(axis=0) & np.isfinite(full), closed, following * logs)
+    error = np.where(np.isinf(full), np.nan, error)
+    return np.where((values == full).all(axis=0), 0.0, error)
+
+
+def _excess(squares: Sequence[float], acceleration: float) -> float:
+    """Return the share of the last of three mean square slopes that is beyond a steady growth.
+
+    The logarithm of a slope then grows by `acceleration` times what it did from grid to grid.
+    """
+    first, second, last = squares
+    return 1 - (second / first) ** acceleration * second / last if first > 0 else 0.0
+
+
+def _pressed_softer(curve: Curve, surface: Surface, hardness: float, press: Press) -> Curve:
+    """Press a surface softer under the forces of its curve, as far as it bears them."""
+    known = np.isfinite(curve.force) & (np.maximum.accumulate(np.nan_to_num(curve.force)) > 0)
+    if not known.any():
+        return curve
+    forces = np.minimum(curve.force[known], _NEARLY_ALL * hardness * surface.area)
+    return among_loads(press(surface, Loads("forces", forces), hardness), known)
+
+
+def _change(name: str, before: Curve, after: Curve) -> Real:
+    """Return the change of the logarithm of a quantity; none where both are equal."""
+    old, new = getattr(before, name), getattr(after, name)
+    return np.where(new == old, 0.0, np.log(new / old))
+
+
+def _steeper(yielding: Real, steepening: float, area: Real) -> Real:
+    """Return the change of the logarithm of an area where yield and steeper slopes change it."""
+    from scipy.special import erf, erfinv  # here because they load slowly
+
+    # Persson: the error function of the pressure over the slope, times a constant
+    steeper = erf(erfinv(np.minimum(yielding, 1.0)) / steepening)
+    return np.where(area == 0, 0.0, np.log(steeper / area))
+
+
+def _times(value: Real, error: Real) -> Real:
+    """Return the error of a value from that of its logarithm; none where that is none."""
+    return np.where(error == 0, 0.0, value * np.expm1(error))
 
 
 def _halved(surface: Surface) -> Surface:
@@ -149,33 +259,13 @@ def _halved(surface: Surface) -> Surface:
     )
 
 
-def _area(curve: Curve) -> Real:
-    """Return the corrected area of a surface's curve, which has one."""
-    assert curve.area_fraction_corrected is not None
-    return curve.area_fraction_corrected
+def _thinned(surface: Surface) -> Surface:
+    """Return every other point along both sides; splines between points of odd numbers."""
+    if surface.shape[0] % 2 == 0 and surface.shape[1] % 2 == 0:
+        return with_heights(surface, surface.heights[::2, ::2])
+    from scipy import ndimage
 
-
-def _unloading(curve: Curve) -> Real:
-    """Return the unloading stiffness of a surface's curve, which has one."""
-    assert curve.unloading_stiffness is not None
-    return curve.unloading_stiffness
-
-
-def _error(
-    values: Sequence[Real], growth: float, of_next: float, of_last: float | Real = _SAFETY_OF_LAST
-) -> Real:
-    """Return the error of the last of three grids, from safety factors of two differences."""
-    quarter, half, full = values
-    with np.errstate(invalid="ignore", divide="ignore"):  # of nothing, and of full contact
-        last, drawn = np.abs(np.log(full / half)), growth * np.abs(np.log(half / quarter))
-        following = growth * np.sqrt((last**2 + drawn**2) / 2)
-        error = full * np.expm1(of_last * np.maximum(last, drawn) + of_next * following)
-        # compliances over that of the last grid; nothing is left of them in full contact, so that
-        # the one difference that is seen there is not small by chance
-        last, drawn = np.abs(1 - full / half), growth * np.abs(full / half - full / quarter)
-        closed = (np.isinf(quarter) | np.isinf(half)) & np.isfinite(full)
-        error = np.where(
-            closed, full * (of_last + of_next * growth) * np.maximum(last, drawn), error
-        )
-        error = np.where(np.isinf(full), np.nan, error)
-    return np.where((quarter == half) & (half == full), 0.0, error)
+    # from the highest point, as above
+    heights = surface.heights - surface.heights.max()
+    zoom = [(n // 2) / n for n in surface.shape]
+    return with_heights(surface, ndimage.zoom(heights, zoom, mode="nearest", grid_mode=True))

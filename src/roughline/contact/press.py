@@ -77,7 +77,8 @@ def press(
         Keep pressure, displacement, gap, contact, plastic points and indentation of every load,
         or of loads with these numbers (from 0).
     grid_error : bool, optional
-        Estimate discretisation errors as well, from grids of n / 2 and n / 4 points.
+        Estimate discretisation errors as well, from grids of n / 2 and n / 4 points, and where
+        bodies yield, from a softer body.
     rtol : float, optional
         Bound on every residual of the returned solution. Gaps within the contact, overlaps outside
         it and the rounding of the depth are relative to the length l = min(h, u): the rms height h,
@@ -180,19 +181,17 @@ def press(
     from roughline.halfspace.state import Method
 
     method = Method(rtol, max_iterations, precision)
-    pressed = partial(
-        press_surface,
-        E_star=E_star,
-        loads=loads,
-        method=method,
-        periodic=periodic,
-        hardness=hardness,
-    )
-    curve = pressed(body, kept=kept, progress=progress)
+    pressed = partial(press_surface, E_star=E_star, method=method, periodic=periodic)
+    curve = pressed(body, loads=loads, hardness=hardness, kept=kept, progress=progress)
     if grid_error:
         try:
             curve = with_grid_error(
-                curve, body, lambda coarse: pressed(coarse, kept=frozenset(), progress=None)
+                curve,
+                body,
+                loads,
+                lambda other, loads, hardness: pressed(
+                    other, loads=loads, hardness=hardness, kept=frozenset(), progress=None
+                ),
             )
         except KeyboardInterrupt:
             raise Interrupted(curve) from None
