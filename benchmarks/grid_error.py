@@ -1,46 +1,98 @@
 """Compare estimated grid errors with grids four times finer: ``make grid-error``.
 
-Files given as arguments are pressed as well: the whole map is the finer grid, and its means of
-four by four points are the grid whose error is estimated. With ``--hardness-bar BAR`` the bodies
-yield at BAR times the rms slope of the finer grid, and loads end at half the hardness.
+Surfaces are made as workshops make them (benchmarks/made_surfaces.py), and maps of them hold means
+of four by four points or every fourth one; self-affine surfaces are made on two grids with one seed
+as well. Loads F / (E* h L) go from 0.003 to 1, as far as they are below half the hardness. Bodies
+are elastic, or yield at a hardness of 0.03 to 1 times E* and the rms slope of the finer grid; their
+last load is unloaded to three tenths. Measured files given as arguments are cut into quarters: each
+is the finer grid, and its means of four by four points are the map.
+
+Cases are appended to a file and not computed again. ``--part 2/8`` computes the second of every
+eight. ``--through-assess`` judges R and G of materials with an exact hardness as well.
 """
 
 import argparse
+import json
 import math
 import sys
+from pathlib import Path
 
 import numpy as np
+from made_surfaces import (
+    GAUSSIAN,
+    KINDS,
+    Make,
+    parent_of,
+    piece_of,
+    pixel_means,
+    points_of_rougher,
+)
 
 import roughline as rl
 
 LOADS = np.geomspace(0.003, 1.0, 6)  # F / (E* h L)
-SPECTRA = {
-    "rough down to the grid": lambda n: {},
-    "roll-off at L / 6, rough down to the grid": lambda n: {"q_roll": 12 * math.pi},
-    "cutoff at 2.2 cells": lambda n: {"q_high": math.tau * n / 2.2},
-    "cutoff at 4 cells": lambda n: {"q_high": math.tau * n / 4},
-    "cutoff at 8 cells": lambda n: {"q_high": math.tau * n / 8},
+HARDNESSES = np.geomspace(0.03, 1.0, 11)  # H / (E* times the rms slope of the finer grid)
+HURSTS = (0.2, 0.4, 0.6, 0.8, 1.0)
+CELLS = (0.0, 4.0, 8.0, 16.0)  # points of the finer grid to the shortest wave
+SAMPLINGS = {"means": pixel_means, "points": points_of_rougher}
+ON_TWO_GRIDS = {  # cutoffs count in cells of the coarser grid
+    "one seed, rough down to the grid": lambda n: {},
+    "one seed, roll-off at L / 6": lambda n: {"q_roll": 12 * math.pi},
+    "one seed, roll-off at L / 6, cutoff at 4 cells": lambda n: {
+        "q_roll": 12 * math.pi,
+        "q_high": math.tau * n / 4,
+    },
+    "one seed, cutoff at 2.2 cells": lambda n: {"q_high": math.tau * n / 2.2},
+    "one seed, cutoff at 8 cells": lambda n: {"q_high": math.tau * n / 8},
 }
-BEARINGS = (0.1, 0.3, 0.6)  # share of the area of which the top is cut flat
-NOISE = (0.03, 0.3)  # rms of white noise of the finest points, over the rms height
-ELASTIC = {  # symbol: quantity, its error
+QUANTITIES = {  # symbol: quantity, its error
+    "k_u": ("unloading_stiffness", "unloading_stiffness_error"),
     "k": ("stiffness", "stiffness_error"),
     "A": ("area_fraction_corrected", "area_fraction_error"),
 }
-YIELDING = {"k_u": ("unloading_stiffness", "unloading_stiffness_error")} | ELASTIC
+ANSWERS = {"R": "constriction_resistance", "G": "thermal_conductance"}
+E_STAR = 1.0
 
 
-def factors(surface, finer, hardness_bar):
-    """Logarithms of the true and the claimed factors, by quantity."""
-    forces = LOADS * finer.rms_height * finer.length
+def made(kind, seed, points=None):
+    """A kind's maps, each with its finer grid: a Hurst exponent and cutoff for each seed."""
+    rng = np.random.default_rng([seed, *kind.encode()])
+    hurst, cells = HURSTS[seed % 5], CELLS[seed % 4]
+    n = points or (128 if seed % 6 == 5 else 64)
+    if kind in ON_TWO_GRIDS:
+        spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, **ON_TWO_GRIDS[kind](n))
+        return {"one seed": spectrum.surface(n, seed)}, spectrum.surface(4 * n, seed)
+    make = Make(points=4 * n, maps=2, hurst=hurst, waves=float(rng.uniform(3, 12)), cells=cells)
+    finer = piece_of(parent_of(kind, make, rng), make, rng)
+    return {
+        name: rl.Surface(sampled(finer.heights, 4, rng), finer.sizes, unit="m")
+        for name, sampled in SAMPLINGS.items()
+    }, finer
+
+
+def quarter(file, which):
+    """A quarter of a measured map, and its means of four by four points."""
+    whole = rl.prepared(rl.read(file))
+    sides = [[(0, n // 2), (n // 2, n)] for n in whole.shape]
+    finer = whole.cropped(sides[0][which // 2], sides[1][which % 2])
+    finer = finer.cropped(*((0, n - n % 16) for n in finer.shape))
+    return {"means": finer.coarsened().coarsened()}, finer
+
+
+def judged(surface, finer, over_slope):
+    """Logarithms of the true and the claimed factors of each load, by quantity."""
+    forces = LOADS * E_STAR * finer.rms_height * finer.length
     hardness = None
-    if hardness_bar is not None:
-        hardness = hardness_bar * finer.rms_slope
+    if over_slope is not None:
+        hardness = over_slope * E_STAR * finer.rms_slope
         forces = forces[forces < hardness * finer.area / 2]
+        if not forces.size:
+            return {}
+        forces = np.append(forces, 0.3 * forces[-1])
     curve, truth = (
         rl.press(
             each,
-            E_star=1.0,
+            E_star=E_STAR,
             forces=forces,
             hardness=hardness,
             grid_error=each is surface,
@@ -49,85 +101,164 @@ def factors(surface, finer, hardness_bar):
         for each in (surface, finer)
     )
     found = {}
-    for symbol, (name, error) in (ELASTIC if hardness is None else YIELDING).items():
-        value, true = getattr(curve, name), getattr(truth, name)
-        missed = np.abs(np.log(true / value))
-        claimed = np.log1p(getattr(curve, error) / value)
-        found[symbol] = missed[curve.resolved], claimed[curve.resolved]
+    for symbol, (name, error) in QUANTITIES.items():
+        with np.errstate(invalid="ignore", divide="ignore"):  # no k where all of the contact yields
+            off = np.abs(np.log(getattr(truth, name) / getattr(curve, name)))
+            claimed = np.log1p(getattr(curve, error) / getattr(curve, name))
+        known = curve.resolved & np.isfinite(off)
+        found[symbol] = off[known].tolist(), np.nan_to_num(claimed[known], nan=np.inf).tolist()
     return found
 
 
-def coarsened(surface):
-    """Means of four by four points, of the largest part that has them sixteen times."""
-    nx, ny = (n - n % 16 for n in surface.shape)
-    whole = surface.cropped((0, nx), (0, ny))
-    return whole.coarsened().coarsened(), whole
+def judged_through_assess(surface, finer):
+    """The same for resistance and conductance of two metals with an exact hardness."""
+    results = [
+        rl.assess(
+            rl.Question(
+                each,
+                materials=("steel", "copper"),
+                loads=["1 MPa", "5 MPa", "20 MPa"],
+                hardness="1.2 GPa",
+                grid_error=each is surface,
+            )
+        )
+        for each in (surface, finer)
+    ]
+    found = {}
+    for symbol, key in ANSWERS.items():
+        answer, true = (each.answers[key] for each in results)
+        values, low, high = (
+            np.array(each, float) for each in (answer.values, answer.low, answer.high)
+        )
+        off = np.log(np.array(true.values, float) / values)
+        claimed = np.where(off > 0, np.log(high / values), np.log(values / low))
+        found[symbol] = np.abs(off).tolist(), claimed.tolist()
+    return found
 
 
-def cases(files, seeds):
-    """Kinds of surfaces, each with its grid and the finer one."""
-    for n, count in ((64, seeds), (128, seeds // 2)):
-        for hurst in (0.2, 0.4, 0.6, 0.8, 1.0):
-            for seed in range(count):
-                for kind, more in SPECTRA.items():
-                    spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, **more(n))
-                    yield (
-                        kind,
-                        spectrum.surface(n, 1000 + seed),
-                        spectrum.surface(4 * n, 1000 + seed),
-                    )
-    for n in (64, 128):
-        for hurst in (0.3, 0.5, 0.8):
-            for seed in range(max(1, seeds // 3)):
-                spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_high=math.tau * n / 8)
-                rough = spectrum.surface(4 * n, 1000 + seed)
-                for bearing in BEARINGS:
-                    honed = np.minimum(rough.heights, np.quantile(rough.heights, 1 - bearing))
-                    yield (
-                        "tops cut flat",
-                        rl.Surface(honed[::4, ::4], rough.sizes),
-                        rl.Surface(honed, rough.sizes),
-                    )
-    for share in NOISE:
-        for seed in range(seeds):
-            rough = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 1000 + seed)
-            noise = share * np.random.default_rng(seed).standard_normal(rough.shape)
-            grids = coarsened(rl.Surface(rough.heights + noise, rough.sizes))
-            yield f"white noise, {share:g} of the rms height", *grids
-    for file in files:
-        whole = rl.prepared(rl.read(file))
-        sides = [[(0, n // 2), (n // 2, n)] for n in whole.shape]
-        for rows in sides[0]:
-            for columns in sides[1]:
-                yield (
-                    f"quarters of {file.rsplit('/')[-1]}",
-                    *coarsened(whole.cropped(rows, columns)),
-                )
+def cases(arguments):
+    """Names of the cases and how each one is judged."""
+    for seed in range(arguments.first_seed, arguments.first_seed + arguments.seeds):
+        for kind in [*KINDS, *ON_TWO_GRIDS]:
+            order = np.random.default_rng(seed).permutation(HARDNESSES)
+            yield (
+                kind,
+                seed,
+                [None, *order[: arguments.hardnesses]],
+                lambda k=kind, s=seed: made(k, s),
+            )
+    for file in arguments.files:
+        for which in range(4):
+            name = f"quarters of {Path(file).name}"
+            yield name, which, [None, *HARDNESSES[2::3]], lambda f=file, w=which: quarter(f, w)
+
+
+def rows_of(arguments):
+    """Compute what the file of rows lacks, and return all its rows."""
+    path, (part, parts) = Path(arguments.rows), map(int, arguments.part.split("/"))
+    rows = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+    done = {(row["kind"], row["seed"]) for row in rows}
+    for count, (kind, seed, hardnesses, make) in enumerate(cases(arguments)):
+        if count % parts != part - 1 or (kind, seed) in done:
+            continue
+        maps, finer = make()
+        row = {"kind": kind, "seed": seed, "found": []}
+        for sampling, surface in maps.items():
+            for over_slope in hardnesses:
+                found = judged(surface, finer, over_slope)
+                row["found"].append([sampling, over_slope and round(over_slope, 3), found])
+            if arguments.through_assess and kind in KINDS:
+                row["found"].append([sampling, "assess", judged_through_assess(surface, finer)])
+        rows.append(row)
+        with path.open("a") as file:
+            file.write(json.dumps(row) + "\n")
+        print(".", end="", file=sys.stderr, flush=True)
+    return rows
+
+
+def table(rows, title, group, symbols):
+    """Print shares that held, and widths over those that just hold 95 %, by group."""
+    pooled = {}
+    for row in rows:
+        for sampling, over_slope, found in row["found"]:
+            if (key := group(row["kind"], sampling, over_slope)) is None:
+                continue
+            for symbol, pair in found.items():
+                pooled.setdefault(key, {}).setdefault(symbol, []).append(np.array(pair))
+    print(
+        f"\n| {title} | loads |"
+        + "".join(f" {s}: held | off by | claimed | width |" for s in symbols)
+    )
+    print("|---" * (2 + 4 * len(symbols)) + "|")
+    for key in sorted(pooled, key=str):
+        cells, size = [], 0
+        for symbol in symbols:
+            pairs = pooled[key].get(symbol)
+            off, claimed = np.hstack(pairs) if pairs else np.empty((2, 0))
+            if not off.size:
+                cells += [""] * 4
+                continue
+            size = max(size, off.size)
+            width = 1 / np.quantile(off / np.maximum(claimed, 1e-300), 0.95)
+            factors = [f"{np.exp(np.median(each)):.3f}" for each in (off, claimed)]
+            cells += [f"{np.mean(off <= claimed):.0%}", *factors, f"{width:.2f}"]
+        print(f"| {key} | {size} | {' | '.join(cells)} |")
+
+
+def is_gaussian(kind):
+    """Whether the models of intervals are exact for a kind."""
+    return kind in GAUSSIAN or kind in ON_TWO_GRIDS
 
 
 def main():
-    """Print a table by kind of surface."""
+    """Compute and print the tables."""
     parser = argparse.ArgumentParser()
     parser.add_argument("files", nargs="*")
-    parser.add_argument("--seeds", type=int, default=6)
-    parser.add_argument("--hardness-bar", type=float)
+    parser.add_argument("--seeds", type=int, default=12)
+    parser.add_argument("--first-seed", type=int, default=1000)
+    parser.add_argument("--hardnesses", type=int, default=3, help="of each surface, drawn by seed")
+    parser.add_argument("--part", default="1/1")
+    parser.add_argument("--rows", default="grid-error-rows.jsonl")
+    parser.add_argument("--through-assess", action="store_true")
     arguments = parser.parse_args()
-    found = {}
-    for kind, surface, finer in cases(arguments.files, arguments.seeds):
-        found.setdefault(kind, []).append(factors(surface, finer, arguments.hardness_bar))
-        print(".", end="", file=sys.stderr, flush=True)
-    shown = ELASTIC if arguments.hardness_bar is None else YIELDING
-    header = "".join(f" {symbol}: covered | off by | claimed |" for symbol in shown)
-    print(f"\nroughline {rl.__version__}, loads F / (E* h L) = 0.003 to 1\n")
-    print(f"| surfaces | loads |{header}")
-    print("|---" * (2 + 3 * len(shown)) + "|")
-    for kind, rows in found.items():
-        cells = []
-        for symbol in shown:
-            missed, claimed = (np.concatenate([row[symbol][i] for row in rows]) for i in (0, 1))
-            cells.append(f"{np.mean(missed <= claimed):.0%}")
-            cells += [f"{np.exp(np.median(each)):.3f}" for each in (missed, claimed)]
-        print(f"| {kind} | {missed.size} | {' | '.join(cells)} |")
+    rows = rows_of(arguments)
+    print(f"\nroughline {rl.__version__}, loads F / (E* h L) = 0.003 to 1")
+    table(
+        rows,
+        "elastic",
+        lambda kind, sampling, hard: f"{kind}, {sampling}" if hard is None else None,
+        ["k", "A"],
+    )
+    table(
+        rows,
+        "yielding",
+        lambda kind, sampling, hard: f"{kind}, {sampling}" if isinstance(hard, float) else None,
+        [*QUANTITIES],
+    )
+    table(
+        rows,
+        "H over E*∇h",
+        lambda kind, sampling, hard: f"{hard:.3f}" if isinstance(hard, float) else None,
+        [*QUANTITIES],
+    )
+    table(
+        rows,
+        "Gaussian or not",
+        lambda kind, sampling, hard: (
+            None
+            if hard == "assess"
+            else f"{'Gaussian' if is_gaussian(kind) else 'others'}, {sampling}, "
+            f"{'elastic' if hard is None else 'yielding'}"
+        ),
+        [*QUANTITIES],
+    )
+    if arguments.through_assess:
+        table(
+            rows,
+            "through rl.assess",
+            lambda kind, sampling, hard: f"{kind}, {sampling}" if hard == "assess" else None,
+            [*ANSWERS],
+        )
 
 
 if __name__ == "__main__":

@@ -126,7 +126,7 @@ def test_the_grids_error_is_estimated_unasked_where_it_is_cheap(
     monkeypatch.setattr(grid, "_CHEAP", 10)
     code, out, _ = invoke("press", rough, *PAIR, *arguments)
     assert "grid error not estimated" in out
-    assert "third longer; with --grid-error it is estimated" in " ".join(out.split())
+    assert "twice as long; with --grid-error it is estimated" in " ".join(out.split())
     code, out, _ = invoke("press", rough, *PAIR, *arguments, "--grid-error")
     assert "grid error not estimated" not in out
 

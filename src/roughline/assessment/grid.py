@@ -30,5 +30,5 @@ def why_without_grid_error(question: Question, body: Surface, tried: bool) -> st
             "nevertheless"
         )
     else:
-        why = "that takes a third longer; with grid_error=True it is estimated"
+        why = "that takes about twice as long; with grid_error=True it is estimated"
     return f"grid error not estimated, so values come without intervals ({why})"

@@ -80,7 +80,7 @@ GRID = Choice(
     {"default": "where it is quick", "yes": "estimate", "no": "leave out"},
     "default",
     "What the distance of the points leaves open, from coarser grids; without it there are no "
-    "intervals. It takes a third longer.",
+    "intervals. It takes about twice as long.",
 )
 GRID_ERRORS = {"default": None, "yes": True, "no": False}
 
