@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -87,28 +88,14 @@ class _Grids:
 def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) -> Curve:
     """Add to a curve the discretisation errors estimated from coarser grids.
 
-    Two grids hold the means of two by two and of four by four points, or of equal pieces where a
-    side has an odd number of points; a third one every other point along both sides. The means
-    lose the finest waves, as the pixels of an instrument do; the points keep them and lose places.
-    The slopes of these grids tell the factor m by which two more grids, each twice as fine, would
-    steepen the surface. The error has two parts whose squares add.
+    Differences between grids change from grid to grid as the heights of the waves that are added
+    do, half the square root of the steepening m: the error is that of the next two grids, a grid
+    convergence index [1]_. Added to it is what waves do that no grid here has. They steepen the
+    surface, so that Persson's theory tells the area of elastic bodies [2]_, and a body with the
+    hardness H / m tells what yield does. Parts that are independent add as squares; those of an
+    area are not, as differences between grids are those of their slopes.
 
-    The first part are the differences between the grids: of the surface from both grids of n / 2
-    points, and between n / 2 and n / 4. A difference is small at times by chance, so that the
-    largest counts. The next ones change by a factor from grid to grid as the heights of the added
-    waves do, half the square root of m: a half for smooth surfaces, as at contact edges, one for
-    slopes that double. The error is that of the next two times a safety factor, as in a grid
-    convergence index [1]_. Differences are those of logarithms, or of compliances where a coarser
-    grid is in full contact. The error under a load does not depend on the other loads.
-
-    The second part is what waves do that no grid here resolves. An area of elastic bodies becomes
-    that of Persson's theory for a slope m times as large [2]_. Yield depends on hardness over
-    slope, so that a body with the hardness H / m shows what yield of these waves does to
-    stiffnesses and area. It is pressed on n / 2 points, with a hardness for which this grid yields
-    as the surface does, and once more softer by m.
-
-    The stiffness on loading is as uncertain as that on unloading, at least, and an area as its
-    perimeter correction, also on plateaus, where none is made. The errors cover grids four times
+    The error under a load does not depend on the other loads. The errors cover grids four times
     finer, but no noise that begins at the spacing.
 
     Parameters
@@ -137,41 +124,42 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) 
        3840-3861 (2001).
     """
     grids = _Grids.of(surface)
-    steepening = grids.steepening
     coarser = [
         press(each, loads, curve.hardness) for each in (grids.quarter, grids.half, grids.thinned)
     ]
-    alike = softer = coarser[1]
-    if curve.hardness is not None and steepening > 1:
-        alike, softer = (
-            _pressed_softer(coarser[1], grids.half, curve.hardness / times, press)
-            for times in (grids.step, grids.step * steepening)
-        )
+    steepening = grids.steepening
+    softer = _softer(grids, steepening, coarser[1], press)
+    with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
+        return _with_errors(curve, coarser, softer, steepening)
 
-    def error(name: str) -> Real:
-        return _difference(name, coarser, curve, np.sqrt(steepening) / 2)
 
-    area, most = curve.area_fraction_corrected, curve.area_fraction_most
+def _with_errors(
+    curve: Curve, coarser: Sequence[Curve], softer: tuple[Curve, Curve], steepening: float
+) -> Curve:
+    """Add the errors to a curve, from the curves of coarser grids and of softer bodies."""
     k, k_u = curve.stiffness, curve.unloading_stiffness
+    area, most = curve.area_fraction_corrected, curve.area_fraction_most
+    assert k_u is not None
     assert area is not None
     assert most is not None
-    assert k_u is not None
-    with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
-        unloading, loading = (
-            np.hypot(error(name), np.abs(_change(name, alike, softer)))
-            for name in ("unloading_stiffness", "stiffness")
-        )
-        yielding = area * np.exp(_change("area_fraction_corrected", alike, softer))
-        of_area = error("area_fraction_corrected") + np.abs(_steeper(yielding, steepening, area))
-        if curve.hardness is not None:  # nothing is left of k where all of the contact yields
-            taken = np.where(k > 0, _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
-            loading = np.fmax(loading, unloading + taken)
-        return replace(
-            curve,
-            stiffness_error=_times(k, loading),
-            unloading_stiffness_error=_times(k_u, unloading),
-            area_fraction_error=np.maximum(_times(area, of_area), most - area),
-        )
+    of_k, of_k_u, of_area = (
+        _difference(name, coarser, curve, math.sqrt(steepening) / 2)
+        for name in ("stiffness", "unloading_stiffness", "area_fraction_corrected")
+    )
+    of_k_u = np.hypot(of_k_u, _change("unloading_stiffness", *softer))
+    of_k = np.maximum(np.hypot(of_k, _change("stiffness", *softer)), of_k_u)
+    if curve.hardness is not None:  # nothing is left of k where all of the contact yields
+        taken = np.where((k > 0) & (k < k_u), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
+        of_k = np.maximum(of_k, of_k_u + taken)
+    yielding = area * np.exp(_change("area_fraction_corrected", *softer))
+    of_area = of_area + np.abs(_steeper(yielding, steepening, area))
+    return replace(
+        curve,
+        stiffness_error=_times(k, of_k),
+        unloading_stiffness_error=_times(k_u, of_k_u),
+        # as uncertain as its perimeter correction, also on plateaus, where none is made
+        area_fraction_error=np.maximum(_times(area, of_area), most - area),
+    )
 
 
 def refuse_few_points(surface: Surface) -> None:
@@ -217,6 +205,21 @@ def _excess(squares: Sequence[float], acceleration: float) -> float:
     """
     first, second, last = squares
     return 1 - (second / first) ** acceleration * second / last if first > 0 else 0.0
+
+
+def _softer(grids: _Grids, steepening: float, curve: Curve, press: Press) -> tuple[Curve, Curve]:
+    """Return curves of n / 2 points that yield as the surface does, and as a finer grid will.
+
+    Contact depends on hardness and slope as H / (E* slope) does. Without yield, or where no slope
+    is added, both are the curve of n / 2 points.
+    """
+    if curve.hardness is None or steepening == 1:
+        return curve, curve
+    alike, softer = (
+        _pressed_softer(curve, grids.half, curve.hardness / times, press)
+        for times in (grids.step, grids.step * steepening)
+    )
+    return alike, softer
 
 
 def _pressed_softer(curve: Curve, surface: Surface, hardness: float, press: Press) -> Curve:
