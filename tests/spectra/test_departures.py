@@ -43,5 +43,34 @@ def test_departures_are_named(kind, assumption):
     assert all(each.gravity > 1 for each in found)
 
 
+def tilted(surface: rl.Surface, slope: float) -> rl.Surface:
+    x = np.arange(surface.shape[0])[:, np.newaxis] * surface.spacing[0]
+    return rl.Surface(surface.heights + slope * x, surface.sizes, "m", is_cut_out=True)
+
+
+def test_a_tilt_that_own_waves_do_not_explain_is_told_however_it_was_removed():
+    stage = tilted(piece("sharp roll-off", 1), 3e-3)
+    for body in (stage, stage.detrended(), stage.detrended().scaled(2.0)):
+        assert "longer waves" in broken(body)
+    known = rl.Surface(stage.heights, stage.sizes, "m", {"tilt": "mounting"}, is_cut_out=True)
+    assert broken(known) == set()
+
+
+def test_heights_that_were_levelled_before_do_not_tell_of_longer_waves():
+    level = piece("sharp roll-off", 1).detrended()
+    found = departures(rl.Surface(level.heights, level.sizes, "m", is_cut_out=True))
+    assert [each.assumption for each in found] == ["longer waves"]
+    assert "levelled before" in found[0].text
+
+
+def test_flat_summits_and_steps_of_the_heights_are_told():
+    heights = piece("sharp roll-off", 1).heights
+    clipped = rl.Surface(np.minimum(heights, np.quantile(heights, 0.9)), (SIDE, SIDE), "m")
+    assert "gaussian" in broken(clipped)
+    rounded = rl.Surface(np.round(heights / 4e-7) * 4e-7, (SIDE, SIDE), "m")
+    assert "resolution" in broken(rounded)
+    assert broken(rl.Surface(np.zeros((64, 64)), (SIDE, SIDE), "m", is_cut_out=True)) == set()
+
+
 def test_a_reduced_line_departs_from_nothing():
     assert departures(rl.Line(np.arange(64.0) ** 2, SIDE)) == ()

@@ -91,7 +91,7 @@ def long_shapes(body: Body, fit: SelfAffineFit) -> Iterator[LongShape]:
             continue
         found = []
         for law in laws:
-            level = float((squares[own] / law[own] * counts[own]).sum() / counts[own].sum())
+            level = float((squares[own] / law[own]).sum() / counts[own].sum())
             explained = law[degree] * level
             ratio = squares[degree] / counts[degree] / explained
             chance = float(special.fdtrc(counts[degree], counts[own].sum(), ratio))
