@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-# Twelve batches of surfaces of about a second, so that a campaign can be disturbed on its way.
+# Nine batches of surfaces of up to a second, so that a campaign can be disturbed on its way.
 PLAN = """
 name = "small"
 seed = 5
@@ -23,12 +23,12 @@ name = "surfaces"
 model = "full"
 fractal_dimensions = [2.0, 2.4, 3.0]
 points = 128
-realisations = 14
+realisations = 9
 force_bars = { from = 1e-3, to = 10, per_decade = 6 }
 """
 
 FEW = PLAN.replace("realisations = 60", "realisations = 6").replace(
-    "points = 128\nrealisations = 14", "points = 64\nrealisations = 4"
+    "points = 128\nrealisations = 9", "points = 64\nrealisations = 4"
 )
 """The same with 30 cases, on coarser grids."""
 

@@ -23,10 +23,10 @@ def finished(plan_file, tmp_path_factory):
     summary = campaign.run(
         campaign.read_plan(plan_file), path, progress=lambda *told_now: told.append(told_now)
     )
-    assert (summary.done["lines"], summary.done["surfaces"]) == (180, 42)
-    assert told[:2] == [("lines", 0, 0, 180), ("surfaces", 0, 0, 42)]
+    assert (summary.done["lines"], summary.done["surfaces"]) == (180, 27)
+    assert told[:2] == [("lines", 0, 0, 180), ("surfaces", 0, 0, 27)]
     assert ("lines", 180, 0, 180) in told
-    assert ("surfaces", 42, 0, 42) in told
+    assert ("surfaces", 27, 0, 27) in told
     return path
 
 

@@ -80,10 +80,10 @@ def test_nothing_is_computed_twice(plan, finished, tmp_path):
     told = []
     summary = campaign.run(plan, finished, progress=lambda *args: told.append(args))
     assert (summary.done, summary.failed) == ({}, {})
-    assert told == [("lines", 180, 0, 180), ("surfaces", 42, 0, 42)]
+    assert told == [("lines", 180, 0, 180), ("surfaces", 27, 0, 27)]
     assert tree(finished) == before
     assert log_of(finished).read_text() == log
-    assert json.loads(log)["done"] == {"lines": 180, "surfaces": 42}
+    assert json.loads(log)["done"] == {"lines": 180, "surfaces": 27}
 
 
 @pytest.mark.parametrize(
@@ -232,7 +232,7 @@ def test_export_to_netcdf_and_csv(finished, tmp_path):
         data.stiffness.mean("realisation").values.ravel()
     )
     assert (means.stiffness_low <= means.stiffness_mean).all()
-    assert (means.realisations_done == 14).all()
+    assert (means.realisations_done == 9).all()
     cases = pd.read_csv(tmp_path / "surfaces.csv")
     assert len(cases) == data.stiffness.size
     assert cases.stiffness.values == pytest.approx(data.stiffness.values.ravel())
@@ -295,7 +295,7 @@ def test_the_cost_is_told_before_the_work(plan, finished, tmp_path):
     entry = json.loads(log_of(finished).read_text())
     assert entry["processor"]
     spent = entry["core_seconds"]
-    cost = cost_of(plan, {"lines": 180, "surfaces": 42})
+    cost = cost_of(plan, {"lines": 180, "surfaces": 27})
     # good to a factor of two or three, and machines are noisy
     assert 0.2 < cost.core_seconds / sum(spent.values()) < 5
 
