@@ -99,11 +99,6 @@ def test_the_joint_is_within_the_interval_of_its_map(part, materials):
         # where all yields, the area is F / H, the least that can be, but for rounding
         assert answer.low <= value * (1 + 1e-12), key
         assert value < answer.high, key
-        shared_low, shared_high = answer.shared
-        assert shared_low < answer.values * (1 + 1e-12)
-        assert answer.values < shared_high <= answer.high  # of an area F / H that of its grid
-        is_least = key == "contact_area" and answer.low == pytest.approx(force / pair.hardness)
-        assert answer.low < shared_low or is_least
 
 
 def test_the_joint_slides_under_its_own_load(part):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughline.statistics.places import average_of_places
+from roughline.statistics.places import agreement, average_of_places
 
 DRAWS = 20_000
 TOLERANCE = 4 * np.sqrt(0.05 * 0.95 / DRAWS)  # four standard errors of a share of 95 %
@@ -76,3 +76,46 @@ def test_an_interval_may_be_open_at_one_end_alone():
     assert found.low[0] == pytest.approx(0.8)
     assert found.high[0] == 1
     assert np.isnan([found.low[1], found.high[1]]).all()
+
+
+@pytest.mark.parametrize("count", [2, 5])
+def test_what_a_whole_may_differ_from_its_places_is_added(count):
+    rng = np.random.default_rng(4)
+    values = np.exp(0.1 * rng.standard_normal((count, 3)))
+    without = average_of_places(values, values / 1.2, values * 1.2)
+    found = average_of_places(values, values / 1.2, values * 1.2, (values * np.exp(-0.5), values))
+    assert found.low == pytest.approx(without.low * np.exp(-0.5), rel=1e-12)
+    assert found.high == pytest.approx(without.high, rel=1e-12)
+    unknown_bounds = average_of_places(values, values / 1.2, values * 1.2, (unknown(values),) * 2)
+    assert unknown_bounds.low == pytest.approx(without.low, rel=1e-12)
+
+
+def test_no_values_at_all_and_infinite_ends_give_no_warning(recwarn):
+    values = np.array([[np.nan, 1.0, np.inf, 0.0], [np.nan, 2.0, np.inf, 0.0]])
+    nothing = np.zeros_like(values)
+    found = average_of_places(values, nothing, nothing + np.inf, (nothing, values))
+    assert (found.low[1], found.high[1]) == (0.0, np.inf)
+    assert np.isnan(found.mean[0])
+    assert not recwarn.list
+
+
+@pytest.mark.parametrize("places", [2, 3, 10])
+def test_places_that_are_alike_agree_in_99_of_100(places):
+    rng = np.random.default_rng(places)
+    agree = [agreement(rng.normal(size=(places, 4))).holds for _ in range(3000)]
+    assert np.mean(agree) == pytest.approx(0.99, abs=4 * np.sqrt(0.01 * 0.99 / 3000))
+
+
+def test_places_that_differ_do_not_agree_and_it_is_known_how_far_they_differ():
+    rng = np.random.default_rng(5)
+    of_places = 0.5 * rng.normal(size=(200, 1))
+    found = agreement(of_places + 0.2 * rng.normal(size=(200, 4)))
+    assert not found.holds
+    assert found.between == pytest.approx(np.hypot(0.5, 0.1), rel=0.2)
+    assert found.within == pytest.approx(0.1, rel=0.1)
+    assert found.of_places == pytest.approx(0.25 / 0.26, abs=0.02)
+
+
+@pytest.mark.parametrize("shape", [(1, 4), (3, 1), (3, 4)])
+def test_without_differences_between_parts_nothing_is_said_of_places(shape):
+    assert agreement(np.ones(shape)) is None

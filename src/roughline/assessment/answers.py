@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
@@ -11,7 +12,7 @@ from roughline.assessment.misfit import strains
 from roughline.engineering.answer import Answer
 from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
-from roughline.engineering.intervals import Intervals
+from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.joint import of_joint
 from roughline.engineering.limits import elastic_warnings
 from roughline.engineering.pair import MaterialPair
@@ -44,29 +45,39 @@ def with_answers(
     spectrum : Moments or None
         Of the body.
     """
-    pair, question = result.question.pair, result.question
+    pair = result.question.pair
     if pair is None:
         return result
     interface = _interface_stiffness(result, larger)
-    intervals = result.intervals_as_asked
-    given = _answers(result, pair, interface, intervals, spectrum)
-    if larger is not None and intervals is not None and larger.stiffness.shared is not None:
-        larger = larger.at(result.asked)
-        shared = larger.stiffness.shared
-        assert interface is not None
-        assert shared is not None
-        interface = replace(interface, low=shared[0], high=shared[1])
-        if question.joint is not None:  # the surface is pressed as a part of the larger one
-            intervals = larger.intervals(result.curve_as_asked, shared=True)
-        missed_by_all = _answers(result, pair, interface, intervals, spectrum)
-        given = [
-            replace(each, shared=other.ends)
-            for each, other in zip(given, missed_by_all, strict=True)
-        ]
-    if question.joint is not None:
-        given = of_joint(given, result.area, question.joint)
-    given = with_own_symbols(given)
-    return replace(result, answers={each.key: each for each in given})
+    given = _answers(result, pair, interface, result.intervals_as_asked, spectrum)
+    larger = None if larger is None else larger.at(result.asked)
+    return replace(result, answers=given, larger=larger)
+
+
+def ends_from_many(
+    result: Assessment, further: tuple[Ends, Ends], *, with_grid: bool
+) -> Mapping[str, Ends]:
+    """Ends of the answers of one of many maps, by their keys.
+
+    Parameters
+    ----------
+    result : Assessment
+        With its answers.
+    further : tuple of (tuple of ndarray)
+        As for :meth:`LargerSurface.from_many`, at the loads that were asked for.
+    with_grid : bool
+        Whether the ends hold what the grid leaves open as well.
+    """
+    pair, larger, curve = result.question.pair, result.larger, result.curve_as_asked
+    if larger is None or pair is None or curve.area_fraction_corrected is None:
+        return {}
+    larger = larger.from_many(curve.area_fraction_corrected, further, with_grid=with_grid)
+    intervals = result.intervals_as_asked if with_grid else None
+    if result.question.joint is not None:  # the map is pressed as a part of the larger one
+        known = curve if with_grid else replace(curve, stiffness_error=None)
+        intervals = larger.intervals(known)
+    given = _answers(result, pair, larger.stiffness, intervals, surface_moments(result.body))
+    return {key: each.ends for key, each in given.items() if each.ends is not None}
 
 
 def _answers(
@@ -75,9 +86,9 @@ def _answers(
     interface_stiffness: Answer | None,
     intervals: Intervals | None,
     spectrum: Moments | None,
-) -> list[Answer]:
-    """What follows from the curve, with intervals as they are given."""
-    return answers(
+) -> dict[str, Answer]:
+    """What follows from the curve by its key, with intervals as they are given."""
+    given = answers(
         result.curve_as_asked,
         result.area,
         pair,
@@ -86,6 +97,9 @@ def _answers(
         frequency=result.question.frequency_in_hertz,
         intervals=intervals,
     )
+    if result.question.joint is not None:
+        given = of_joint(given, result.area, result.question.joint)
+    return {each.key: each for each in with_own_symbols(given)}
 
 
 def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:

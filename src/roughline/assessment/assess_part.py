@@ -12,17 +12,21 @@ import numpy as np
 
 from roughline.assessment.assess import Announce, assess_body
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.assumptions import OF_INTERFACE
+from roughline.assessment.behind_maps import BehindMaps, behind_maps, missed_of_map
 from roughline.assessment.given import has_forces
 from roughline.assessment.limits import limits_of_answers
 from roughline.assessment.loads import LoadProgress
-from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.assessment.part import Missed, PartAnswer, PartAssessment
 from roughline.assessment.part_remarks import (
     differ_in_size,
     differences_in_kind,
     what_is_averaged,
     what_the_maps_say,
+    what_they_tell_of_the_part,
 )
 from roughline.assessment.question import Question
+from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
@@ -190,9 +194,11 @@ def _part_of(done: _Pressed) -> PartAssessment:
     """What the maps that were pressed say together."""
     results = list(done.assessments.values())
     first = results[0].question
-    answers = _answers(results)
+    behind = behind_maps(results)
+    answers = _answers(results, behind)
     refused = [f"refused: {_reason(name, why)}" for name, why in done.refused.items()]
     left = [f"not pressed, because of Ctrl-C: {', '.join(done.left)}"] if done.left else []
+    of_part = what_they_tell_of_the_part(behind, answers, first.joint is not None)
     warnings, notes = what_the_maps_say(done.assessments)
     return PartAssessment(
         question=first,
@@ -202,12 +208,12 @@ def _part_of(done: _Pressed) -> PartAssessment:
         left=done.left,
         answers=answers,
         elastic=_elastic(results, answers),
-        warnings=[*refused, *left, *differences_in_kind(done.assessments), *warnings],
-        notes=[*what_is_averaged(results), *notes],
+        warnings=[*refused, *left, *of_part[0], *differences_in_kind(done.assessments), *warnings],
+        notes=[*what_is_averaged(results), *of_part[1], *notes],
     )
 
 
-def _answers(results: Sequence[Assessment]) -> Mapping[str, PartAnswer]:
+def _answers(results: Sequence[Assessment], behind: BehindMaps | None) -> Mapping[str, PartAnswer]:
     """Averages of the answers that all maps have, and that belong to one and the same thing."""
     question = results[0].question
     keys = [key for key in results[0].answers if all(key in each.answers for each in results)]
@@ -215,13 +221,25 @@ def _answers(results: Sequence[Assessment]) -> Mapping[str, PartAnswer]:
         forced = has_forces(question.loads)
         keys = [key for key in keys if not forced and not results[0].answers[key].growth]
     limits = [limits_of_answers(each) for each in results]
-    answers = {
-        key: PartAnswer.of(
-            [each.answers[key] for each in results], [each[key] for each in limits if key in each]
+    missed = [missed_of_map(each, behind) for each in results] if behind is not None else []
+    answers = {}
+    for key in keys:
+        is_of_part = behind is not None and (question.joint is not None or key in OF_INTERFACE)
+        answers[key] = PartAnswer.of(
+            [each.answers[key] for each in results],
+            [each[key] for each in limits if key in each],
+            _missed(key, missed) if is_of_part else None,
+            is_told=not (is_of_part and behind is not None and behind.untold),
         )
-        for key in keys
-    }
     return answers | _under_unloading(answers, question.joint is not None)
+
+
+def _missed(key: str, missed: Sequence[tuple[Mapping[str, Ends], ...]]) -> Missed | None:
+    """What maps do not show of one answer of their part; None if they show all of it."""
+    alike, sharing = zip(*missed, strict=True)
+    if not all(key in each for each in alike):
+        return None
+    return Missed([each[key] for each in alike], [each[key] for each in sharing])
 
 
 def _elastic(

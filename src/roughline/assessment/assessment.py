@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from roughline.assessment.larger_surface import LargerSurface
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.assessment.slip import PartialSlip
@@ -75,6 +76,7 @@ class Assessment:
     answers: Mapping[str, Answer] = field(default_factory=dict)
     elastic: Mapping[str, Answer] = field(default_factory=dict)
     hardness_scatter: Mapping[str, Ends] = field(default_factory=dict)
+    larger: LargerSurface | None = None
     theories: Sequence[TheoryCurve] = ()
     partial_slip: PartialSlip | None = None
     warnings: Sequence[str] = ()

@@ -28,7 +28,8 @@ RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
 }
 """By what is predicted, the assumptions on whose breaking its interval is taken down."""
 
-_OF_INTERFACE = ("interface_stiffness", "thermal_conductance_per_area", "reflection")
+OF_INTERFACE = ("interface_stiffness", "thermal_conductance_per_area", "reflection")
+"""Keys of the answers of a map that are those of the surface behind it."""
 
 
 def broken(prediction: Prediction, body: Body) -> tuple[Departure, ...]:
@@ -82,12 +83,12 @@ def _without_interval(result: Assessment, prediction: Prediction) -> str:
     if prediction == "theories":
         return "theories assume otherwise"
     given = result.answers
-    keys = [*given] if result.question.joint else _OF_INTERFACE
+    keys = [*given] if result.question.joint else OF_INTERFACE
     names = [given[key].symbol for key in keys if key in given and _is_bare(result, key)]
     if not names:
         return ""
     verb = "comes" if len(names) == 1 else "come"
-    return f"{_listed(names)} {verb} without an interval"
+    return f"{listed(names)} {verb} without an interval"
 
 
 def _is_bare(result: Assessment, key: str) -> bool:
@@ -95,6 +96,7 @@ def _is_bare(result: Assessment, key: str) -> bool:
     return key not in ("normal_force", "mean_pressure", "depth") and result.answers[key].low is None
 
 
-def _listed(names: Sequence[str]) -> str:
+def listed(names: Sequence[str]) -> str:
+    """Write names one after the other."""
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last

@@ -19,6 +19,7 @@ from roughline.engineering.declared import DECLARED
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals, ends_at
 from roughline.errors import InputError
+from roughline.spectra.fit import SelfAffineFit
 from roughline.spectra.fitted import fitted
 from roughline.topography.body import Body, Line, Surface
 
@@ -34,21 +35,54 @@ class LargerSurface:
     stiffness : Answer
         Interface stiffness of as much of it as the piece is large; without an interval where the
         piece does not tell. [N / m]
-    area, shared_area : tuple of ndarray, shape (loads,), or None
-        Ends of its corrected area fraction, and of that part of the interval which other pieces
-        would miss in the same way; None where they are not known. [1]
+    area : tuple of ndarray, shape (loads,), or None
+        Ends of its corrected area fraction; None where they are not known. [1]
+    of_grid : tuple of (tuple of ndarray, or None)
+        Ends of the piece's own stiffness [N / m] and area fraction [1], which the grid and filled
+        points leave open.
+    tiles : tuple of Tiles, or None
+        Logarithms of the stiffness, and logits of the contact area fraction.
     """
 
     stiffness: Answer
     area: Ends | None = None
-    shared_area: Ends | None = None
+    of_grid: tuple[Ends | None, Ends | None] = (None, None)
+    tiles: tuple[Tiles, Tiles] | None = None
 
     def at(self, loads: Indices) -> LargerSurface:
         """The same at some of the loads, by their numbers."""
-        area, shared = (
-            None if ends is None else ends_at(ends, loads) for ends in (self.area, self.shared_area)
-        )
-        return LargerSurface(self.stiffness.at(loads), area, shared)
+
+        def some(ends: Ends | None) -> Ends | None:
+            return None if ends is None else ends_at(ends, loads)
+
+        grid = some(self.of_grid[0]), some(self.of_grid[1])
+        tiles = self.tiles and (self.tiles[0].at(loads), self.tiles[1].at(loads))
+        return LargerSurface(self.stiffness.at(loads), some(self.area), grid, tiles)
+
+    @property
+    def without_interval(self) -> LargerSurface:
+        """The same where the piece alone does not tell of it."""
+        return replace(self, stiffness=replace(self.stiffness, low=None, high=None), area=None)
+
+    def from_many(
+        self, area: Real, further: tuple[Ends, Ends], *, with_grid: bool
+    ) -> LargerSurface:
+        """The same with intervals that many pieces leave open.
+
+        Parameters
+        ----------
+        area : ndarray, shape (loads,)
+            Area fraction of the piece. [1]
+        further : tuple of (tuple of ndarray)
+            Both ends of the differences of its stiffness's logarithm and its area's logit.
+        with_grid : bool
+            Whether these are combined with what the grid leaves open, as independent.
+        """
+        k, shares = self.of_grid if with_grid else (None, None)
+        values = self.stiffness.values
+        low, high = _widened(values, k, further[0])
+        stiffness = replace(self.stiffness, low=low, high=high)
+        return LargerSurface(stiffness, _widened_share(area, shares or (area, area), further[1]))
 
     def among(self, solved: Mask) -> LargerSurface:
         """The same over more loads, of which these were solved: NaN at the others."""
@@ -58,11 +92,12 @@ class LargerSurface:
 
         k = self.stiffness
         low, high = spread(k.ends) or (None, None)
-        values, shared = among(k.values, solved), spread(k.shared)
-        k = replace(k, values=values, low=low, high=high, shared=shared)
-        return LargerSurface(k, spread(self.area), spread(self.shared_area))
+        k = replace(k, values=among(k.values, solved), low=low, high=high)
+        grid = spread(self.of_grid[0]), spread(self.of_grid[1])
+        tiles = self.tiles and (self.tiles[0].among(solved), self.tiles[1].among(solved))
+        return LargerSurface(k, spread(self.area), grid, tiles)
 
-    def intervals(self, curve: Curve, *, shared: bool = False) -> Intervals:
+    def intervals(self, curve: Curve) -> Intervals:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
 
         The stiffness on loading keeps its ratio to that on unloading. Where points yield, the error
@@ -72,10 +107,8 @@ class LargerSurface:
         ----------
         curve : Curve
             Of the piece.
-        shared : bool, optional
-            Whether they hold only what other pieces would also miss in the same way.
         """
-        ends = self.stiffness.shared if shared else self.stiffness.ends
+        ends = self.stiffness.ends
         assert ends is not None
         assert curve.unloading_stiffness is not None
         with np.errstate(invalid="ignore"):  # bodies apart, and no upper end near full contact
@@ -93,7 +126,7 @@ class LargerSurface:
                     np.where(yields, with_own[0], loading[0]),
                     np.where(yields, with_own[1], loading[1]),
                 )
-        area = self.shared_area if shared else self.area
+        area = self.area
         if area is not None and curve.hardness is not None:  # no area bears more than the hardness
             area = np.maximum(area[0], curve.force / (curve.hardness * curve.length**2)), area[1]
         return Intervals(loading, ends, area)
@@ -117,13 +150,14 @@ def roll_offs_along_a_side(surface: Surface) -> float | None:
         _, fit = fitted(surface)
     except InputError:
         return None
-    if (
-        isinstance(fit, InputError)
-        or fit.q_roll is None
-        or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9)
-    ):
+    return None if isinstance(fit, InputError) else roll_offs_of(fit)
+
+
+def roll_offs_of(fit: SelfAffineFit) -> float | None:
+    """Roll-off wavelengths along a side of the surface that a law was fitted to."""
+    if fit.q_roll is None or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):
         return None
-    return fit.q_roll * surface.length / (2 * math.pi)
+    return fit.q_roll / fit.q_low
 
 
 def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = None) -> Answer:
@@ -197,20 +231,16 @@ def larger_surface(
     assert touching is not None
     assert k is not None
     formula = "dF/dd of the map in a periodic half-space under the same force, on unloading"
+    grid = stiffness, area
     if tiles is None:
-        return LargerSurface(_declared(k, (None, None), _which(beyond), formula=formula))
+        return LargerSurface(
+            _declared(k, (None, None), _which(beyond), formula=formula), of_grid=grid
+        )
     of_stiffness, of_area = tiles
-    (low, high), shared = (
-        _widened(k, stiffness, of_stiffness.beyond(beyond, mean=mean)) for mean in (False, True)
-    )
-    answer = _declared(k, (low, high), _which(beyond), formula=formula)
-    answer = replace(answer, shared=shared)
-    if area is None:
-        return LargerSurface(answer)
-    one, many = (
-        _widened_share(touching, area, of_area.beyond(beyond, mean=mean)) for mean in (False, True)
-    )
-    return LargerSurface(answer, one, many)
+    ends = _widened(k, stiffness, of_stiffness.beyond(beyond))
+    answer = _declared(k, ends, _which(beyond), formula=formula)
+    share = None if area is None else _widened_share(touching, area, of_area.beyond(beyond))
+    return LargerSurface(answer, share, grid, tiles)
 
 
 def _which(beyond: Beyond) -> str:

@@ -13,7 +13,36 @@ from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.summary import summary
 from roughline.engineering.answer import Answer
+from roughline.engineering.intervals import Ends
 from roughline.statistics.places import average_of_places
+
+
+@dataclass(frozen=True, eq=False)
+class Missed:
+    """What maps do not show of one quantity of their part.
+
+    Attributes
+    ----------
+    alike : sequence of (tuple of ndarray)
+        Ends of the interval of each map which others would miss in the same way. [unit]
+    sharing : sequence of (tuple of ndarray), optional
+        Bounds of what the value of each map becomes as the places of the part share its load.
+        [unit]
+    """
+
+    alike: Sequence[Ends]
+    sharing: Sequence[Ends] = ()
+
+    @property
+    def by_sharing(self) -> Ends | None:
+        """Both bounds, (maps, loads)."""
+        return stacked(self.sharing) if self.sharing else None
+
+
+def stacked(ends: Sequence[Ends]) -> Ends:
+    """Both ends of all maps, each (maps, loads)."""
+    low, high = zip(*ends, strict=True)
+    return np.stack(low), np.stack(high)
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,14 +72,33 @@ class PartAnswer:
     count: Indices
 
     @classmethod
-    def of(cls, of_maps: Sequence[Answer], limits: Sequence[Limits] = ()) -> PartAnswer:
-        """Average the answers of one or more maps, within the limits of each of them."""
+    def of(
+        cls,
+        of_maps: Sequence[Answer],
+        limits: Sequence[Limits] = (),
+        missed: Missed | None = None,
+        *,
+        is_told: bool = True,
+    ) -> PartAnswer:
+        """Average the answers of one or more maps, within the limits of each of them.
+
+        Parameters
+        ----------
+        of_maps : sequence of Answer
+            One or more.
+        limits : sequence of Limits, optional
+            Of each map.
+        missed : Missed, optional
+            What all maps miss alike; without it, their own intervals.
+        is_told : bool, optional
+            Whether the maps tell of the part, so that there is an interval.
+        """
         values = np.stack([each.values for each in of_maps])
         unknown = np.full(values.shape[1], np.nan)
-        shared = [each.shared or each.ends or (unknown, unknown) for each in of_maps]
-        low, high = (np.stack(ends) for ends in zip(*shared, strict=True))
-        found = average_of_places(values, low, high)
-        if len(of_maps) == 1:  # what one map leaves open of itself is no interval of the part
+        missed = missed or Missed([each.ends or (unknown, unknown) for each in of_maps])
+        found = average_of_places(values, *stacked(missed.alike), missed.by_sharing)
+        if len(of_maps) == 1 or not is_told:
+            # what one map leaves open of itself is no interval of the part
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
         low, high = found.low, found.high
         if limits:

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.assumptions import OF_INTERFACE, listed
+from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.nominal import nominal_area
+from roughline.assessment.part import PartAnswer
+from roughline.spectra.departures import departures
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
 _NUMBER = re.compile(r"\d[\d.]*(e[-+]?\d+)?( ?[afpnµmkMGT]?(m²|m|N/m|N|Pa|Ω|%)(?!\w))?")
 _SAME_SIZE = 1.05  # largest area over smallest, up to which forces on maps are compared
+_JUDGED_TOGETHER = (
+    "stationary",
+    "longer waves",
+    "roll-off",
+)  # what maps say of it alone is left out
 _FEW = 5  # maps up to which it is said how much more would help
 
 # Largest over smallest from which on maps are not of one kind. Places of one surface differ in
@@ -60,20 +70,25 @@ def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
     """Say what mean, scatter and interval of a part are."""
     from scipy.special import stdtrit  # here because it loads slowly
 
-    count = len(results)
+    count, is_joint = len(results), results[0].question.joint is not None
     if count == 1:
         return [
             "a single map shows no scatter between places: no interval for the part; map at least "
             "two more places, better four"
         ]
     student = float(stdtrit(count - 1, 0.975))
+    whole = (
+        "the whole part, its places sharing the load"
+        if is_joint
+        else "the mean over all its places"
+    )
     notes = [
         f"mean: geometric, over {count} maps, taken to be of places chosen at random; scatter: "
         "about two of three places lie within this factor of the mean",
-        "interval of the part: 95 % for the mean over all its places, Student's t on logarithms "
+        f"interval of the part: 95 % for {whole}; Student's t on logarithms "
         f"({student:.3g} standard errors for {count} maps), widened by errors that all maps may "
-        "have in common, such as the grid's error and waves longer than a map, which do not "
-        "average out",
+        "have in common and that do not average out, such as the grid's"
+        + (", and by how a map differs from the part behind it" if is_joint else ""),
     ]
     if count < _FEW:
         more = float(stdtrit(_FEW - 1, 0.975))
@@ -89,10 +104,54 @@ def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
     return notes
 
 
+def what_they_tell_of_the_part(
+    behind: BehindMaps | None, answers: Mapping[str, PartAnswer], is_joint: bool
+) -> tuple[list[str], list[str]]:
+    """Say whether maps tell of the part, and whether they agree; warnings and notes."""
+    if behind is None:
+        return [], []
+    warnings: list[str] = []
+    notes: list[str] = []
+    keys = [each for each in OF_INTERFACE if each in answers]
+    if behind.untold and keys:
+        bare = "answers of the joint" if is_joint else listed([answers[key].symbol for key in keys])
+        warnings.append(f"{behind.untold}; {bare} come without an interval")
+    found = behind.agreement
+    if found is None:
+        return warnings, notes
+    between, within = (f"{math.expm1(each):.2g}" for each in (found.between, found.within))
+    numbers = (
+        f"rms heights scatter by a factor of {1 + float(between):.3g} between maps, and chance "
+        f"explains {1 + float(within):.3g}, as between quarters of a map (ratio of variances "
+        f"{found.ratio:.2g}, and chance allows up to {found.chance:.2g})"
+    )
+    if found.holds:
+        notes.append(f"the maps agree: {numbers}")
+    else:
+        warnings.append(
+            f"the maps do not agree: {numbers}; places of the part differ, and rougher ones bear "
+            "more of its load than maps under one pressure show: the intervals allow for that; if "
+            "the part has regions, ask for each of them"
+        )
+    return warnings, notes
+
+
 def what_the_maps_say(results: Mapping[str, Assessment]) -> tuple[list[str], list[str]]:
     """Warnings and notes of all maps: those of all once, the others with the maps' names."""
+    judged = {
+        name: [
+            departure.text
+            for departure in departures(each.body)
+            if departure.assumption in _JUDGED_TOGETHER
+        ]
+        for name, each in results.items()
+    }
+    own = {
+        name: [text for text in each.warnings if not text.startswith(tuple(judged[name]))]
+        for name, each in results.items()
+    }
     return (
-        _once({name: each.warnings for name, each in results.items()}),
+        _once(own if len(results) > 1 else {name: results[name].warnings for name in own}),
         _once({name: each.notes for name, each in results.items()}),
     )
 

@@ -106,10 +106,12 @@ def interface_of_the_larger_surface(
     beyond = Beyond.of(roll_offs_along_a_side(body), body.area, joint)
     tiles, interrupted = None, solution.interrupted or periodic.interrupted
     known = periodic.intervals
-    if known and not interrupted and beyond.is_told and not broken("larger surface", body):
+    if known and not interrupted:
         tiles, interrupted = _tiles(level, periodic.curve, case)
     ends = (known.unloading, known.area) if known else (None, None)
     larger = larger_surface(periodic.curve, beyond, tiles, *ends)
+    if not beyond.is_told or broken("larger surface", body):
+        larger = larger.without_interval
     if larger.stiffness.values.size < borne.size:  # loads that failed before have no force
         larger = larger.among(borne)
     return larger, interrupted

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends
 from roughline.topography.body import Surface
@@ -79,6 +79,23 @@ class Tiles:
     halves: Real
     quarters: Real
 
+    def at(self, loads: Indices) -> Tiles:
+        """The same at some of the loads, by their numbers."""
+        return self._each(lambda values: values[..., loads])
+
+    def among(self, solved: Mask) -> Tiles:
+        """The same over more loads, of which these were solved: NaN at the others."""
+
+        def spread(values: Real) -> Real:
+            found = np.full((*values.shape[:-1], solved.size), np.nan)
+            found[..., solved] = values
+            return found
+
+        return self._each(spread)
+
+    def _each(self, change: Callable[[Real], Real]) -> Tiles:
+        return Tiles(change(self.whole), change(self.halves), change(self.quarters))
+
     def steps(self, beyond: Beyond) -> Ends:
         """Both ends of the mean difference between the larger surface and maps of this size.
 
@@ -87,15 +104,20 @@ class Tiles:
         further step is half the one before, so that all of them together are as large as the last
         one. Without a roll-off each further step may be as large as the larger of these two.
         """
-        with np.errstate(invalid="ignore"):
-            first = _mean(self.halves) - _mean(self.quarters)
-            last = np.where(np.isfinite(self.whole), self.whole, np.nan) - _mean(self.halves)
+        first, last = self._first_and_last()
         if beyond.roll_offs is None:
             further = [beyond.doublings * first, beyond.doublings * last]
         else:
             further = [last, _DECAY * first]
         none = np.zeros_like(first)
         return np.minimum.reduce([none, *further]), np.maximum.reduce([none, *further])
+
+    def _first_and_last(self) -> Ends:
+        """Steps from quarters to halves, and from halves to the map."""
+        with np.errstate(invalid="ignore"):
+            first = _mean(self.halves) - _mean(self.quarters)
+            last = np.where(np.isfinite(self.whole), self.whole, np.nan) - _mean(self.halves)
+            return first, last
 
     def scatter(self, beyond: Beyond) -> Real:
         """Half width of the scatter of maps about their mean, from that of tiles.
@@ -133,6 +155,10 @@ class Tiles:
             ends = self._beyond(Beyond(None), mean=mean)
             low = np.where(unlike, np.fmin(low, ends[0]), low)
             high = np.where(unlike, np.fmax(high, ends[1]), high)
+        if mean:  # of one map, chance hides that steps grow and do not say where they end
+            first, last = self._first_and_last()
+            grow = (last > first) & (last + first > 0) & (last > self.scatter(beyond) / 2)
+            high = np.where(grow, np.inf, high)
         full = np.isinf(self.whole) | np.isinf(self.quarters).any(axis=(0, 1))
         return np.where(np.isnan(low), -np.inf, low), np.where(full | np.isnan(high), np.inf, high)
 
@@ -140,6 +166,19 @@ class Tiles:
         low, high = self.steps(beyond)
         scatter = 0.0 if mean else self.scatter(beyond)
         return low - scatter, high + scatter
+
+    @classmethod
+    def mean(cls, tiles: Sequence[Tiles]) -> Tiles:
+        """Mean over maps of the same size."""
+
+        def over(values: Sequence[Real]) -> Real:
+            return np.mean(values, axis=0)
+
+        return cls(
+            over([each.whole for each in tiles]),
+            over([each.halves for each in tiles]),
+            over([each.quarters for each in tiles]),
+        )
 
 
 def pressed_tiles(

@@ -162,10 +162,8 @@ def _borne(result: Assessment, case: LoadCase, hardness: float | None) -> Mask:
 
 def _without_intervals(result: Assessment) -> Assessment:
     """Return the assessment as if the error of its grid were not known."""
-    answers = {
-        key: replace(each, low=None, high=None, shared=None) for key, each in result.answers.items()
-    }
-    return replace(result, intervals=None, answers=answers)
+    answers = {key: replace(each, low=None, high=None) for key, each in result.answers.items()}
+    return replace(result, intervals=None, answers=answers, larger=None)
 
 
 def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment]) -> Assessment:
@@ -186,8 +184,7 @@ def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment
             ends = each.values, each.values  # nothing else leaves them open
         can_be = limits.get(key, (0.0, np.inf))
         low, high = (None, None) if ends is None else _times(ends, ratios, can_be)
-        shared = None if each.shared is None else _times(each.shared, ratios, can_be)
-        answers[key] = replace(each, low=low, high=high, shared=shared)
+        answers[key] = replace(each, low=low, high=high)
 
     def of_curve(ends: Ends, name: str, most: Real | float = np.inf) -> Ends:
         values = [getattr(each.curve, name) for each in (nominal, *moved)]

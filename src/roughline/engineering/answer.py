@@ -9,7 +9,7 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Real
 from roughline.engineering.declared import DECLARED
-from roughline.engineering.intervals import Ends, ends_at
+from roughline.engineering.intervals import Ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,9 +27,6 @@ class Answer:
     low, high : ndarray, shape (loads,), or None
         Ends of the interval; None where it is not known. Uncertainties that are not known are not
         in it. [unit]
-    shared : tuple of ndarray, shape (loads,), or None
-        Ends of that part of the interval which other maps of the same surface would miss in the
-        same way; None where that is the whole interval. [unit]
     formula : str
         How it follows from the curve.
     validity : str
@@ -51,7 +48,6 @@ class Answer:
     validity: str = ""
     source: str = ""
     growth: float = 0.0
-    shared: Ends | None = None
 
     @property
     def ends(self) -> Ends | None:
@@ -67,8 +63,7 @@ class Answer:
         """The same at some of the loads, by their numbers."""
         values, *ends = self.rows[:, loads]
         low, high = ends or (None, None)
-        shared = None if self.shared is None else ends_at(self.shared, loads)
-        return replace(self, values=values, low=low, high=high, shared=shared)
+        return replace(self, values=values, low=low, high=high)
 
 
 def answer(key: str, rows: Real, **differing: str) -> Answer:

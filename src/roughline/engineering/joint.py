@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import Any
 
 from roughline.engineering.answer import Answer, answer
-from roughline.engineering.intervals import Ends
 
 
 def of_joint(given: Iterable[Answer], area: float, joint: float) -> list[Answer]:
@@ -82,16 +81,14 @@ def _of_map(slope: str) -> str:
 
 def _per_area(interface: Answer, joint: float) -> Answer:
     """Stiffness of the interface over the area of the joint."""
-    made = answer(
+    return answer(
         "stiffness_per_area", interface.rows / joint, symbol="k_i/A_0", formula="k_i / A_0"
     )
-    return replace(made, shared=_times(interface.shared, 1 / joint))
 
 
 def _specific(resistance: Answer, joint: float) -> Answer:
     """Resistance times the area of the joint."""
-    made = answer("specific_contact_resistance", resistance.rows * joint)
-    return replace(made, shared=_times(resistance.shared, joint))
+    return answer("specific_contact_resistance", resistance.rows * joint)
 
 
 def _grown(each: Answer, ratio: float) -> Answer:
@@ -104,12 +101,5 @@ def _grown(each: Answer, ratio: float) -> Answer:
         differing["validity"] = (
             "of the map, from the touch of its highest point; the joint has higher points"
         )
-    low, high = _times(each.ends, factor) or (None, None)
-    shared = _times(each.shared, factor)
-    return replace(
-        each, values=each.values * factor, low=low, high=high, shared=shared, **differing
-    )
-
-
-def _times(ends: Ends | None, factor: float) -> Ends | None:
-    return None if ends is None else (ends[0] * factor, ends[1] * factor)
+    low, high = (None if end is None else end * factor for end in (each.low, each.high))
+    return replace(each, values=each.values * factor, low=low, high=high, **differing)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -156,4 +157,21 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
         modes=counts.astype(np.float64),
         windowed=surface.is_cut_out,
         aspect=surface.sizes[0] / surface.sizes[1],
+    )
+
+
+def mean_spectrum(spectra: Sequence[IsotropicSpectrum]) -> IsotropicSpectrum:
+    """Average the spectra of pieces of one surface, of the same size and points.
+
+    Parameters
+    ----------
+    spectra : sequence of IsotropicSpectrum
+        One or more, with the same waves.
+    """
+    squares = [each.rms_height**2 for each in spectra]
+    return replace(
+        spectra[0],
+        C_2d=np.mean([each.C_2d for each in spectra], axis=0),
+        modes=np.sum([each.modes for each in spectra], axis=0),
+        rms_height=float(np.mean(squares)) ** 0.5,
     )

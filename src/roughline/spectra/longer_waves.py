@@ -8,7 +8,7 @@ than the piece appear in the first degrees alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -83,7 +83,40 @@ def long_shapes(body: Body, fit: SelfAffineFit) -> Iterator[LongShape]:
     slopes = tilt_of(body)
     if slopes is not None and body.settings.get(TILT) != MOUNTING:
         squares[1] = sum((s * side) ** 2 / 12 for s, side in zip(slopes, sides, strict=True))
-    rest = body.detrended().rms_height ** 2
+    yield from _judged((body, fit), body.detrended().rms_height ** 2, squares, counts, counts)
+
+
+def long_shapes_of_many(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShape]:
+    """Yield the same of several pieces of one surface, in the mean.
+
+    A tilt that all of them have is the mounting's; it counts how much they are tilted differently.
+
+    Parameters
+    ----------
+    bodies : sequence of (Surface or Line)
+        Two or more, of the same size.
+    fit : SelfAffineFit
+        The law of their mean spectrum.
+    """
+    found = [_mean_squares(body.detrended()) for body in bodies]
+    squares = np.mean([each for each, _ in found], axis=0)
+    free = found[0][1] * len(bodies)
+    tilts = [None if body.settings.get(TILT) == MOUNTING else tilt_of(body) for body in bodies]
+    known = [tilt for tilt in tilts if tilt is not None]
+    if len(known) == len(bodies):
+        first = bodies[0]
+        sides = first.sizes if isinstance(first, Surface) else (first.length,)
+        squares[1] = float((np.var(known, axis=0, ddof=1) * np.square(sides)).sum()) / 12
+        free[1] -= found[0][1][1]
+    rest = float(np.mean([body.detrended().rms_height ** 2 for body in bodies]))
+    yield from _judged((bodies[0], fit), rest, squares, found[0][1], free)
+
+
+def _judged(
+    body_and_fit: tuple[Body, SelfAffineFit], rest: float, squares: Real, counts: Real, free: Real
+) -> Iterator[LongShape]:
+    """Yield shapes of given mean squares over `counts` polynomials, with degrees of freedom."""
+    body, fit = body_and_fit
     laws = [_expected(body, fit.hurst, roll) for roll in _rolls(fit)]
     own = slice(_OWN, _DEGREES)
     for degree in range(1, _OWN):
@@ -94,7 +127,7 @@ def long_shapes(body: Body, fit: SelfAffineFit) -> Iterator[LongShape]:
             level = float((squares[own] / law[own]).sum() / counts[own].sum())
             explained = law[degree] * level
             ratio = squares[degree] / counts[degree] / explained
-            chance = float(special.fdtrc(counts[degree], counts[own].sum(), ratio))
+            chance = float(special.fdtrc(free[degree], free[own].sum(), ratio))
             found.append((chance, explained * counts[degree]))
         chance, explained = max(found)
         without = max(rest - (squares[degree] if degree > 1 else 0.0), _ROUNDING * rest)

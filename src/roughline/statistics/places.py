@@ -9,6 +9,7 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 
 _ROUNDING = 1e-9  # relative scatter below which values are the same
+_AGREED = 0.99  # of places that are alike
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +39,11 @@ class PlaceAverage:
 
 
 def average_of_places(
-    values: Real, low: Real, high: Real, confidence: float = 0.95
+    values: Real,
+    low: Real,
+    high: Real,
+    whole: tuple[Real, Real] | None = None,
+    confidence: float = 0.95,
 ) -> PlaceAverage:
     """Average a positive quantity over a few places, chosen at random, of many.
 
@@ -46,7 +51,8 @@ def average_of_places(
     therefore give the same result. The half width of the interval combines two parts as if they
     were independent: Student's t times the standard error of the logarithms; and, at either end,
     the median distance of the values' own ends, which may be a bias that all places share and does
-    not average out.
+    not average out. A whole of which the places are parts may differ from their mean, by an amount
+    whose bounds are known alone; they are added.
 
     Parameters
     ----------
@@ -54,11 +60,15 @@ def average_of_places(
         Not negative; NaN where there is no value.
     low, high : ndarray, shape (places, loads)
         Ends of each value's own interval; NaN where there is none, which counts as no width.
+    whole : tuple of ndarray, shape (places, loads), optional
+        What the value of each place would become at both bounds, if the whole differed from the
+        mean as much; NaN where nothing is known, which counts as no difference.
     confidence : float, optional
         Level of the interval.
     """
     from scipy.special import stdtrit  # here because it loads slowly
 
+    whole = whole or (values, values)
     known = np.isfinite(values) & (values > 0)
     count = np.count_nonzero(known, axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -72,7 +82,8 @@ def average_of_places(
         of_places = student * deviation / np.sqrt(count)
         halves = [
             np.hypot(of_places, _median_distance(np.abs(np.log(values / ends)), known))
-            for ends in (low, high)
+            + _median_distance(np.abs(np.log(values / bounds)), known)
+            for ends, bounds in zip((low, high), whole, strict=True)
         ]
         is_open = np.fmax(*halves) > 0
         ends = [
@@ -89,3 +100,65 @@ def _median_distance(distances: Real, known: Mask) -> Real:
     distances = np.where(np.isnan(distances), 0.0, distances)
     none = ~known.any(axis=0)
     return np.nanmedian(np.where(known | none, distances, np.nan), axis=0)
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """Whether places differ by more than parts of one place do.
+
+    Attributes
+    ----------
+    between : float
+        Standard deviation of the means of places.
+    within : float
+        That which independent parts of a place explain.
+    ratio : float
+        Variance between places over that which their parts explain.
+    chance : float
+        Ratio that chance does not exceed in 99 of 100 cases if all places are alike.
+    """
+
+    between: float
+    within: float
+    ratio: float
+    chance: float
+
+    @property
+    def of_places(self) -> float:
+        """Share of the variance between places that is not explained by their parts."""
+        return max(0.0, 1 - 1 / self.ratio) if self.ratio > 0 else 0.0
+
+    @property
+    def holds(self) -> bool:
+        """Whether chance explains what differs between places."""
+        return self.ratio <= self.chance
+
+
+def agreement(values: Real) -> Agreement | None:
+    """Compare the scatter between places with that of the parts of each: an analysis of variance.
+
+    Parts that are independent of each other scatter about the mean of their place as the means of
+    places do about that of all, times the root of their number. What differs between places beyond
+    that belongs to the places.
+
+    Parameters
+    ----------
+    values : ndarray, shape (places, parts)
+        On a scale on which they scatter evenly, such as logarithms.
+
+    Returns
+    -------
+    Agreement or None
+        None for fewer than two places or parts, and where parts do not differ.
+    """
+    from scipy.special import fdtri  # here because it loads slowly
+
+    places, parts = values.shape
+    if min(places, parts) < 2:
+        return None
+    between = float(values.mean(axis=1).var(ddof=1))
+    within = float(values.var(axis=1, ddof=1).mean()) / parts
+    if not within > 0:
+        return None
+    chance = float(fdtri(places - 1, places * (parts - 1), _AGREED))
+    return Agreement(between**0.5, within**0.5, between / within, chance)

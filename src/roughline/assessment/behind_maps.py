@@ -1,0 +1,239 @@
+"""What several maps of a part say together of the part behind them.
+
+Maps are pressed under the same mean pressure p, and the part is not. At equal distance of the mean
+planes a rougher place bears more. With the separation u = u_0 log(p_0 / p) of a place of stiffness
+k = p / u_0 per area, which scatters between places by a standard deviation s of log(k), and with
+bodies that give way to waves of wavenumber q by 2 / (E* q) per pressure, pressures are
+p exp(-L t x) to first order, where x is the deviation of log(k), L = log(p_0 / p), and
+
+    t = 1 / (1 + 2 k / (E* q)).
+
+The stiffness of the part over the geometric mean of its places is then, to second order in s,
+
+    log(K / k) = s² (-(L t)² / 2 + (1 - L t)² (t - 1/2)).
+
+It goes from -s²/2, the harmonic mean, where bodies give way (t = 0), to s² (1/2 - L), where they do
+not. In neither case is the part softer than its roughest places alone, two standard deviations from
+the middle. L is the logarithm of 1 over the contact area fraction, and differences between maps
+have waves of at least two of their sides. Maps of one surface that is alike everywhere differ by
+chance; how their chance waves share the load is what their tiles show. So s² is that share of the
+variance between maps which their quarters do not explain, as in an analysis with random effects.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.assessment.answers import ends_from_many
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.larger_surface import roll_offs_of
+from roughline.assessment.tiles import FEWEST, MOST_DOUBLINGS, Beyond, Tiles, logit
+from roughline.computing.arrays import Real
+from roughline.engineering.intervals import Ends
+from roughline.errors import InputError
+from roughline.spectra.fit import SelfAffineFit, fit_self_affine
+from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
+from roughline.spectra.longer_waves import long_shapes_of_many
+from roughline.statistics.places import Agreement, agreement
+from roughline.topography.body import Surface
+from roughline.units import engineering
+
+_EDGE = 2.0  # standard deviations from the middle to the roughest places
+_SAME_SIDE = 0.05  # logarithm of sides, up to which maps have the same waves
+_CHANCE = 0.01  # of a tilt and bow that the waves of the maps explain
+_FEWEST = 16  # points along a side, whose quarters have an rms height
+_WITHOUT_TILES = (
+    "maps without the error of their grid (grid_error=True), or with fewer than "
+    f"{FEWEST} points a side, do not tell how they differ from the part behind them"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class BehindMaps:
+    """The surface behind several maps, under the loads that were asked for.
+
+    Attributes
+    ----------
+    roll_offs : float or None
+        Roll-off wavelengths along a side of a map; None if their mean spectrum shows none.
+    agreement : Agreement or None
+        Of the logarithms of rms heights, between maps and between their quarters.
+    alike, sharing : tuple of (tuple of ndarray)
+        Both ends of the differences between it and the mean of its places, of its stiffness's
+        logarithm and its contact area's logit: as the tiles of maps show it, and as places share
+        the load.
+    untold : str
+        Why the maps do not tell of it; empty where they do.
+    """
+
+    roll_offs: float | None
+    agreement: Agreement | None
+    alike: tuple[Ends, Ends]
+    sharing: tuple[Ends, Ends]
+    untold: str = ""
+
+
+def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
+    """Say what two or more maps tell of the surface behind them; None if one is no map of it."""
+    larger = [each.larger for each in results if each.larger is not None]
+    surfaces = [each.body for each in results if isinstance(each.body, Surface)]
+    if len(results) < 2 or min(len(larger), len(surfaces)) < len(results):
+        return None
+    first, same = results[0], _of_one_size(surfaces)
+    law = law_of(same)
+    roll_offs = None if law is None else roll_offs_of(law)
+    area = float(np.mean([each.area for each in surfaces]))
+    beyond = Beyond.of(roll_offs, area, first.question.joint)
+    tiles = [each.tiles for each in larger if each.tiles is not None]
+    nothing = np.zeros(first.asked.size)
+    alike = ((nothing, nothing), (nothing, nothing))
+    if tiles:
+        of_stiffness, of_area = (Tiles.mean(each) for each in zip(*tiles, strict=True))
+        alike = of_stiffness.beyond(beyond, mean=True), of_area.beyond(beyond, mean=True)
+    agree = _agreement(surfaces)
+    areas = [each.curve_as_asked.area_fraction_corrected for each in results]
+    sharing = shared_load(
+        np.stack([each.stiffness.values for each in larger]),
+        np.stack([each for each in areas if each is not None]),
+        math.sqrt(area),
+        first.curve.E_star,
+        1.0 if agree is None else agree.of_places,
+    )
+    untold = "" if law is None else _longer_waves(same, law)
+    if not untold and not beyond.is_told:
+        untold = _without_roll_off(beyond)
+    if not untold and not tiles:
+        untold = _WITHOUT_TILES
+    return BehindMaps(roll_offs, agree, alike, sharing, untold)
+
+
+def missed_of_map(result: Assessment, behind: BehindMaps) -> tuple[Mapping[str, Ends], ...]:
+    """What a map misses as all others do of each answer, and how sharing its load changes it."""
+    alike = ends_from_many(result, behind.alike, with_grid=True)
+    moved = result.hardness_scatter
+    with np.errstate(invalid="ignore"):  # nothing, times infinity
+        alike = {
+            key: (ends[0] * moved[key][0], ends[1] * moved[key][1]) if key in moved else ends
+            for key, ends in alike.items()
+        }
+    return alike, ends_from_many(result, behind.sharing, with_grid=False)
+
+
+def shared_load(
+    stiffness: Real, area: Real, side: float, E_star: float, of_places: float = 1.0
+) -> tuple[Ends, Ends]:
+    """Bounds of how a part differs from the mean of its places as they share its load.
+
+    Parameters
+    ----------
+    stiffness : ndarray, shape (maps, loads)
+        Of the interface of each map, under the same mean pressure. [N / m]
+    area : ndarray, shape (maps, loads)
+        Contact area fractions. [1]
+    side : float
+        Of a map. [m]
+    E_star : float
+        [Pa]
+    of_places : float, optional
+        Share of the variance between maps that belongs to places, and not to chance.
+
+    Returns
+    -------
+    stiffness, area : tuple of ndarray, shape (loads,)
+        Both bounds of the differences of its logarithm, and of its logit. A mean area is not the
+        logit's mean either.
+    """
+    s_k, log_k = _scatter_and_middle(np.log, stiffness)
+    s_a, logit_a = _scatter_and_middle(logit, area)
+    s_k, s_a = s_k * math.sqrt(of_places), s_a * math.sqrt(of_places)
+    a = 1 / (1 + np.exp(-logit_a))
+    t = 1 / (1 + 2 * np.exp(log_k) / (math.pi * E_star * side))
+    towards_rough = -np.log(a) * t
+    softer = np.minimum(np.maximum(towards_rough, 0.5) * s_k**2, _EDGE * s_k)
+    less = np.minimum(np.maximum(towards_rough * s_k, (a - 0.5) * s_a) * s_a, _EDGE * s_a)
+    return (-softer, 0.0 * softer), (-less, np.maximum(0.5 - a, 0.0) * s_a**2)
+
+
+def _scatter_and_middle(scale: Callable[[Real], Real], values: Real) -> tuple[Real, Real]:
+    """Standard deviation and mean over the maps of values on a scale, as far as they have one."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scaled = scale(values)
+    known = np.isfinite(scaled)
+    count = known.sum(axis=0)
+    middle = np.where(known, scaled, 0.0).sum(axis=0) / np.maximum(count, 1)
+    squares = np.where(known, (scaled - middle) ** 2, 0.0).sum(axis=0)
+    return np.sqrt(squares / np.maximum(count - 1, 1)), middle
+
+
+def _of_one_size(surfaces: Sequence[Surface]) -> list[Surface]:
+    """Maps with the points and sides of the first, and so with its waves."""
+    first = surfaces[0]
+
+    def is_as_large(other: Surface) -> bool:
+        ratios = np.divide(other.sizes, first.sizes)
+        return other.shape == first.shape and bool((abs(np.log(ratios)) < _SAME_SIDE).all())
+
+    return [each for each in surfaces if is_as_large(each)]
+
+
+def law_of(surfaces: Sequence[Surface]) -> SelfAffineFit | None:
+    """Law of the mean spectrum of maps of one size; None where there are too few points."""
+    try:
+        return fit_self_affine(mean_spectrum([isotropic_spectrum(each) for each in surfaces]))
+    except InputError:
+        return None
+
+
+def _longer_waves(surfaces: Sequence[Surface], law: SelfAffineFit) -> str:
+    """Say whether maps are tilted and bowed more than the waves of their law explain."""
+    if len(surfaces) < 2:
+        return ""
+    shapes = list(long_shapes_of_many(surfaces, law))
+    grave = [each for each in shapes if each.chance < _CHANCE / len(shapes)]
+    if not grave:
+        return ""
+    worst = max(grave, key=lambda each: each.rms / each.explained)
+    unit = surfaces[0].unit or ""
+    rms, explained = (engineering(each, unit, 2).strip() for each in (worst.rms, worst.explained))
+    tilted = worst.degree == 1
+    said = "are tilted differently" if tilted else "are bowed" if worst.degree == 2 else "are bent"
+    cause = "either they were mounted differently, or the" if tilted else "the"
+    remedy = "map larger areas"
+    if tilted:
+        remedy += ", or say that the tilt is the mounting's"
+    return (
+        f"the maps {said}, by an rms height of {rms}, and their own waves explain {explained}: "
+        f"{cause} part has longer waves, on which its highest places bear more than the maps show: "
+        f"{remedy}"
+    )
+
+
+def _without_roll_off(beyond: Beyond) -> str:
+    return (
+        f"the maps show no roll-off together, and the joint is {2**beyond.doublings:.3g} times as "
+        "long: the longer waves that they lack leave its stiffness open: map areas at least "
+        f"1/{2**MOST_DOUBLINGS:g} as long as the joint"
+    )
+
+
+def _agreement(surfaces: Sequence[Surface]) -> Agreement | None:
+    """Whether maps agree: their rms heights, compared with those of their quarters."""
+    if min(min(each.shape) for each in surfaces) < _FEWEST:
+        return None
+    with np.errstate(divide="ignore"):
+        logs = np.log([[each.rms_height for each in _quarters(surface)] for surface in surfaces])
+    return agreement(logs) if np.isfinite(logs).all() else None
+
+
+def _quarters(surface: Surface) -> list[Surface]:
+    """Four quarters of a map, each without its tilt."""
+    x, y = ((0, n // 2, 2 * (n // 2)) for n in surface.shape)
+    return [
+        surface.cropped((x[i], x[i + 1]), (y[j], y[j + 1])).detrended()
+        for i in (0, 1)
+        for j in (0, 1)
+    ]
