@@ -38,10 +38,10 @@ KEY = ["study", "kind", "option", "seed"]
 def make_of(study, kind, seed):
     """How a parent of a study is made, its exponent and roll-off at random."""
     rng = np.random.default_rng([crc32(f"{study} {kind}".encode()), seed])
-    finer = {"grid": (256, 1), "fit": (512, 2), "part": (64, 5)}.get(study, (128, 4))
-    points, maps = finer
+    sizes = {"grid": (256, 1), "fit": (512, 2), "part": (64, 5), "scan": (256, 2)}
+    points, maps = sizes.get(study, (128, 4))
     hurst = float(rng.uniform(0.2, 0.95))
-    waves = float(rng.uniform(4, 12))
+    waves = float(rng.uniform(*((20, 60) if study == "scan" else (4, 12))))
     return Make(points, maps, hurst, waves), rng
 
 
@@ -309,8 +309,8 @@ ASKED = {
     ),
     "scan": (
         "A line scan",
-        "Rows and columns of maps of 128 x 128 points are pressed as line scans; the truth is the "
-        "map in the full model.",
+        "Rows and columns of maps of 256 x 256 points, with 20 to 60 roll-off wavelengths a side, "
+        "are pressed as line scans; the truth is the map in the full model.",
     ),
     "fit": (
         "The Hurst exponent",
