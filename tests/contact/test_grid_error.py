@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from benchmarks.made_surfaces import Make, parent_of
 from roughline.exact.indenters import PowerLawIndenter
 
 CLAIMED_ON_64 = np.array([0.109, 0.017, 0.060])  # of the sphere below, on 64 x 64 points
@@ -238,3 +239,54 @@ def test_points_need_not_be_multiples_of_four(n):
     punch = rl.press(flat, E_star=1.0, forces=[1.0], grid_error=True)
     error = abs(punch.stiffness[0] - PUNCH)
     assert error <= punch.stiffness_error[0] < 3 * error
+
+
+HALF_ELASTIC = (
+    0.06,
+    0.1,
+    0.15,
+    0.25,
+)  # H / (E* ∇h): finer grids yield where the coarse one does not
+
+
+@pytest.mark.parametrize("hardness_bar", HALF_ELASTIC)
+def test_yield_of_waves_that_a_finer_grid_adds_is_covered(hardness_bar):
+    """Yield changes k_u most where the surface is elastic and the finer grid is not."""
+    off, claimed = [], []
+    for seed, hurst in ((9002, 0.2), (9003, 0.4)):
+        spectrum = rl.SelfAffine(hurst=hurst, rms_height=1.0, q_roll=12 * np.pi)
+        coarse, fine = spectrum.surface(64, seed), spectrum.surface(256, seed)
+        loads = {"E_star": 1.0, "hardness": hardness_bar * fine.rms_slope}
+        loads["forces"] = [0.03, 0.1, 0.3, 1.0]
+        curve = rl.press(coarse, grid_error=True, **loads)
+        found, error = curve.unloading_stiffness, curve.unloading_stiffness_error
+        off += np.abs(np.log(rl.press(fine, **loads).unloading_stiffness / found)).tolist()
+        claimed += np.log1p(error / found).tolist()
+    assert np.median(off) > 0.05  # more than the differences of elastic grids
+    assert (np.array(off) <= claimed).all()
+    assert np.median(claimed) < 4 * np.median(off)
+
+
+def test_a_body_that_yields_nowhere_has_the_errors_of_an_elastic_one():
+    surface = rl.SelfAffine(hurst=0.5, rms_height=0.01).surface(32, 1)
+    elastic, hard = (
+        rl.press(surface, E_star=1.0, forces=[1e-3], hardness=hardness, grid_error=True)
+        for hardness in (None, 1e3)
+    )
+    for name in ("stiffness_error", "unloading_stiffness_error", "area_fraction_error"):
+        np.testing.assert_array_equal(getattr(hard, name), getattr(elastic, name))
+
+
+def test_means_of_turned_surfaces_are_covered():
+    """Means lose the ridges between feed marks in a way of which one difference tells little."""
+    covered = {"stiffness": [], "area_fraction_corrected": []}
+    for seed in range(13, 19):
+        make = Make(points=256, maps=1, hurst=0.6, waves=6.0, cells=8.0)
+        coarse, fine = quarter_of(parent_of("turned", make, np.random.default_rng(seed)))
+        forces = np.geomspace(0.01, 1.0, 5) * fine.rms_height * fine.length
+        curve = rl.press(coarse, E_star=1.0, forces=forces, grid_error=True)
+        finer = rl.press(fine, E_star=1.0, forces=forces)
+        for quantity, inside in covered_by(curve, finer).items():
+            covered[quantity] += inside
+    for inside in covered.values():
+        assert np.mean(inside) >= 0.9
