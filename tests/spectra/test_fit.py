@@ -1,11 +1,13 @@
 """What was put into synthetic topographies is found again, within the intervals."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import roughline as rl
+from benchmarks.made_surfaces import Make, measured, parent_of, piece_of
 from roughline.spectra.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.profile import profile_spectrum
@@ -122,7 +124,8 @@ def test_line_scans_are_recovered_in_95_of_100(n):
 def test_intervals_are_not_idle():
     """On 512² points H is known to a tenth, a roll-off and a cutoff to some rings."""
     spectrum = rl.SelfAffine(hurst=0.6, rms_height=1.0, q_roll=8 * Q_0, q_high=150 * Q_0)
-    fit = fit_self_affine(isotropic_spectrum(spectrum.surface(512, 3, "gaussian")))
+    exact = replace(spectrum.surface(512, 3, "gaussian"), settings={"pixels": "points", "blur": 0})
+    fit = fit_self_affine(isotropic_spectrum(exact))
     assert fit.hurst == pytest.approx(0.6, abs=0.05)
     assert np.ptp(fit.hurst_interval) < 0.12
     assert np.ptp(fit.q_roll_interval) < 5 * Q_0
@@ -149,10 +152,10 @@ def test_what_is_not_self_affine_is_said():
 def off_the_law(spectrum, fit):
     """Rms over tenths of a decade of the logarithm of the spectrum over the fitted law.
 
-    Of those with 40 modes or more: chance leaves less than .1 there.
+    Of those with 40 modes or more, before the instrument's tail: chance leaves less than .1 there.
     """
     law = fit.values(spectrum.q)
-    inside = np.isfinite(law) & (spectrum.modes > 0)
+    inside = np.isfinite(law) & (spectrum.modes > 0) & (spectrum.q < (fit.q_tail or math.inf))
     tenths = np.unique(np.floor(10 * np.log10(spectrum.q[inside])), return_inverse=True)[1]
     modes, power, expected = (
         np.bincount(tenths, spectrum.modes[inside] * values[inside])
@@ -163,8 +166,8 @@ def off_the_law(spectrum, fit):
 
 
 def binned_hurst(spectrum, fit):
-    """H by least squares over tenths of a decade of the power law that was found."""
-    inside = (spectrum.q >= fit.q_roll) & (spectrum.q <= fit.q_high) & (spectrum.modes > 0)
+    """H by least squares over tenths of a decade of the power law that the surface shows."""
+    inside = (spectrum.q >= 2 * fit.q_roll) & (spectrum.q < fit.q_tail) & (spectrum.modes > 0)
     q, power = spectrum.q[inside], spectrum.C_2d[inside]
     tenths = np.floor(10 * np.log10(q)).astype(int)
     means = [
@@ -205,3 +208,67 @@ def test_units_are_neutral():
     assert other.hurst_interval == one.hurst_interval
     assert other.q_roll == pytest.approx(one.q_roll * 1e6, rel=1e-9)
     assert other.rms_interval == pytest.approx(np.array(one.rms_interval) * 1e-9, rel=1e-9)
+
+
+def seen(instrument, number, corner="sharp roll-off", **make):
+    """A map of 64² pixels as an instrument sees a piece that is four times finer, and its H."""
+    rng = np.random.default_rng([17, number])
+    made = Make(**{"points": 256, "maps": 2, "hurst": rng.uniform(0.3, 0.9), "waves": 5.0, **make})
+    piece = piece_of(parent_of(corner, made, rng), made, rng)
+    return rl.Surface(measured(piece, instrument, 4, rng), piece.sizes, "m"), made.hurst
+
+
+@pytest.mark.parametrize(
+    ("instrument", "corner"),
+    [
+        ("pixel means", "sharp roll-off"),
+        ("points of a rougher surface", "sharp roll-off"),
+        ("blur of half a pixel", "sharp roll-off"),
+        ("noise", "sharp roll-off"),
+        ("pixel means", "smooth roll-off"),
+    ],
+)
+def test_the_exponent_is_held_through_every_instrument_and_corner(instrument, corner):
+    held = 0
+    for number in range(4):
+        body, hurst = seen(instrument, number, corner)
+        fit = fit_self_affine(isotropic_spectrum(replace(body, is_cut_out=True)))
+        held += fit.hurst_interval[0] <= hurst <= fit.hurst_interval[1]
+    assert held >= 3
+
+
+def test_what_is_told_of_the_instrument_narrows_the_interval():
+    body, hurst = seen("blur of a pixel", 1)
+    told = replace(body, settings={"pixels": "points", "blur": body.spacing[0]}, is_cut_out=True)
+    unknown, known = (
+        fit_self_affine(isotropic_spectrum(each)) for each in (replace(body, is_cut_out=True), told)
+    )
+    assert known.blur == pytest.approx(body.spacing[0])
+    assert np.ptp(known.hurst_interval) < np.ptp(unknown.hurst_interval)
+    assert known.hurst_interval[0] <= hurst <= known.hurst_interval[1]
+
+
+def test_a_blurred_map_told_to_be_of_points_is_said():
+    body, hurst = seen("blur of a pixel", 2)
+    told = replace(body, settings={"pixels": "points", "blur": 0.0}, is_cut_out=True)
+    fit = fit_self_affine(isotropic_spectrum(told))
+    assert any("not that of the instrument as it was told" in each for each in fit.objections)
+    assert fit.hurst_interval[0] <= hurst <= fit.hurst_interval[1]
+
+
+def test_a_drawn_out_surface_has_no_interval():
+    body, _ = seen("pixel means", 3, "ground, 9")
+    fit = fit_self_affine(isotropic_spectrum(replace(body, is_cut_out=True)))
+    assert not fit.is_judged
+    assert "slopes differ by direction" in fit.objections[0]
+    assert fit.hurst_in_words.endswith("(not judged)")
+
+
+def test_waves_that_a_tip_does_not_follow_are_left_out():
+    body, _ = seen("stylus tip", 4)
+    told = replace(body, settings={"tip_radius": 2e-4}, is_cut_out=True)
+    fit = fit_self_affine(isotropic_spectrum(told))
+    assert fit.q_last < isotropic_spectrum(body).q[-1]
+    far = replace(told, settings={"tip_radius": 1.0})
+    with pytest.raises(rl.InputError, match="check tip_radius"):
+        fit_self_affine(isotropic_spectrum(far))

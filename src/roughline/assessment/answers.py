@@ -17,8 +17,9 @@ from roughline.engineering.joint import of_joint
 from roughline.engineering.limits import elastic_warnings
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.symbols import with_own_symbols
+from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments, moments
-from roughline.spectra.roughness import ALIKE, isotropy
+from roughline.spectra.roughness import ALIKE
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal
 

@@ -13,7 +13,8 @@ from roughline.comparison.trust import Difference, trust_map
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.files.read import measurement
-from roughline.spectra.roughness import ALIKE, isotropy
+from roughline.spectra.isotropic import isotropy
+from roughline.spectra.roughness import ALIKE
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Line, Surface

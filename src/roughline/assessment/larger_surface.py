@@ -155,7 +155,7 @@ def roll_offs_along_a_side(surface: Surface) -> float | None:
 
 def roll_offs_of(fit: SelfAffineFit) -> float | None:
     """Roll-off wavelengths along a side of the surface that a law was fitted to."""
-    if fit.q_roll is None or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):
+    if fit.q_roll is None or not fit.is_judged or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):
         return None
     return fit.q_roll / fit.q_low
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
-from roughline.errors.checks import one_of
+from roughline.errors.checks import between, one_of, positive
 from roughline.errors.public import public
 from roughline.files.scale import Sizes
+from roughline.spectra.response import Pixels
 from roughline.topography.missing import Filling, Missing
-from roughline.topography.settings import MOUNTING
+from roughline.topography.settings import MOUNTING, Settings
 from roughline.units import metres_per
 
 
@@ -27,6 +29,15 @@ class Reading:
     tilt : {"unknown", "mounting"}, optional
         Whose the tilt of a measured topography is: that of its mounting alone, such as the stage's,
         or that of the mounting and of waves longer than the topography, which is not known.
+    pixels : {"means", "points"}, optional
+        Whether heights are means over pixels or those of points; default: means for a file of an
+        optical instrument (OPD, AL3D and others of which that is known), else not known.
+    blur : float, optional
+        Standard deviation of the instrument's Gaussian blur, beside the pixels'; 0 for none;
+        default: it is not known. [m]
+    tip_radius : float, optional
+        Radius of the tip that traced the surface; shorter waves than it follows are left out of
+        the self-affine law. [m]
     """
 
     unit: str | None = None
@@ -36,9 +47,24 @@ class Reading:
     most_missing: float = 0.1
     name: str | None = None
     tilt: Literal["unknown", "mounting"] = "unknown"
+    pixels: Pixels | None = None
+    blur: float | None = None
+    tip_radius: float | None = None
 
     def __post_init__(self) -> None:
+        if self.pixels is not None:
+            one_of("pixels", self.pixels, get_args(Pixels))
+        if self.blur is not None:
+            between("blur", self.blur, 0.0, sys.float_info.max, "a length from 0 on is needed")
+        if self.tip_radius is not None:
+            positive("tip_radius", self.tip_radius)
         one_of("tilt", self.tilt, ("unknown", MOUNTING))
         Missing(self.missing, self.most_missing)  # refuses what cannot be
         if self.unit is not None:
             metres_per(self.unit)
+
+    @property
+    def of_instrument(self) -> Settings:
+        """What is told of the instrument, as settings of a body."""
+        told = {"pixels": self.pixels, "blur": self.blur, "tip_radius": self.tip_radius}
+        return {name: value for name, value in told.items() if value is not None}

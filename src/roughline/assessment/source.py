@@ -125,6 +125,7 @@ def measured_body(
     filling = Missing(reading.missing, reading.most_missing)
     if reading.tilt == MOUNTING:
         content = replace(content, settings={**content.settings, TILT: MOUNTING})
+    content = replace(content, settings={**content.settings, **reading.of_instrument})
     return content.body(reading.unit, reading.sizes, filling, trend, in_place=in_place)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
@@ -32,6 +33,13 @@ class TiltChoice(StrEnum):
 
     unknown = "unknown"
     mounting = "mounting"
+
+
+class PixelsChoice(StrEnum):
+    """What the heights of a map are."""
+
+    means = "means"
+    points = "points"
 
 
 class TrendChoice(StrEnum):
@@ -75,6 +83,26 @@ Tilt = Annotated[
         "longer than the topography.",
         rich_help_panel=FILE,
     ),
+]
+Pixels = Annotated[
+    PixelsChoice | None,
+    typer.Option(
+        help="Whether heights are means over pixels or those of points [default: means for files "
+        "of optical instruments, else not known].",
+        rich_help_panel=FILE,
+    ),
+]
+Blur = Annotated[
+    str | None,
+    typer.Option(
+        help='Standard deviation of the instrument\'s blur, such as "0.3 um"; 0 for none '
+        "[default: not known].",
+        rich_help_panel=FILE,
+    ),
+]
+TipRadius = Annotated[
+    str | None,
+    typer.Option(help='Radius of the tip, such as "2 um".', rich_help_panel=FILE),
 ]
 TrendOption = Annotated[
     TrendChoice | None,
@@ -154,6 +182,20 @@ def reading_of(
 ) -> rl.Reading:
     """How the options say that files are read."""
     return rl.Reading(unit, channel, size, fill.value, max_missing, tilt=tilt.value)
+
+
+def with_instrument(
+    reading: rl.Reading, pixels: PixelsChoice | None, blur: str | None, tip_radius: str | None
+) -> rl.Reading:
+    """Add what the options say of the instrument."""
+    from roughline.units import in_si
+
+    return replace(
+        reading,
+        pixels=pixels.value if pixels else None,
+        blur=None if blur is None else in_si("0 m" if blur == "0" else blur, "m", "blur"),
+        tip_radius=None if tip_radius is None else _positive(tip_radius, "tip_radius"),
+    )
 
 
 def preparation_of(

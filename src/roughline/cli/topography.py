@@ -27,6 +27,9 @@ def info(
     fill: options.Fill = options.FillingChoice.harmonic,
     max_missing: options.MaxMissing = 0.1,
     tilt: options.Tilt = options.TiltChoice.unknown,
+    pixels: options.Pixels = None,
+    blur: options.Blur = None,
+    tip_radius: options.TipRadius = None,
     trend: options.TrendOption = None,
     crop: options.Crop = None,
     low_pass: options.LowPass = None,
@@ -54,6 +57,7 @@ def info(
     if curve := curve_in(file):
         return print_json(as_json(curve)) if json else print_curve_file(curve)
     reading = options.reading_of(unit, channel, size, fill, max_missing, tilt)
+    reading = options.with_instrument(reading, pixels, blur, tip_radius)
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     with writable(out):
         result = describe(file, reading, steps)

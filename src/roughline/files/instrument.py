@@ -22,6 +22,9 @@ from roughline.files.text import READ_AS_TEXT, TEXT_SUFFIXES
 from roughline.topography.settings import MEASURED
 
 _WITHOUT_MARK = ("hgt", "nms")  # formats of SurfaceTopography that start like any other file
+_OPTICAL = ("al3d", "datx", "lext", "metropro", "opd", "opdx", "plu", "plux", "vk", "zon")
+"""Formats of optical instruments alone, whose heights are means over pixels."""
+
 _BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
 
 
@@ -183,5 +186,10 @@ def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
             for i, each in enumerate(reader.channels)
         ),
         positions=np.asarray(topography.positions(), dtype=np.float64) if uneven else None,
-        settings={"origin": MEASURED, "file": file, "channel": channel.name},
+        settings={
+            "origin": MEASURED,
+            "file": file,
+            "channel": channel.name,
+            **({"pixels": "means"} if reader.format() in _OPTICAL else {}),
+        },
     )

@@ -254,8 +254,7 @@ def _surface(assessment: Assessment) -> str:
         f"{done}"
     )
     if parameters is not None and parameters.fit is not None:
-        low, high = parameters.fit.hurst_interval
-        text += f" Hurst exponent {parameters.fit.hurst:.2f} ({low:.2f} to {high:.2f})."
+        text += f" Hurst exponent {parameters.fit.hurst_in_words}."
     if parameters is not None and parameters.remarks:
         text += " " + " ".join(sentence(remark) for remark in parameters.remarks)
     return text

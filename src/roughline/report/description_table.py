@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 _MAPPED_FROM = 0.01  # share of missing points from which on a coarse map shows more than words
 _SHADES = ".+#"
 
+_NOT_JUDGED = "not judged"
+
 
 def description_table(description: Description) -> list[tuple[str, str]]:
     """Return names and values of what is known, in SI units where the file states its unit."""
@@ -117,11 +119,17 @@ def _rows_of_roughness(
     if fit is not None:
         low, high = fit.rms_interval
         rows += [
-            ("Sq of such surfaces", f"{engineering(low, 'm')} to {engineering(high, 'm')}"),
-            ("Hurst exponent", f"{fit.hurst:.2f} ({_span(fit.hurst_interval)})"),
+            (
+                "Sq of such surfaces",
+                f"{engineering(low, 'm')} to {engineering(high, 'm')}"
+                if fit.is_judged
+                else _NOT_JUDGED,
+            ),
+            ("Hurst exponent", fit.hurst_in_words),
             ("fractal dimension", f"{3 - fit.hurst:.2f}"),
             ("roll-off wavelength", _wavelength(fit.q_roll, fit.q_roll_interval, "none")),
             ("cutoff wavelength", _wavelength(fit.q_high, fit.q_high_interval, "the grid's")),
+            ("blur of the instrument", _blur(fit)),
             (
                 "self-affine",
                 _verdict(fit, departures),
@@ -139,14 +147,21 @@ def _verdict(fit: SelfAffineFit, departures: Sequence[Departure]) -> str:
     return "yes"
 
 
+def _blur(fit: SelfAffineFit) -> str:
+    """What the tail of a spectrum says of the instrument."""
+    shown = engineering(fit.blur, "m", 3) if fit.blur else "none"
+    if not fit.is_judged:
+        return f"{shown} ({_NOT_JUDGED})"
+    low, high = (engineering(end, "m", 3) if end else "0" for end in fit.blur_interval)
+    return shown if low == high else f"{shown} ({low} to {high})"
+
+
 def _wavelength(q: float | None, interval: tuple[float, float], otherwise: str) -> str:
-    longest, shortest = (engineering(2 * np.pi / end, "m", 3) if end else "" for end in interval)
     shown = otherwise if q is None else engineering(2 * np.pi / q, "m", 3)
+    if np.isnan(interval[0]):
+        return f"{shown} ({_NOT_JUDGED})"
+    longest, shortest = (engineering(2 * np.pi / end, "m", 3) if end else "" for end in interval)
     return f"{shown} ({shortest} {f'to {longest}' if longest else 'or longer'})"
-
-
-def _span(interval: tuple[float, float]) -> str:
-    return f"{interval[0]:.2f} to {interval[1]:.2f}"
 
 
 def _times(points: tuple[int, ...]) -> str:

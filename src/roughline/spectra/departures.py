@@ -149,7 +149,7 @@ def _of_long_waves(body: Body) -> list[Departure | None]:
         _, fit = fitted(body)
     except InputError:
         return []
-    if isinstance(fit, InputError):
+    if isinstance(fit, InputError) or not fit.is_judged:
         return []
     found = [_of_shapes(body, fit, what)]
     if fit.q_roll is None or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):

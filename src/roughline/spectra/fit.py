@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import special
@@ -16,12 +16,17 @@ from roughline.spectra.isotropic import IsotropicSpectrum
 from roughline.spectra.likely_laws import Interval, LikelyLaws
 from roughline.spectra.map_rings import MapRings
 from roughline.spectra.profile import ProfileSpectrum
+from roughline.spectra.response import UNKNOWN
 from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
+from roughline.spectra.self_affine_laws import LEAST_MEANS, Corner, Law, power_law
 
 _LEVEL = 0.975  # of profile likelihoods; as ends are chosen too, 95 in 100 hold the truth
-_TRIED = 200  # likely laws from which the interval of the rms height follows
 _LEAST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
+_DRAWN_OUT = 1 / 3  # least over largest slope, below which directions have no law in common
+_CONTRADICTED = 4.0  # deviance that the true instrument rarely has beyond that of the best one
+_CHANGED = math.log(1.2)  # of the spectrum, by the instrument
+_REACHED = 0.5  # rms curvature times the tip's radius, up to which a tip follows the surface
 _MOST_SCATTER = 0.15  # rms of log10 of the spectrum about the law
 
 
@@ -30,7 +35,8 @@ class SelfAffineFit:
     """A plateau, then a power law, up to where it ends.
 
     Intervals are at 95 %. Besides chance, they allow for deviations of 10 % from the law in each
-    tenth of a decade.
+    tenth of a decade, for both shapes of the corner at the roll-off, and for what an instrument may
+    do to short waves. Their ends are NaN where directions have no law in common.
 
     Attributes
     ----------
@@ -44,7 +50,7 @@ class SelfAffineFit:
         Its interval, which begins at zero if there may be none. [1 / length]
     q_high : float or None
         Where the power law ends, by a cutoff, a filter or noise; None if it goes on to the
-        shortest waves. [1 / length]
+        shortest waves, be they blurred or not. [1 / length]
     q_high_interval : tuple of float
         Its interval. [1 / length]
     C_0 : float
@@ -61,6 +67,18 @@ class SelfAffineFit:
         Wavenumber of the longest wave of the surface. [1 / length]
     q_last : float
         Wavenumber of its shortest wave. [1 / length]
+    corner : {"sharp", "smooth"}
+        Whether the plateau goes up to the roll-off, or the law is one of 1 + (q / q_roll)².
+    blur : float
+        Standard deviation of the Gaussian blur that explains the spectrum's tail, beside what is
+        known of the instrument. Means over pixels act as one of 0.29 spacings. [length]
+    blur_interval : tuple of float
+        Its interval. [length]
+    q_tail : float or None
+        From where on the instrument changes the spectrum by more than a fifth; None if it does so
+        nowhere. [1 / length]
+    remarks : tuple of str
+        What speaks against the assumptions of the fit.
     """
 
     hurst: float
@@ -75,13 +93,30 @@ class SelfAffineFit:
     scatter: float
     q_low: float
     q_last: float
+    corner: Corner = "sharp"
+    blur: float = 0.0
+    blur_interval: Interval = (0.0, 0.0)
+    q_tail: float | None = None
+    remarks: tuple[str, ...] = ()
 
     __repr__ = summary
 
     @property
+    def is_judged(self) -> bool:
+        """Whether there are intervals."""
+        return not math.isnan(self.hurst_interval[0])
+
+    @property
+    def hurst_in_words(self) -> str:
+        """The exponent with its interval, as it is printed."""
+        low, high = self.hurst_interval
+        span = f"{low:.2f} to {high:.2f}" if self.is_judged else "not judged"
+        return f"{self.hurst:.2f} ({span})"
+
+    @property
     def objections(self) -> list[str]:
         """Reasons why a self-affine law does not describe the spectrum; empty where it does."""
-        objections = []
+        objections = [*self.remarks]
         low, high = self.hurst_interval
         if high < 0 or low > 1:
             objections.append(f"the slope is that of H = {self.hurst:.2f}, outside 0 to 1")
@@ -115,7 +150,7 @@ class SelfAffineFit:
     def values(self, q: Real) -> Real:
         """C_2d of the law, NaN outside its range. [length⁴]"""
         begin, end = self.q_roll or self.q_low, self.q_high or self.q_last
-        law = self.C_0 * np.maximum(1.0, q / begin) ** (-2 * (self.hurst + 1))
+        law = self.C_0 * np.exp(power_law(q, np.array([self.hurst]), begin, self.corner)[0])
         return np.where((q < self.q_low * (1 - 1e-9)) | (q > end * (1 + 1e-9)), np.nan, law)
 
 
@@ -128,6 +163,11 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     slope, roll-off and end the level follows in closed form. Beyond the end of the law the spectrum
     is free, with a penalty for each level that it has there. A profile is fitted with the straight
     cuts of surfaces that follow the law.
+
+    Short waves are seen through an instrument. What is not known of it is tried: no effect, a blur
+    up to four spacings, waves that are too short for the grid and appear as longer ones, and white
+    noise. The corner at the roll-off is tried sharp and smooth. Intervals hold what is likely with
+    any of them.
 
     Parameters
     ----------
@@ -152,18 +192,31 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     >>> print(round(fitted.hurst, 1))
     0.8
     """
-    observed = (
-        ScanBins.of(spectrum) if isinstance(spectrum, ProfileSpectrum) else MapRings.of(spectrum)
-    )
+    spectrum = _within_reach(spectrum)
+    observed, remarks = _observed(spectrum)
+    fit = _fitted(spectrum, observed, remarks)
+    if isinstance(spectrum, IsotropicSpectrum) and spectrum.isotropy < _DRAWN_OUT:
+        return _without_intervals(fit, spectrum.isotropy)
+    return fit
+
+
+def _fitted(
+    spectrum: IsotropicSpectrum | ProfileSpectrum,
+    observed: MapRings | ScanBins,
+    remarks: tuple[str, ...],
+) -> SelfAffineFit:
+    """The law that explains a spectrum best, and the intervals of all that are likely."""
     q_low, last = 2 * math.pi / spectrum.length, float(observed.means.q[-1])
     laws = observed.laws
-    hurst, roll, end = laws.values(*laws.best)
+    law = laws.at(*laws.best)
+    hurst, roll, end, (corner, response) = law
     log_level = laws.log_level[laws.best]
-    deviations = observed.means.deviations(observed.log_powers(hurst, roll, end) + log_level)
+    deviations = observed.means.deviations(observed.log_powers(law) + log_level)
     likely = LikelyLaws.of(laws, _LEVEL)
     first_roll, last_roll = likely.roll_interval
     first_end, last_end = likely.end_interval
     rms, lowest_rms, highest_rms = spectrum.rms_height * _rms_factors(observed, likely)
+    blurs = observed.responses.blurs
     return SelfAffineFit(
         hurst=hurst,
         hurst_interval=likely.hurst_interval,
@@ -177,21 +230,120 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
         scatter=deviations.scatter / math.log(10),
         q_low=float(spectrum.q[0]),
         q_last=q_low * last,
+        corner=corner,
+        blur=float(blurs[response]) * spectrum.spacing,
+        blur_interval=_scaled(likely.blur_interval(blurs), spectrum.spacing),
+        q_tail=_tail(observed, law, q_low),
+        remarks=remarks,
     )
+
+
+def _tail(observed: MapRings | ScanBins, law: Law, q_low: float) -> float | None:
+    """From where on an instrument changes the spectrum; None if it does so nowhere."""
+    own, seen = (observed.log_powers(law, seen=each) for each in (False, True))
+    inside = np.isfinite(own)
+    changed = np.abs(seen[inside] - own[inside]) > _CHANGED
+    return q_low * float(observed.means.q[changed.argmax()]) if changed.any() else None
+
+
+def _observed(
+    spectrum: IsotropicSpectrum | ProfileSpectrum,
+) -> tuple[MapRings | ScanBins, tuple[str, ...]]:
+    """The spectrum as laws are compared with it, and what speaks against its instrument.
+
+    An instrument that contradicts the spectrum's tail is taken as unknown.
+    """
+    observed, told = _compared(spectrum), spectrum.instrument
+    if told.pixels is None and told.blur is None:
+        return observed, ()
+    unknown = _compared(replace(spectrum, instrument=UNKNOWN))
+    laws = unknown.laws
+    if told.pixels == "points" and told.blur is None:  # as if unknown, but for this
+        as_told = laws.of_responses[unknown.responses.blurs == 0].min()
+    else:
+        as_told = observed.laws.deviance.min()
+    if as_told <= laws.deviance.min() + _CONTRADICTED:
+        return observed, ()
+    blur = unknown.responses.blurs[laws.at(*laws.best).explanation.response]
+    said = (
+        "the spectrum's tail is not that of the instrument as it was told: a blur of "
+        f"{blur:.2g} pixels explains it better, and means over pixels act as one of 0.29: "
+        "check pixels and blur"
+    )
+    return unknown, (said,)
+
+
+def _compared(spectrum: IsotropicSpectrum | ProfileSpectrum) -> MapRings | ScanBins:
+    if isinstance(spectrum, ProfileSpectrum):
+        return ScanBins.of(spectrum)
+    return MapRings.of(spectrum)
+
+
+def _without_intervals(fit: SelfAffineFit, isotropy: float) -> SelfAffineFit:
+    """The fit to a surface whose directions have no law in common."""
+    nothing = (math.nan, math.nan)
+    said = (
+        f"slopes differ by direction, least over largest {isotropy:.2f}: one law for all "
+        f"directions is not judged below {_DRAWN_OUT:.2f}; fit line scans across the lay"
+    )
+    return replace(
+        fit,
+        hurst_interval=nothing,
+        q_roll_interval=nothing,
+        q_high_interval=nothing,
+        rms_interval=nothing,
+        blur_interval=nothing,
+        remarks=(said, *fit.remarks),
+    )
+
+
+def _within_reach(
+    spectrum: IsotropicSpectrum | ProfileSpectrum,
+) -> IsotropicSpectrum | ProfileSpectrum:
+    """The waves that a tip of known radius follows.
+
+    Up to some wavenumber the rms curvature of the waves is small over that of the tip.
+    """
+    radius, q = spectrum.instrument.tip_radius, spectrum.q
+    if radius is None:
+        return spectrum
+    if isinstance(spectrum, ProfileSpectrum):
+        squares = 2 * q**4 * spectrum.C_profile * np.diff(spectrum.edges)
+    else:  # along one direction, 3/8 of q⁴
+        squares = 3 / 8 * 2 * math.pi * q**5 * spectrum.C_2d * np.gradient(q)
+    n = int(np.count_nonzero(radius * np.sqrt(np.cumsum(squares)) < _REACHED))
+    if n < min(LEAST_MEANS, q.size):
+        raise InputError(
+            f"a tip of radius {radius:.3g} follows {n} wavenumbers of the spectrum; a fit needs "
+            f"{LEAST_MEANS}: check tip_radius, or measure with a finer tip"
+        )
+    modes = spectrum.modes[:n]
+    if isinstance(spectrum, ProfileSpectrum):
+        edges = spectrum.edges[: n + 1]
+        return replace(
+            spectrum, q=q[:n], C_profile=spectrum.C_profile[:n], modes=modes, edges=edges
+        )
+    independent = np.broadcast_to(spectrum.independent, q.shape)[:n]
+    return replace(spectrum, q=q[:n], C_2d=spectrum.C_2d[:n], modes=modes, independent=independent)
+
+
+def _scaled(interval: Interval, by: float) -> Interval:
+    return interval[0] * by, interval[1] * by
 
 
 def _rms_factors(observed: MapRings | ScanBins, likely: LikelyLaws) -> Real:
     """Rms height of a surface as large as the piece over that of the piece, with both ends.
 
     The mean square of a piece has about a gamma distribution, whose shape is that of its powers.
+    The interval misses where the law is missed or where chance is larger; both are as rare.
     """
-    factors = []
-    for law in (likely.laws.best, *likely.spread(_TRIED)):
-        values = likely.laws.values(*law)
-        whole, piece = observed.mean_square(*values)
-        power = observed.modes * np.exp(observed.log_powers(*values))
+    factors, missed = [], 1 - _LEVEL
+    for which in (likely.laws.best, *likely.outline()):
+        law = likely.laws.at(*which)
+        whole, piece = observed.mean_square(law)
+        power = observed.modes * np.exp(observed.log_powers(law))
         shape = power.sum() ** 2 / (2 * (power**2 / observed.modes).sum())
-        chance = special.gammaincinv(shape, [0.975, 0.025]) / shape
+        chance = special.gammaincinv(shape, [1 - missed / 2, missed / 2]) / shape
         factors.append(whole / piece / np.array([1.0, *chance]))
     best, low, high = factors[0][0], np.min(factors, axis=0)[1], np.max(factors, axis=0)[2]
     return np.sqrt([best, low, high])

@@ -15,8 +15,12 @@ from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.spectra import synthesis
 from roughline.spectra.leakage import RING_HALF_WIDTH
+from roughline.spectra.response import UNKNOWN, Instrument
 from roughline.topography.body import Line, Surface
 from roughline.topography.settings import Settings
+
+_TENTHS = 10  # of a decade
+_LEAST_INDEPENDENT = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +44,14 @@ class IsotropicSpectrum:
         Whether a Hann window was applied to the heights.
     aspect : float
         Lx / Ly. [1]
+    spacing : float
+        Root of a grid cell's area; where it is not given, half the shortest wavelength. [length]
+    instrument : Instrument
+        What is known of the instrument that measured the heights.
+    independent : ndarray or float
+        Share of the modes of each mean that would scatter it as much if all were alike. [1]
+    isotropy : float
+        Smallest over largest rms slope of all directions; 1 where that is not known. [1]
     """
 
     q: Real
@@ -49,8 +61,16 @@ class IsotropicSpectrum:
     modes: Real
     windowed: bool
     aspect: float = 1.0
+    spacing: float = 0.0
+    instrument: Instrument = UNKNOWN
+    independent: Real | float = 1.0
+    isotropy: float = 1.0
 
     __repr__ = summary
+
+    def __post_init__(self) -> None:
+        if not self.spacing:
+            object.__setattr__(self, "spacing", math.pi / float(self.q[-1]))
 
     def __add__(self, other: IsotropicSpectrum) -> IsotropicSpectrum:
         """Spectrum of the sum of two independent surfaces, on the waves of the first."""
@@ -141,9 +161,10 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     ring = np.rint(along).astype(np.intp)
     inside = np.abs(along - ring) <= RING_HALF_WIDTH
     last = int(min(np.pi / spacing for spacing in surface.spacing) / q_low - 0.5)
-    counts, sums = (
-        np.bincount(ring[inside], weights=weights, minlength=last + 1)[1 : last + 1]
-        for weights in (None, power.ravel()[inside])
+    of_modes = power.ravel()[inside]
+    counts, sums, squares = (
+        np.bincount(ring[inside], weights, last + 1)[1 : last + 1].astype(np.float64)
+        for weights in (np.ones(of_modes.size), of_modes, of_modes**2)
     )
     waves = np.arange(1.0, last + 1)
     full = counts > 0
@@ -154,9 +175,13 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
         C_2d=mean / cell,
         length=surface.length,
         rms_height=rms,
-        modes=counts.astype(np.float64),
+        modes=counts,
         windowed=surface.is_cut_out,
         aspect=surface.sizes[0] / surface.sizes[1],
+        spacing=math.sqrt(math.prod(surface.spacing)),
+        instrument=Instrument.of(surface.settings, math.sqrt(math.prod(surface.spacing))),
+        independent=_independent(waves, counts, sums, squares),
+        isotropy=isotropy(level),
     )
 
 
@@ -174,4 +199,35 @@ def mean_spectrum(spectra: Sequence[IsotropicSpectrum]) -> IsotropicSpectrum:
         C_2d=np.mean([each.C_2d for each in spectra], axis=0),
         modes=np.sum([each.modes for each in spectra], axis=0),
         rms_height=float(np.mean(squares)) ** 0.5,
+        independent=sum(each.independent for each in spectra) / len(spectra),
+        isotropy=float(np.mean([each.isotropy for each in spectra])),
     )
+
+
+def _independent(waves: Real, counts: Real, sums: Real, squares: Real) -> Real:
+    """Share of the modes of a ring that are independent and alike, in tenths of a decade.
+
+    The powers of n such modes are exponential and come in pairs; the square of their sum is n / 2
+    + 1 times the sum of their squares. Where they are not alike, it is less.
+    """
+    tenth = np.floor(_TENTHS * np.log10(waves)).astype(np.intp)
+    known = squares > 0
+    alike = np.where(known, 2 * sums**2 / np.where(known, squares, 1.0) - 2, counts)
+    modes = np.bincount(tenth, counts)
+    share = np.bincount(tenth, alike) / np.maximum(modes, 1)
+    return np.clip(share, _LEAST_INDEPENDENT, 1.0)[tenth]
+
+
+def isotropy(surface: Surface) -> float:
+    """Smallest over largest rms slope of all directions; NaN for a flat or a thin surface."""
+    if min(surface.shape) < 2:
+        return math.nan
+    (dx, dy), h = surface.spacing, surface.heights
+    along_x = (np.diff(h, axis=0) / dx)[:, :-1] + (np.diff(h, axis=0) / dx)[:, 1:]
+    along_y = (np.diff(h, axis=1) / dy)[:-1] + (np.diff(h, axis=1) / dy)[1:]
+    squares = [
+        float((a * b).mean())
+        for a, b in ((along_x, along_x), (along_x, along_y), (along_y, along_y))
+    ]
+    minor, major = np.linalg.eigvalsh([squares[:2], squares[1:]])
+    return math.sqrt(max(0.0, minor) / major) if major > 0 else math.nan

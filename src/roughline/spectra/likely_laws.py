@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import special
 
-from roughline.computing.arrays import Indices
+from roughline.computing.arrays import Indices, Real
 from roughline.spectra.self_affine_laws import Laws
 
 Interval = tuple[float, float]
@@ -24,18 +24,23 @@ class LikelyLaws:
         All laws that were tried.
     hursts, rolls, ends : ndarray, shape (likely,)
         Indices of the exponent, the roll-off and the end of each likely law.
+    responses : ndarray, shape (likely responses,)
+        What the instrument may do with one of them.
     """
 
     laws: Laws
     hursts: Indices
     rolls: Indices
     ends: Indices
+    responses: Indices
 
     @classmethod
     def of(cls, laws: Laws, level: float) -> LikelyLaws:
         """Take the laws within a level of the profile likelihood."""
         # a chi-squared variable with one degree of freedom is twice a gamma variable of shape 1/2
-        return cls(laws, *laws.within(2 * special.gammaincinv(0.5, level)))
+        most = 2 * special.gammaincinv(0.5, level)
+        responses = np.flatnonzero(laws.of_responses <= laws.deviance.min() + most)
+        return cls(laws, *laws.within(most), responses)
 
     @property
     def hurst_interval(self) -> Interval:
@@ -61,7 +66,21 @@ class LikelyLaws:
         ends, margins = self.laws.ends, self.laws.margins
         return float((ends - margins)[self.ends].min()), float((ends + margins)[self.ends].max())
 
-    def spread(self, count: int) -> Iterator[tuple[int, int, int]]:
-        """Give up to so many of the likely laws, evenly spread over all of them."""
-        chosen = np.unique(np.linspace(0, self.hursts.size - 1, count).astype(np.intp))
-        return zip(self.hursts[chosen], self.rolls[chosen], self.ends[chosen], strict=True)
+    def blur_interval(self, blurs: Real) -> Interval:
+        """Blurs of likely responses, and the next that was tried on either side. [spacings]"""
+        tried = np.unique(blurs)
+        likely = np.searchsorted(tried, blurs[self.responses])
+        first, last = int(likely.min()), int(likely.max())
+        return float(tried[max(first - 1, 0)]), float(tried[min(last + 1, tried.size - 1)])
+
+    def outline(self) -> Iterator[tuple[int, int, int]]:
+        """Give the likely laws with the least and largest exponent and end at each roll-off."""
+        for roll in np.unique(self.rolls):
+            of_roll = np.flatnonzero(self.rolls == roll)
+            corners = {
+                int(of_roll[find(values[of_roll])])
+                for values in (self.hursts, self.ends)
+                for find in (np.argmin, np.argmax)
+            }
+            for each in sorted(corners):
+                yield int(self.hursts[each]), int(roll), int(self.ends[each])

@@ -16,6 +16,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, several
 from roughline.errors.public import public
 from roughline.spectra.leakage import LONG_WAVES, LONGER, scan_leakage
+from roughline.spectra.response import UNKNOWN, Instrument
 from roughline.topography.body import Line
 
 _BINS_PER_DECADE = 20
@@ -47,6 +48,10 @@ class ProfileSpectrum:
         Length of a cut. [length]
     rms_height : float
         Rms height of the cuts. [length]
+    spacing : float
+        Of their points; where it is not given, half the shortest wavelength. [length]
+    instrument : Instrument
+        What is known of the instrument that measured the heights.
     """
 
     q: Real
@@ -55,8 +60,14 @@ class ProfileSpectrum:
     edges: Real
     length: float
     rms_height: float
+    spacing: float = 0.0
+    instrument: Instrument = UNKNOWN
 
     __repr__ = summary
+
+    def __post_init__(self) -> None:
+        if not self.spacing:
+            object.__setattr__(self, "spacing", math.pi / float(self.edges[-1]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +187,8 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
         edges=q_low * np.concatenate([[0.75], k / 2 + 0.25, starts, [waves + 0.5]]),
         length=first.length,
         rms_height=rms,
+        spacing=first.length / n,
+        instrument=Instrument.of(first.settings, first.length / n),
     )
 
 

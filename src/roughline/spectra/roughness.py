@@ -14,7 +14,7 @@ from roughline.errors.public import public
 from roughline.spectra.departures import departures
 from roughline.spectra.fit import SelfAffineFit
 from roughline.spectra.fitted import fitted
-from roughline.spectra.isotropic import IsotropicSpectrum
+from roughline.spectra.isotropic import IsotropicSpectrum, isotropy
 from roughline.spectra.profile import ProfileSpectrum
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.borders import border_doubts
@@ -166,18 +166,3 @@ def _summits(heights: Real) -> Real:
             window = tuple(slice(i, i + n) for i, n in zip(shift, inner.shape, strict=True))
             higher &= inner > heights[window]
     return inner[higher]
-
-
-def isotropy(surface: Surface) -> float:
-    """Smallest over largest rms slope of all directions; NaN for a flat or a thin surface."""
-    if min(surface.shape) < 2:
-        return math.nan
-    (dx, dy), h = surface.spacing, surface.heights
-    along_x = (np.diff(h, axis=0) / dx)[:, :-1] + (np.diff(h, axis=0) / dx)[:, 1:]
-    along_y = (np.diff(h, axis=1) / dy)[:-1] + (np.diff(h, axis=1) / dy)[1:]
-    squares = [
-        float((a * b).mean())
-        for a, b in ((along_x, along_x), (along_x, along_y), (along_y, along_y))
-    ]
-    minor, major = np.linalg.eigvalsh([squares[:2], squares[1:]])
-    return math.sqrt(max(0.0, minor) / major) if major > 0 else math.nan

@@ -7,8 +7,10 @@ the rings of a map, q_low C_profile for the bins of a line scan. [length²]
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +19,23 @@ from scipy import special
 from roughline.computing.arrays import Indices, Real
 from roughline.errors import InputError
 
+Corner = Literal["sharp", "smooth"]
+"""Of a law at its roll-off: a plateau up to it, or 1 + (q / q_roll)² to a power."""
+
+CORNERS: tuple[Corner, ...] = ("sharp", "smooth")
+"""Both are tried."""
+
 HURSTS = np.linspace(-0.49, 1.5, 200)
 """Exponents that are tried."""
 
+NODES = np.linspace(HURSTS[0], HURSTS[-1], 25)
+"""Exponents with which deviances are computed; they are smooth in between."""
+
 DESCRIPTION = 0.1
 """Relative deviations from a law, up to which a spectrum counts as following it."""
+
+IMPOSSIBLE = 1e30
+"""Deviance of laws that cannot be."""
 
 _BINS_PER_DECADE = 10  # of deviations from the law, and of the free spectrum beyond its end
 _FLOOR = 1e-14  # of the largest power: rounding
@@ -45,6 +59,8 @@ class Means:
         Shape of its gamma distribution when deviations from the law are allowed for.
     leaked : ndarray of bool, shape (means,)
         Where the power may be what the window leaks of stronger waves, or rounding.
+    in_tenth : ndarray, shape (means,)
+        Number of means in the same tenth of a decade.
     """
 
     q: Real
@@ -52,6 +68,7 @@ class Means:
     by_chance: Real
     weight: Real
     leaked: NDArray[np.bool_]
+    in_tenth: Real
 
     @classmethod
     def of(cls, q: Real, power: Real, modes: Real, windowed: bool) -> Means:
@@ -83,8 +100,36 @@ class Means:
         # the means of a bin share one deviation: otherwise the shortest waves, which have most of
         # the means, would decide alone
         bins = _bins(q)
-        weight = 1 / (by_chance + DESCRIPTION**2 * np.bincount(bins)[bins])
-        return cls(q, np.maximum(power, floor), by_chance, weight, leaked)
+        in_tenth = np.bincount(bins)[bins].astype(np.float64)
+        weight = 1 / (by_chance + DESCRIPTION**2 * in_tenth)
+        return cls(q, np.maximum(power, floor), by_chance, weight, leaked, in_tenth)
+
+    def weighed(self, unknown: Real) -> tuple[Real, Real]:
+        """Return weights where the law is less well known, and what that adds to the deviance.
+
+        Parameters
+        ----------
+        unknown : ndarray, shape (..., means)
+            Variance of the logarithm of the expected power, beside the deviations from any law.
+        """
+        weight = 1 / (1 / self.weight + unknown * self.in_tenth)
+        return weight, np.log(self.weight / weight) / self.in_tenth
+
+    def endless(self, law: Real, weight: Real, added: Real) -> tuple[Real, Real]:
+        """Deviances and log levels of laws without an end, over (response, hurst).
+
+        Parameters
+        ----------
+        law : ndarray, shape (responses, hursts, means)
+            Logarithm of the expected powers.
+        weight, added : ndarray, shape (responses, means)
+            As :meth:`weighed` gives them.
+        """
+        total = weight.sum(axis=1)[:, np.newaxis]
+        logs = np.log(self.power)
+        log_level = np.log(np.einsum("xb,xhb->xh", weight, np.exp(logs - law)) / total)
+        deviance = np.einsum("xb,xhb->xh", weight, law - logs) + total * log_level
+        return 2 * deviance + added.sum(axis=1)[:, np.newaxis], log_level
 
     def free_deviance(self, first: int) -> float:
         """Deviance of a free spectrum from one mean on, with a penalty for each of its levels.
@@ -157,9 +202,25 @@ class Deviations:
         )[self.bins]
 
 
+class Explanation(NamedTuple):
+    """Shape of a law's corner, and the number of what the instrument does."""
+
+    corner: Corner
+    response: int
+
+
+class Law(NamedTuple):
+    """A law with what explains how it appears in a spectrum."""
+
+    hurst: float
+    roll: float
+    end: float
+    explanation: Explanation
+
+
 @dataclass(frozen=True, eq=False)
 class Laws:
-    """Deviances of laws from a spectrum, each at its best level.
+    """Deviances of laws from a spectrum, each at its best level, corner and response.
 
     Attributes
     ----------
@@ -172,9 +233,16 @@ class Laws:
     margins : ndarray, shape (ends,)
         Distance to the next end that was tried.
     deviance : ndarray, shape (hursts, rolls, ends)
-        Minus twice the logarithm of the likelihood of each, up to a constant.
+        Minus twice the logarithm of the likelihood of each, up to a constant; infinite for laws
+        that are far from the spectrum.
     log_level : ndarray, shape (hursts, rolls, ends)
         Logarithm of the power of a mode on the plateau.
+    explained : ndarray, shape (hursts, rolls, ends)
+        Which explanation is the best.
+    explanations : sequence of Explanation
+        All of them.
+    of_responses : ndarray, shape (responses,)
+        Least deviance of the laws that each response of the instrument explains.
     """
 
     hursts: Real
@@ -183,6 +251,9 @@ class Laws:
     margins: Real
     deviance: Real
     log_level: Real
+    explained: Indices
+    explanations: Sequence[Explanation]
+    of_responses: Real
 
     @cached_property
     def best(self) -> tuple[int, int, int]:
@@ -193,6 +264,11 @@ class Laws:
     def values(self, hurst: int, roll: int, end: int) -> tuple[float, float, float]:
         """Exponent, roll-off and end of a law."""
         return float(self.hursts[hurst]), float(self.rolls[roll]), float(self.ends[end])
+
+    def at(self, hurst: int, roll: int, end: int) -> Law:
+        """The law of some indices, with its best explanation."""
+        explanation = self.explanations[self.explained[hurst, roll, end]]
+        return Law(*self.values(hurst, roll, end), explanation)
 
     def within(self, deviance: float) -> tuple[Indices, Indices, Indices]:
         """Indices of the laws whose deviance exceeds that of the best by no more than this."""
@@ -212,8 +288,10 @@ class Laws:
         return hurst, roll, end
 
 
-def power_law(q: Real, hursts: Real, roll: float) -> Real:
+def power_law(q: Real, hursts: Real, roll: float, corner: Corner = "sharp") -> Real:
     """Logarithm of C_2d with a plateau of one, over (hurst, q)."""
+    if corner == "smooth":
+        return np.outer(-(hursts + 1), np.log1p((q / roll) ** 2))
     return np.outer(-2 * (hursts + 1), np.log(np.maximum(1.0, q / roll)))
 
 

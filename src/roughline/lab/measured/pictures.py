@@ -81,8 +81,7 @@ def spectrum_of(found: Description) -> dict[str, Any] | None:
         kept = {"q": law[0][finite], "power": law[1][finite]}
     title = ""
     if fit is not None:
-        low, high = fit.hurst_interval
-        title = f"H = {fit.hurst:.2f} ({low:.2f} to {high:.2f})"
+        title = f"H = {fit.hurst_in_words}"
     return {
         "q": spectrum.q[known],
         "power": power[known],
