@@ -202,7 +202,7 @@ def test_the_interface_of_a_map_is_that_of_the_periodic_half_space(tmp_path, inv
     rl.write(replace(spectrum.surface(64, 3), unit="m"), tmp_path / "generated.nc")
     question = ("--materials", "steel,copper", "--load", "2 MPa", "--load", "20 MPa")
     question += ("--frequency", "5 MHz", "--json")
-    sizes = ("--unit", "m", "--size", "1 mm")
+    sizes = ("--unit", "m", "--size", "1 mm", "--tilt", "mounting")
 
     def answered(*arguments):
         code, out, errors = invoke("press", *arguments, *question)
