@@ -28,6 +28,7 @@ SENSIBLE = {
     "--seed": ("0",),
     "--port": ("0",),
     "--hurst": ("0",),
+    "--blur": ("0",),
 }
 NEEDED = {
     "press": ("{array}", "--unit", "um", "--size", "1 mm", "--materials", "steel,copper", "--json"),

@@ -96,7 +96,7 @@ def press_scan(
     >>> scan = rl.Line(surface.heights[0], length=1.0, kind="profile")
     >>> pressed = rl.press_scan(scan, E_star=1.0, forces=[1e-3])
     >>> print(pressed.curve.stiffness.round(2), pressed.low.round(2), pressed.high.round(2))
-    [0.21] [0.13] [0.27]
+    [0.21] [0.14] [0.28]
     """
     gaussian = checked_flag("gaussian", gaussian)
     scans = [each for each in (scan, against) if each is not None]
