@@ -18,11 +18,8 @@ from roughline.units import engineering
 
 _NUMBER = re.compile(r"\d[\d.]*(e[-+]?\d+)?( ?[afpnµmkMGT]?(m²|m|N/m|N|Pa|Ω|%)(?!\w))?")
 _SAME_SIZE = 1.05  # largest area over smallest, up to which forces on maps are compared
-_JUDGED_TOGETHER = (
-    "stationary",
-    "longer waves",
-    "roll-off",
-)  # what maps say of it alone is left out
+# Departures of single maps that the maps judge together; what is said of them alone is left out.
+_JUDGED_TOGETHER = ("stationary", "steady", "longer waves", "roll-off")
 _FEW = 5  # maps up to which it is said how much more would help
 
 # Largest over smallest from which on maps are not of one kind. Places of one surface differ in
