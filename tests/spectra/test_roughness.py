@@ -65,3 +65,16 @@ def test_what_has_no_spectrum_still_has_its_amplitudes():
     assert "8 x 8 or more" in thin.remarks[0]
     with pytest.raises(rl.InputError, match="this is a reduced line"):
         roughness(rl.SelfAffine(hurst=0.5, rms_height=1.0).line(64, 1))
+
+
+def test_a_bow_takes_the_intervals_of_the_law_down_until_it_is_removed():
+    spectrum = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=50.0)
+    x = np.linspace(-1, 1, 64)
+    heights = spectrum.surface(128, 5, "gaussian").heights[:64, :64]
+    bowed = rl.Surface(heights + 3 * (x[:, np.newaxis] ** 2 + x**2), (0.5, 0.5), is_cut_out=True)
+    fit = rl.roughness(bowed).fit
+    assert not fit.is_judged
+    assert "a bow of rms height" in fit.objections[0]
+    level = rl.prepared(bowed, rl.Preparation(trend="curvature"))
+    low, high = rl.roughness(level).fit.hurst_interval
+    assert low <= 0.7 <= high

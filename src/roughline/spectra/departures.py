@@ -163,13 +163,7 @@ def _of_long_waves(body: Body) -> list[Departure | None]:
 
 def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     """Say whether tilt and bow are more than waves of the body's own spectrum explain."""
-    shapes = list(long_shapes(body, fit))
-    grave = [
-        each
-        for each in shapes
-        if each.chance < _CHANCE_OF_WAVES / len(shapes) and each.share > _LONGER
-    ]
-    if grave:
+    if grave := _grave_shapes(body, fit):
         worst = max(grave, key=lambda each: each.share)
         return Departure(
             "longer waves", _in_words(worst, body, what), math.sqrt(worst.share / _LONGER)
@@ -181,6 +175,30 @@ def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
         )
         return Departure("longer waves", text, _LEVELLED)
     return None
+
+
+def _grave_shapes(body: Body, fit: SelfAffineFit) -> list[LongShape]:
+    """Tilt and bow that a body's own waves do not explain."""
+    shapes = list(long_shapes(body, fit))
+    return [
+        each
+        for each in shapes
+        if each.chance < _CHANCE_OF_WAVES / len(shapes) and each.share > _LONGER
+    ]
+
+
+def judged(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
+    """Take the intervals of a fit down where a bow stands in the place of the longest waves."""
+    if not fit.is_judged or not body.is_cut_out:
+        return fit
+    for shape in _grave_shapes(body, fit):
+        if shape.degree > 1:
+            rms, explained = (in_words(each, body.unit, 2) for each in (shape.rms, shape.explained))
+            return fit.without_intervals(
+                f"a bow of rms height {rms} hides the longest waves, which explain {explained}: "
+                'remove it first (trend="curvature")'
+            )
+    return fit
 
 
 def _in_words(shape: LongShape, body: Body, what: str) -> str:

@@ -129,6 +129,19 @@ class SelfAffineFit:
             )
         return objections
 
+    def without_intervals(self, why: str) -> SelfAffineFit:
+        """Return the same law, not judged, with a remark that says why."""
+        nothing = (math.nan, math.nan)
+        return replace(
+            self,
+            hurst_interval=nothing,
+            q_roll_interval=nothing,
+            q_high_interval=nothing,
+            rms_interval=nothing,
+            blur_interval=nothing,
+            remarks=(why, *self.remarks),
+        )
+
     def spectrum(self) -> SelfAffine:
         """Return the fitted spectrum, for random surfaces and lines like this one.
 
@@ -196,7 +209,10 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     observed, remarks = _observed(spectrum)
     fit = _fitted(spectrum, observed, remarks)
     if isinstance(spectrum, IsotropicSpectrum) and spectrum.isotropy < _DRAWN_OUT:
-        return _without_intervals(fit, spectrum.isotropy)
+        return fit.without_intervals(
+            f"slopes differ by direction, least over largest {spectrum.isotropy:.2f}: one law for "
+            f"all directions is not judged below {_DRAWN_OUT:.2f}; fit line scans across the lay"
+        )
     return fit
 
 
@@ -277,24 +293,6 @@ def _compared(spectrum: IsotropicSpectrum | ProfileSpectrum) -> MapRings | ScanB
     if isinstance(spectrum, ProfileSpectrum):
         return ScanBins.of(spectrum)
     return MapRings.of(spectrum)
-
-
-def _without_intervals(fit: SelfAffineFit, isotropy: float) -> SelfAffineFit:
-    """The fit to a surface whose directions have no law in common."""
-    nothing = (math.nan, math.nan)
-    said = (
-        f"slopes differ by direction, least over largest {isotropy:.2f}: one law for all "
-        f"directions is not judged below {_DRAWN_OUT:.2f}; fit line scans across the lay"
-    )
-    return replace(
-        fit,
-        hurst_interval=nothing,
-        q_roll_interval=nothing,
-        q_high_interval=nothing,
-        rms_interval=nothing,
-        blur_interval=nothing,
-        remarks=(said, *fit.remarks),
-    )
 
 
 def _within_reach(

@@ -21,7 +21,9 @@ from roughline.spectra.self_affine_laws import (
 )
 
 _MARGIN = 15.0  # of deviances in which a law may still turn out to be likely
-_FEW_NODES = slice(None, None, 3)
+FEW_NODES = slice(None, None, 3)
+"""Exponents of a first search."""
+
 _FEW_ROLLS = 4  # from roll-off to roll-off in the first search
 
 
@@ -68,12 +70,11 @@ def _first_search(spectrum: Compared) -> tuple[Mask, Indices]:
     """Find which corners, coarse roll-offs and responses are not far, and near which ends."""
     rolls = spectrum.rolls[::_FEW_ROLLS]
     few, every = spectrum.few_ends, np.arange(spectrum.responses.blurs.size)
-    finer = _between(NODES[_FEW_NODES].tobytes(), NODES.tobytes())
     least = np.empty((len(CORNERS), rolls.size, every.size, few.size))
     for i, corner in enumerate(CORNERS):
         for j, roll in enumerate(rolls):
-            deviance, _ = spectrum.deviances(corner, float(roll), _FEW_NODES, every, few)
-            least[i, j] = (finer @ deviance).min(axis=1)
+            deviance, _ = spectrum.deviances(corner, float(roll), FEW_NODES, every, few)
+            least[i, j] = least_of_few(deviance)
     most = float(least.min()) + _MARGIN
     near: Mask = np.asarray(least <= most)
     found = few[near.any(axis=(0, 1, 2))]
@@ -118,6 +119,12 @@ def _second_search(spectrum: Compared, kept: Mask, ends: Indices) -> Laws:
         explanations,
         of_responses,
     )
+
+
+def least_of_few(deviance: Real) -> Real:
+    """Least deviances over all exponents, from those at few of them, over (..., few, ends)."""
+    finer = _between(NODES[FEW_NODES].tobytes(), NODES.tobytes())
+    return np.asarray((finer @ deviance).min(axis=-2))
 
 
 @lru_cache(maxsize=4)

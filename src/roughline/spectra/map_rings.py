@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.spectra.isotropic import IsotropicSpectrum
-from roughline.spectra.law_search import laws_of
+from roughline.spectra.law_search import FEW_NODES, laws_of, least_of_few
 from roughline.spectra.leakage import LONGER, LONGEST, map_leakage, power_inside
 from roughline.spectra.response import AS_PIXELS, Instrument, Responses
 from roughline.spectra.self_affine_laws import (
@@ -122,10 +122,10 @@ class MapRings:
             return sharp, np.zeros(0)
         few = np.unique([0, np.searchsorted(self.responses.blurs[:_SHARP], AS_PIXELS)])
         tried = [
-            self.deviances("sharp", float(roll), slice(None, None, 3), few, sharp)[0]
+            self.deviances("sharp", float(roll), FEW_NODES, few, sharp)[0]
             for roll in self.rolls[::4]
         ]
-        least = np.min(tried, axis=(0, 1, 2))
+        least = np.min([least_of_few(each) for each in tried], axis=(0, 1))
         best = np.argsort(least, kind="stable")[:_ENDS]
         return sharp[best], least[best]
 

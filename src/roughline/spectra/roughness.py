@@ -11,7 +11,7 @@ from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.spectra.departures import departures
+from roughline.spectra.departures import departures, judged
 from roughline.spectra.fit import SelfAffineFit
 from roughline.spectra.fitted import fitted
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropy
@@ -122,8 +122,8 @@ def roughness(body: Body) -> Roughness:
     try:
         estimate, law = fitted(body)
         if isinstance(law, SelfAffineFit):
-            spectrum, fit = estimate, law
-            remarks += law.objections
+            spectrum, fit = estimate, judged(body, law)
+            remarks += fit.objections
         else:
             remarks.append(str(law))
     except InputError as error:

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.spectra.law_search import laws_of
+from roughline.spectra.law_search import FEW_NODES, laws_of, least_of_few
 from roughline.spectra.leakage import LONG_WAVES, map_leakage
 from roughline.spectra.map_rings import modes_of_surface
 from roughline.spectra.profile import Cuts, ProfileSpectrum, cuts_of_surface
@@ -127,10 +127,10 @@ class ScanBins:
         ends = np.arange(self.last.size)
         few = np.unique([0, np.searchsorted(self.responses.blurs[:_SHARP], AS_PIXELS)])
         tried = [
-            self.deviances("sharp", float(roll), slice(None, None, 3), few, ends)[0]
+            self.deviances("sharp", float(roll), FEW_NODES, few, ends)[0]
             for roll in self.rolls[::4]
         ]
-        least = np.min(tried, axis=(0, 1, 2))
+        least = np.min([least_of_few(each) for each in tried], axis=(0, 1))
         best = np.argsort(least, kind="stable")
         return best, least[best]
 
