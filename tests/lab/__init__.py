@@ -1,0 +1,1 @@
+"""Tests of the lab, a package because a benchmark has the same name."""
