@@ -13,6 +13,7 @@ from urllib.parse import urlsplit
 WANTED = (
     "no Chromium: install Debian's (apt-get install chromium), or `playwright install chromium`"
 )
+NO_LINE = r"ERR_|WebSocket|Failed to load"  # what a browser says of a line that drops
 _ARGUMENTS = ("--no-sandbox", "--disable-gpu")  # root has no sandbox, and pictures must not differ
 _OWN = ("data:", "blob:", "about:")
 

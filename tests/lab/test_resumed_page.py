@@ -9,11 +9,10 @@ import pytest
 
 import roughline as rl
 from lab.relay import Relay
-from lab_in_browser import Pages, RunningLab
+from lab_in_browser import NO_LINE, Pages, RunningLab
 
 NAME = "Ausschnitt, große Fläche; 1 (β).npy"
 OTHER = "another place.npy"
-NO_LINE = r"ERR_|WebSocket|Failed to load"  # what a browser says of a line that drops
 SHOWN = '[data-result="answers"]:not(.dimmed) [data-table="measured-answers"] tbody tr'
 
 
