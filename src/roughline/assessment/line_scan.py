@@ -202,7 +202,7 @@ def _full_over_reduced(curve: Curve, bins: ScanBins) -> tuple[Real, Real, Real]:
     reaches to equal models.
     """
     table = trust_map()
-    hurst, roll, _ = bins.laws.values(*bins.laws.best)
+    hurst, roll, *_ = bins.laws.at(*bins.laws.best)
     dimension = float(np.clip(3 - hurst, *table.fractal_dimensions[[0, -1]]))
     roll_off = float(np.clip(roll, *table.roll_off_ratios[[0, -1]]))
     loads = np.clip(curve.force_bar, *table.force_bars[[0, -1]])

@@ -225,7 +225,7 @@ def _fitted(
     q_low, last = 2 * math.pi / spectrum.length, float(observed.means.q[-1])
     laws = observed.laws
     law = laws.at(*laws.best)
-    hurst, roll, end, (corner, response) = law
+    hurst, roll, end, corner, response = law
     log_level = laws.log_level[laws.best]
     deviations = observed.means.deviations(observed.log_powers(law) + log_level)
     likely = LikelyLaws.of(laws, _LEVEL)
@@ -280,7 +280,7 @@ def _observed(
         as_told = observed.laws.deviance.min()
     if as_told <= laws.deviance.min() + _CONTRADICTED:
         return observed, ()
-    blur = unknown.responses.blurs[laws.at(*laws.best).explanation.response]
+    blur = unknown.responses.blurs[laws.at(*laws.best).response]
     said = (
         "the spectrum's tail is not that of the instrument as it was told: a blur of "
         f"{blur:.2g} pixels explains it better, and means over pixels act as one of 0.29: "

@@ -9,45 +9,35 @@ import numpy as np
 from scipy import special
 
 from roughline.computing.arrays import Indices, Real
-from roughline.spectra.self_affine_laws import Laws
+from roughline.spectra.self_affine_laws import HURSTS, Laws
 
 Interval = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
 class LikelyLaws:
-    """Laws that explain a spectrum hardly worse than the best one.
+    """Laws that explain a spectrum hardly worse than the best one."""
 
-    Attributes
-    ----------
-    laws : Laws
-        All laws that were tried.
-    hursts, rolls, ends : ndarray, shape (likely,)
-        Indices of the exponent, the roll-off and the end of each likely law.
-    responses : ndarray, shape (likely responses,)
-        What the instrument may do with one of them.
-    """
-
-    laws: Laws
-    hursts: Indices
+    laws: Laws  # all that were tried
+    hursts: Indices  # of each likely law
     rolls: Indices
     ends: Indices
-    responses: Indices
+    responses: Indices  # what the instrument may do with one of them
 
     @classmethod
     def of(cls, laws: Laws, level: float) -> LikelyLaws:
         """Take the laws within a level of the profile likelihood."""
         # a chi-squared variable with one degree of freedom is twice a gamma variable of shape 1/2
         most = 2 * special.gammaincinv(0.5, level)
-        responses = np.flatnonzero(laws.of_responses <= laws.deviance.min() + most)
-        return cls(laws, *laws.within(most), responses)
+        most += laws.deviance.min()
+        responses = np.flatnonzero(laws.of_responses <= most)
+        return cls(laws, *np.nonzero(laws.deviance <= most), responses)
 
     @property
     def hurst_interval(self) -> Interval:
         """Exponents of likely laws, and one step further, as those between were not tried. [1]"""
-        tried = self.laws.hursts
-        step = tried[1] - tried[0]
-        return float(tried[self.hursts.min()] - step), float(tried[self.hursts.max()] + step)
+        step = HURSTS[1] - HURSTS[0]
+        return float(HURSTS[self.hursts.min()] - step), float(HURSTS[self.hursts.max()] + step)
 
     @property
     def roll_interval(self) -> Interval:

@@ -33,7 +33,6 @@ _KNOWN = 0.1  # of the logarithm of what an instrument does, to which its law is
 _IMAGES = 2  # times twice the Nyquist wavenumber, on both sides
 _DIRECTIONS = 12  # of waves, on a quarter of a circle
 _PLACES = 24  # between which images of shorter waves are interpolated
-_NOTHING = 1e-300  # replaces a power of zero where logarithms are taken
 
 
 @dataclass(frozen=True)
@@ -131,7 +130,7 @@ class Responses:
         reaches[tried.size : tried.size + sharp.size * len(_REACHES)] = np.tile(
             _REACHES, sharp.size
         )
-        reaches[-noisy.size * _NOISES.size :] = np.inf
+        reaches[tried.size + sharp.size * len(_REACHES) :] = np.inf
         pixel = _pixel_means(u, dimensions) if means else np.zeros(u.size)
         blurred = -((math.pi * blurs[:, np.newaxis] * u) ** 2)
         folded = np.zeros((blurs.size, hursts.size, u.size))
@@ -167,7 +166,7 @@ class Responses:
         folded = self.folded[which]
         if not folded.any():
             return kept
-        return np.logaddexp(kept, last[:, np.newaxis] + np.log(np.maximum(folded, _NOTHING)))
+        return np.asarray(np.log(np.exp(kept) + np.exp(last)[:, np.newaxis] * folded))
 
 
 def _pixel_means(u: Real, dimensions: int) -> Real:

@@ -13,10 +13,9 @@ from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
-from roughline.computing.arrays import Indices, Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.errors import InputError
 
 Corner = Literal["sharp", "smooth"]
@@ -47,39 +46,20 @@ LEAST_MEANS = 12
 
 @dataclass(frozen=True, eq=False)
 class Means:
-    """Mean powers of a spectrum, and how much each of them varies by chance.
+    """Mean powers of a spectrum, and how much each of them varies by chance."""
 
-    Attributes
-    ----------
-    q, power : ndarray, shape (means,)
-        Wavenumbers, and powers of a mode.
-    by_chance : ndarray, shape (means,)
-        Variance of the logarithm of each, for its number of modes.
-    weight : ndarray, shape (means,)
-        Shape of its gamma distribution when deviations from the law are allowed for.
-    leaked : ndarray of bool, shape (means,)
-        Where the power may be what the window leaks of stronger waves, or rounding.
-    in_tenth : ndarray, shape (means,)
-        Number of means in the same tenth of a decade.
-    """
-
-    q: Real
-    power: Real
-    by_chance: Real
-    weight: Real
-    leaked: NDArray[np.bool_]
-    in_tenth: Real
+    q: Real  # wavenumbers
+    power: Real  # of a mode
+    by_chance: Real  # variance of the logarithm of each, for its number of modes
+    weight: Real  # shape of its gamma distribution when deviations from the law are allowed for
+    leaked: Mask  # where the power may be what the window leaks of stronger waves, or rounding
+    in_tenth: Real  # number of means in the same tenth of a decade
 
     @classmethod
     def of(cls, q: Real, power: Real, modes: Real, windowed: bool) -> Means:
-        """Weigh mean powers.
+        """Weigh mean powers, each of a number of independent modes.
 
-        Parameters
-        ----------
-        q, power, modes : ndarray, shape (means,)
-            Wavenumbers, mean powers of a mode, and the number of independent modes in each mean.
-        windowed : bool
-            Whether stronger waves leak into others.
+        Under a window stronger waves leak into others.
 
         Raises
         ------
@@ -105,25 +85,14 @@ class Means:
         return cls(q, np.maximum(power, floor), by_chance, weight, leaked, in_tenth)
 
     def weighed(self, unknown: Real) -> tuple[Real, Real]:
-        """Return weights where the law is less well known, and what that adds to the deviance.
-
-        Parameters
-        ----------
-        unknown : ndarray, shape (..., means)
-            Variance of the logarithm of the expected power, beside the deviations from any law.
-        """
+        """Weights where the logarithm of a law has an unknown variance, and what they cost."""
         weight = 1 / (1 / self.weight + unknown * self.in_tenth)
         return weight, np.log(self.weight / weight) / self.in_tenth
 
     def endless(self, law: Real, weight: Real, added: Real) -> tuple[Real, Real]:
-        """Deviances and log levels of laws without an end, over (response, hurst).
+        """Deviances and log levels of laws, given over (response, hurst, mean), without an end.
 
-        Parameters
-        ----------
-        law : ndarray, shape (responses, hursts, means)
-            Logarithm of the expected powers.
-        weight, added : ndarray, shape (responses, means)
-            As :meth:`weighed` gives them.
+        Weights and what they add to the deviance are those of :meth:`weighed`.
         """
         total = weight.sum(axis=1)[:, np.newaxis]
         logs = np.log(self.power)
@@ -150,13 +119,7 @@ class Means:
         return float(2 * deviance.sum() + penalty)
 
     def deviations(self, law: Real) -> Deviations:
-        """Compare the powers with those of a law, in tenths of a decade.
-
-        Parameters
-        ----------
-        law : ndarray, shape (means,)
-            Logarithm of the expected powers; -inf where the law has ended.
-        """
+        """Compare the powers with the logarithm of a law, -inf where it has ended."""
         bins, inside = _bins(self.q), np.isfinite(law)
         size = int(bins[-1]) + 1
         shape = np.bincount(bins, np.where(inside, 1 / self.by_chance, 0.0), size)
@@ -174,22 +137,12 @@ class Means:
 
 @dataclass(frozen=True, eq=False)
 class Deviations:
-    """Logarithms of a spectrum over a law, in tenths of a decade.
+    """Logarithms of a spectrum over a law, in tenths of a decade."""
 
-    Attributes
-    ----------
-    bins : ndarray, shape (means,)
-        Tenth of a decade that each mean falls in.
-    values, variance : ndarray, shape (tenths,)
-        Logarithm of the mean ratio, and its variance by chance; 0 and infinite in empty tenths.
-    scatter : float
-        Rms of the logarithm, beyond what chance explains.
-    """
-
-    bins: Indices
-    values: Real
-    variance: Real
-    scatter: float
+    bins: Indices  # tenth that each mean falls in
+    values: Real  # logarithm of the mean ratio, 0 in empty tenths
+    variance: Real  # of it, by chance; infinite in empty tenths
+    scatter: float  # rms of the logarithm, beyond what chance explains
 
     def drawn(self, generator: np.random.Generator) -> Real:
         """Draw deviations of the surface itself from its law, one for each mean."""
@@ -202,58 +155,32 @@ class Deviations:
         )[self.bins]
 
 
-class Explanation(NamedTuple):
-    """Shape of a law's corner, and the number of what the instrument does."""
-
-    corner: Corner
-    response: int
-
-
 class Law(NamedTuple):
     """A law with what explains how it appears in a spectrum."""
 
     hurst: float
     roll: float
     end: float
-    explanation: Explanation
+    corner: Corner
+    response: int  # number of what the instrument does
 
 
 @dataclass(frozen=True, eq=False)
 class Laws:
     """Deviances of laws from a spectrum, each at its best level, corner and response.
 
-    Attributes
-    ----------
-    hursts : ndarray, shape (hursts,)
-        Exponents, evenly spaced.
-    rolls : ndarray, shape (rolls,)
-        Roll-offs; those up to 1 are beyond the longest waves of the piece.
-    ends : ndarray, shape (ends,)
-        Where the laws end; infinite if they go on beyond the shortest waves.
-    margins : ndarray, shape (ends,)
-        Distance to the next end that was tried.
-    deviance : ndarray, shape (hursts, rolls, ends)
-        Minus twice the logarithm of the likelihood of each, up to a constant; infinite for laws
-        that are far from the spectrum.
-    log_level : ndarray, shape (hursts, rolls, ends)
-        Logarithm of the power of a mode on the plateau.
-    explained : ndarray, shape (hursts, rolls, ends)
-        Which explanation is the best.
-    explanations : sequence of Explanation
-        All of them.
-    of_responses : ndarray, shape (responses,)
-        Least deviance of the laws that each response of the instrument explains.
+    A deviance is minus twice the logarithm of the likelihood, up to a constant. Arrays are over
+    (exponent of :data:`HURSTS`, roll-off, end).
     """
 
-    hursts: Real
-    rolls: Real
-    ends: Real
-    margins: Real
-    deviance: Real
-    log_level: Real
-    explained: Indices
-    explanations: Sequence[Explanation]
-    of_responses: Real
+    rolls: Real  # those up to 1 are beyond the longest waves of the piece
+    ends: Real  # infinite if the law goes on beyond the shortest waves
+    margins: Real  # distance to the next end that was tried
+    deviance: Real  # infinite for laws that are far from the spectrum
+    log_level: Real  # logarithm of the power of a mode on the plateau
+    explained: Indices  # which explanation is the best
+    explanations: Sequence[tuple[Corner, int]]  # corner and response
+    of_responses: Real  # least deviance of the laws that each response of the instrument explains
 
     @cached_property
     def best(self) -> tuple[int, int, int]:
@@ -261,19 +188,11 @@ class Laws:
         hurst, roll, end = np.unravel_index(np.argmin(self.deviance), self.deviance.shape)
         return int(hurst), int(roll), int(end)
 
-    def values(self, hurst: int, roll: int, end: int) -> tuple[float, float, float]:
-        """Exponent, roll-off and end of a law."""
-        return float(self.hursts[hurst]), float(self.rolls[roll]), float(self.ends[end])
-
     def at(self, hurst: int, roll: int, end: int) -> Law:
         """The law of some indices, with its best explanation."""
-        explanation = self.explanations[self.explained[hurst, roll, end]]
-        return Law(*self.values(hurst, roll, end), explanation)
-
-    def within(self, deviance: float) -> tuple[Indices, Indices, Indices]:
-        """Indices of the laws whose deviance exceeds that of the best by no more than this."""
-        hurst, roll, end = np.nonzero(self.deviance <= self.deviance.min() + deviance)
-        return hurst, roll, end
+        corner, response = self.explanations[self.explained[hurst, roll, end]]
+        values = (HURSTS[hurst], self.rolls[roll], self.ends[end])
+        return Law(*map(float, values), corner, response)
 
     def drawn(self, count: int, generator: np.random.Generator) -> tuple[Indices, Indices, Indices]:
         """Draw laws by their likelihood, as indices.
