@@ -37,7 +37,7 @@ from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.spectra.fit import SelfAffineFit, fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
-from roughline.spectra.longer_waves import long_shapes_of_many
+from roughline.spectra.longer_waves import long_shapes
 from roughline.statistics.places import Agreement, agreement
 from roughline.topography.body import Surface
 from roughline.units import engineering
@@ -192,7 +192,7 @@ def _longer_waves(surfaces: Sequence[Surface], law: SelfAffineFit) -> str:
     """Say whether maps are tilted and bowed more than the waves of their law explain."""
     if len(surfaces) < 2:
         return ""
-    shapes = list(long_shapes_of_many(surfaces, law))
+    shapes = list(long_shapes(surfaces, law))
     grave = [each for each in shapes if each.chance < _CHANCE / len(shapes)]
     if not grave:
         return ""

@@ -19,8 +19,7 @@ from roughline.engineering.declared import DECLARED
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals, ends_at
 from roughline.errors import InputError
-from roughline.spectra.fit import SelfAffineFit
-from roughline.spectra.fitted import fitted
+from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.topography.body import Body, Line, Surface
 
 _LEAST_SHARE = 1e-9  # of the area that is in contact, or is not; less counts as this
@@ -150,14 +149,12 @@ def roll_offs_along_a_side(surface: Surface) -> float | None:
         _, fit = fitted(surface)
     except InputError:
         return None
-    return None if isinstance(fit, InputError) else roll_offs_of(fit)
+    return roll_offs_of(fit)
 
 
 def roll_offs_of(fit: SelfAffineFit) -> float | None:
     """Roll-off wavelengths along a side of the surface that a law was fitted to."""
-    if fit.q_roll is None or not fit.is_judged or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):
-        return None
-    return fit.q_roll / fit.q_low
+    return fit.q_roll / fit.q_low if fit.q_roll and fit.shows_roll_off else None
 
 
 def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = None) -> Answer:

@@ -1,4 +1,4 @@
-"""Whether a topography is alike everywhere and in all directions."""
+"""Whether a topography is alike everywhere, from side to side, and in all directions."""
 
 from __future__ import annotations
 
@@ -18,6 +18,9 @@ _VARIES = 0.1  # relative scatter of rms slopes between places that matters
 _TILES = (2, 4, 8)  # along a side, whose slopes are compared
 _NONE = 1e-6  # of the largest mean square slope: none
 _LEAST_OF_TILE = 10  # independent squares of slopes in a tile
+_STRIPS = 24  # from side to side, of which the mean squares of slopes are compared
+_MOST = 0.9  # correlation of neighbouring strips
+_DRIFTS = 0.1  # logarithm of the ratio of rms slopes at both sides that matters
 _ALIKE = 0.7  # least over largest slope, from which on a surface counts as isotropic
 _LEAST_POINTS = 16  # along a side, for slopes by direction
 _CORRELATED = 3.78  # modes that vary together under a Hann window: (35 / 18)²
@@ -54,6 +57,52 @@ def _scatter(logs: Real, shape: float) -> Finding:
         )
 
     return Finding(score, varies / _VARIES, text)
+
+
+def of_sides(surface: Surface) -> Iterable[Finding]:
+    """Yield the drift of rms slopes along both sides of a map, if it has points enough for it.
+
+    Strips across a side each have a mean square of slopes. Neighbours may correlate, and count for
+    fewer then. The strips need not be Gaussian, nor the map isotropic: their own scatter is the
+    measure.
+    """
+    if min(surface.shape) <= _STRIPS:
+        return
+    heights, (dx, dy) = surface.detrended().heights, surface.spacing
+    across = (np.diff(heights, axis=0) / dx)[:, :-1]
+    along = (np.diff(heights, axis=1) / dy)[:-1]
+    squares = across**2 + along**2
+    for axis, name in enumerate("xy"):
+        means = np.array([each.mean() for each in np.array_split(squares, _STRIPS, axis=axis)])
+        if means.min() > 0:
+            yield _drift(name, np.log(means) / 2)
+
+
+def _drift(along: str, logs: Real) -> Finding:
+    """Fit a line to the logarithms of rms slopes of strips, whose scatter may be correlated."""
+    n = logs.size
+    place = np.linspace(-0.5, 0.5, n) * (1 - 1 / n)
+    spread = float((place**2).sum())
+    change = float((place * logs).sum()) / spread
+    rest = logs - logs.mean() - change * place
+    square = float((rest**2).sum())
+    # a line takes away from the correlation of what is left, about 2 / n
+    correlation = float((rest[1:] * rest[:-1]).sum()) / square + 2 / n if square else 0.0
+    correlation = min(max(correlation, 0.0), _MOST)
+    longer = (1 + correlation) / (1 - correlation)
+    error, freedom = math.sqrt(square / (n - 2) * longer / spread), max(n / longer - 2, 1.0)
+    ratio = abs(change) / error if error else math.inf
+    score = -float(special.ndtri(special.stdtr(freedom, -ratio))) if change else 0.0
+
+    def text(limit: float) -> str:
+        allowed = error * float(special.stdtrit(freedom, special.ndtr(limit)))
+        return (
+            f"roughness drifts over the map: along {along} the rms slope changes by a factor of "
+            f"{math.exp(abs(change)):.2f}, and chance allows {math.exp(allowed):.2f}, so that the "
+            "surface beyond is likely to differ as well"
+        )
+
+    return Finding(score, abs(change) / _DRIFTS, text)
 
 
 def of_directions(surface: Surface) -> Iterable[Finding]:

@@ -13,55 +13,36 @@ from roughline.computing import fft
 from roughline.computing.arrays import Real
 from roughline.topography.notebook import in_words
 
-_MOST = 512  # cells along a side, from which correlations are taken
+MOST = 512
+"""Cells along a side of a map, from which correlations are taken."""
+
 _LEAST_CHANCE = 1e-300
 
 
 @dataclass(frozen=True)
 class Finding:
-    """Result of one test.
+    """Result of one test of an assumption."""
 
-    Attributes
-    ----------
-    score : float
-        Of a standard normal distribution, if the assumption that is tested holds.
-    gravity : float
-        What was measured over what would not matter.
-    text : callable
-        Says it, with what chance allows, for the score that chance allows.
-    """
-
-    score: float
-    gravity: float
-    text: Callable[[float], str]
+    score: float  # of a standard normal distribution, if the assumption holds
+    gravity: float  # what was measured over what would not matter
+    text: Callable[[float], str]  # says it, with what chance allows, for the score that it allows
 
 
 @dataclass(frozen=True, eq=False)
 class Chance:
-    """How far a Gaussian field with the correlation of given values scatters.
+    """How far a Gaussian field with the correlation of given values scatters."""
 
-    Attributes
-    ----------
-    correlation : ndarray
-        Over lags, from minus to plus their reach along each side. [1]
-    pairs : ndarray
-        Number of pairs of values at each lag, over that of values. [1]
-    count : int
-        Number of values.
-    reach : int
-        Largest lag. [1]
-    """
-
-    correlation: Real
-    pairs: Real
-    count: int
-    reach: int
+    correlation: Real  # over lags, from minus to plus their reach along each side
+    pairs: Real  # number of pairs of values at each lag, over that of values
+    count: int  # of values
+    own_scatter: float  # of the sum of its squares, as it is taken from so many values
+    reach: int  # largest lag
 
     @classmethod
     def of(cls, field: Real, reach: int) -> Chance:
         """Take the correlation of a field up to some lag along each side."""
-        field = fine_part(field)
-        field = field - field.mean()
+        count, part = field.size, fine_part(field)
+        field = part - part.mean()
         pairs = np.ones(())
         for n in field.shape:
             lags = np.abs(np.arange(-min(reach, n // 2), min(reach, n // 2) + 1))
@@ -69,7 +50,8 @@ class Chance:
         correlation = correlated(field, reach) / pairs
         middle = tuple(n // 2 for n in correlation.shape)
         scale = correlation[middle]
-        return cls(correlation / scale if scale else correlation, pairs, field.size, reach)
+        correlation = correlation / scale if scale else correlation
+        return cls(correlation, pairs, count, 1 + correlation.size / field.size, reach)
 
     def independent(self, power: int) -> float:
         """Number of independent values with the same scatter of sums of that power."""
@@ -77,7 +59,7 @@ class Chance:
         # which says nothing of how many are independent
         total = float((self.pairs * np.abs(self.correlation) ** power).sum())
         if power == 2:  # squares of a correlation's own scatter add up
-            total /= 1 + self.correlation.size / self.count
+            total /= self.own_scatter
         return self.count / max(total, 1.0)
 
 
@@ -90,7 +72,7 @@ def fine_part(field: Real) -> Real:
     """Return the part of a field from which correlations are taken: all but of large maps."""
     if field.ndim == 1:
         return field
-    return field[tuple(slice(0, _MOST) for _ in field.shape)]
+    return field[tuple(slice(0, MOST) for _ in field.shape)]
 
 
 def correlated(values: Real, reach: int) -> Real:

@@ -9,33 +9,25 @@ from functools import cached_property
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.spectra.chance import Chance
+from roughline.spectra.chance import MOST, Chance
 from roughline.topography.body import Body
 
 _LEAST = 8  # cells along the shortest side of a coarser self
-_MOST = 1024  # points along a side that are searched for steps
+_SEARCHED = 1024  # points along a side that are searched for steps
 _ROUNDING = 1e-9  # of the largest height
 _FINE_REACH = 32  # cells over which detail is correlated at most
 
 
 @dataclass(frozen=True, eq=False)
 class CoarserSelf:
-    """Heights on cells of some points, and their second differences.
+    """Heights on cells of some points, and their second differences. [length]"""
 
-    Attributes
-    ----------
-    cell : int
-        Points along a cell.
-    heights : ndarray, shape (nx, ny) or (n,)
-        Means over the cells, less their mean. [length]
-    """
-
-    cell: int
-    heights: Real
+    cell: int  # points along a cell
+    heights: Real  # means over the cells, less their mean
 
     @cached_property
     def detail(self) -> Real:
-        """Second differences of the inner cells, summed over both sides. [length]"""
+        """Second differences of the inner cells, summed over both sides."""
         h = self.heights
         inner = (slice(1, -1),) * h.ndim
         total = -2.0 * h.ndim * h[inner]
@@ -51,8 +43,11 @@ class CoarserSelf:
 
     @cached_property
     def of_heights(self) -> Chance:
-        """Chance of its heights."""
-        return Chance.of(self.heights, max(self.heights.shape))
+        """Chance of its heights, those of large maps on coarser cells, as long waves decide."""
+        heights = self.heights
+        while heights.ndim == 2 and max(heights.shape) > MOST and min(heights.shape) > 1:
+            heights = _halved(heights)
+        return Chance.of(heights, max(heights.shape))
 
 
 def coarser_selves(body: Body) -> Iterator[CoarserSelf]:
@@ -70,16 +65,22 @@ def coarser_selves(body: Body) -> Iterator[CoarserSelf]:
     while min(heights.shape) >= _LEAST:
         yield CoarserSelf(cell, heights)
         cell *= 2
-        for axis, n in enumerate(heights.shape):
-            even = np.moveaxis(heights, axis, 0)[: n - n % 2]
-            heights = np.moveaxis((even[::2] + even[1::2]) / 2, 0, axis)
+        heights = _halved(heights)
+
+
+def _halved(heights: Real) -> Real:
+    """Means over pairs of neighbours along every side."""
+    for axis, n in enumerate(heights.shape):
+        even = np.moveaxis(heights, axis, 0)[: n - n % 2]
+        heights = np.moveaxis((even[::2] + even[1::2]) / 2, 0, axis)
+    return heights
 
 
 def share_on_lines(heights: Real) -> float:
     """Return the share of heights in line with their neighbours along every side."""
     if min(heights.shape) < _LEAST:
         return 0.0
-    heights = heights[tuple(slice(0, _MOST) for _ in heights.shape)]
+    heights = heights[tuple(slice(0, _SEARCHED) for _ in heights.shape)]
     inner = (slice(1, -1),) * heights.ndim
     scale = float(np.abs(heights).max())
     in_line = np.ones(heights[inner].shape, dtype=bool)

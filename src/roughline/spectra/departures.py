@@ -11,12 +11,10 @@ from weakref import WeakKeyDictionary
 from scipy import special
 
 from roughline.errors import InputError
-from roughline.spectra.alike import of_directions, of_places
+from roughline.spectra.alike import of_directions, of_places, of_sides
 from roughline.spectra.chance import Finding
 from roughline.spectra.coarser_selves import coarser_selves, share_on_lines
-from roughline.spectra.drift import drifts
-from roughline.spectra.fit import SelfAffineFit
-from roughline.spectra.fitted import fitted
+from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.spectra.gaussian_heights import of_heights
 from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
 from roughline.topography.body import Body, Line, Surface
@@ -30,7 +28,6 @@ Assumption = Literal[
 
 _CHANCE = 0.002  # of a departure from an assumption that a topography fulfils, over all its tests
 _CHANCE_OF_DRIFT = 0.02  # of a drift over a map, which goes on beyond it
-_DRIFTS = 0.1  # logarithm of the ratio of rms slopes at both sides that matters
 _CHANCE_OF_WAVES = 0.01  # of tilt and bow: what few coefficients show is easily missed
 _LONGER = 0.02  # mean square of longer waves, over that of the rest, that matters
 _ON_LINES = 0.1  # share of heights that stand in steps that matters
@@ -40,21 +37,11 @@ _LEVELLED = 1.01  # gravity of a tilt that is not known
 
 @dataclass(frozen=True)
 class Departure:
-    """A departure from what predictions rest on.
+    """A departure from what predictions rest on."""
 
-    Attributes
-    ----------
-    assumption : str
-        What does not hold.
-    text : str
-        A sentence that says so with the number measured, what chance would allow, and what to do.
-    gravity : float
-        The number measured over that which would not matter; above 1.
-    """
-
-    assumption: Assumption
-    text: str
-    gravity: float
+    assumption: Assumption  # what does not hold
+    text: str  # says so with the number measured, what chance would allow, and what to do
+    gravity: float  # the number measured over that which would not matter; above 1
 
 
 def departures(body: Body) -> tuple[Departure, ...]:
@@ -80,14 +67,14 @@ def _departures(body: Body) -> tuple[Departure, ...]:
     found = [
         _first("gaussian", of_heights(body, selves), body),
         _first("stationary", of_places(selves), body),
+        _of_steps(body),
     ]
     if isinstance(body, Surface):
         found.append(_first("isotropic", of_directions(body), body))
         if body.is_cut_out:
-            found.append(_of_drift(body))
+            found.append(_first("steady", of_sides(body), body, _CHANCE_OF_DRIFT))
     if body.is_cut_out and selves:
         found += _of_long_waves(body)
-    found.append(_of_steps(body))
     return tuple(sorted(filter(None, found), key=lambda each: -each.gravity))
 
 
@@ -104,12 +91,14 @@ def _of_steps(body: Body) -> Departure | None:
     return Departure("resolution", text, share / _ON_LINES)
 
 
-def _first(assumption: Assumption, findings: Iterable[Finding], body: Body) -> Departure | None:
+def _first(
+    assumption: Assumption, findings: Iterable[Finding], body: Body, chance: float = _CHANCE
+) -> Departure | None:
     """The gravest of findings that chance does not explain; None if there is none."""
     findings = list(findings)
     if not findings:
         return None
-    limit = -float(special.ndtri(_CHANCE / len(findings) / 2))
+    limit = -float(special.ndtri(chance / len(findings) / 2))
     grave = [each for each in findings if abs(each.score) > limit and each.gravity > 1]
     if not grave:
         return None
@@ -125,23 +114,6 @@ def _what(body: Body) -> str:
 _REMEDIES = {"map": "several maps of a part show what one does not", "scan": "measure a map"}
 
 
-def _of_drift(surface: Surface) -> Departure | None:
-    """Say whether roughness drifts over a map, so that what is beyond is likely to differ."""
-    found = drifts(surface)
-    chance = _CHANCE_OF_DRIFT / max(len(found), 1)
-    grave = [each for each in found if each.chance < chance and abs(each.change) > _DRIFTS]
-    if not grave:
-        return None
-    worst = max(grave, key=lambda each: abs(each.change))
-    change, allowed = math.exp(abs(worst.change)), math.exp(worst.allowed(chance))
-    text = (
-        f"roughness drifts over the map: along {worst.along} the rms slope changes by a factor of "
-        f"{change:.2f}, and chance allows {allowed:.2f}, so that the surface "
-        "beyond is likely to differ as well: several maps of a part show what one does not"
-    )
-    return Departure("steady", text, abs(worst.change) / _DRIFTS)
-
-
 def _of_long_waves(body: Body) -> list[Departure | None]:
     """Say whether a piece shows a roll-off, and whether it lies on waves longer than itself."""
     what = _what(body)
@@ -149,10 +121,10 @@ def _of_long_waves(body: Body) -> list[Departure | None]:
         _, fit = fitted(body)
     except InputError:
         return []
-    if isinstance(fit, InputError) or not fit.is_judged:
+    if not fit.is_judged:
         return []
     found = [_of_shapes(body, fit, what)]
-    if fit.q_roll is None or fit.q_roll_interval[0] <= fit.q_low * (1 + 1e-9):
+    if not fit.shows_roll_off:
         text = (
             f"the {what} shows no roll-off: its spectrum still rises at its longest waves, so "
             f"longer ones are missing: a longer {what} would hold more of them"
@@ -179,7 +151,7 @@ def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
 
 def _grave_shapes(body: Body, fit: SelfAffineFit) -> list[LongShape]:
     """Tilt and bow that a body's own waves do not explain."""
-    shapes = list(long_shapes(body, fit))
+    shapes = list(long_shapes([body], fit))
     return [
         each
         for each in shapes

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from scipy import special
@@ -12,14 +13,18 @@ from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.spectra.isotropic import IsotropicSpectrum
+from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
+from roughline.spectra.law_search import Observed
 from roughline.spectra.likely_laws import Interval, LikelyLaws
 from roughline.spectra.map_rings import MapRings
-from roughline.spectra.profile import ProfileSpectrum
+from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
 from roughline.spectra.response import UNKNOWN
 from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
 from roughline.spectra.self_affine_laws import LEAST_MEANS, Corner, Law, power_law
+from roughline.topography.body import Body, Surface
+
+Spectrum = IsotropicSpectrum | ProfileSpectrum
 
 _LEVEL = 0.975  # of profile likelihoods; as ends are chosen too, 95 in 100 hold the truth
 _LEAST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
@@ -107,6 +112,11 @@ class SelfAffineFit:
         return not math.isnan(self.hurst_interval[0])
 
     @property
+    def shows_roll_off(self) -> bool:
+        """Whether the interval of the roll-off lies beyond the longest waves."""
+        return self.q_roll is not None and self.q_roll_interval[0] > self.q_low * (1 + 1e-9)
+
+    @property
     def hurst_in_words(self) -> str:
         """The exponent with its interval, as it is printed."""
         low, high = self.hurst_interval
@@ -168,7 +178,7 @@ class SelfAffineFit:
 
 
 @public
-def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffineFit:
+def fit_self_affine(spectrum: Spectrum) -> SelfAffineFit:
     """Fit a self-affine law with roll-off and cutoff by maximum likelihood.
 
     The mean over the modes of a ring has a gamma distribution (Whittle's likelihood). Its expected
@@ -216,9 +226,26 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     return fit
 
 
+def fitted(body: Body) -> tuple[Spectrum, SelfAffineFit]:
+    """Return the spectrum of a body and the law that fits it, computed once for each body.
+
+    Raises
+    ------
+    InputError
+        If it has no spectrum, or no law fits it.
+    """
+    if body not in _KNOWN:
+        spectrum = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
+        _KNOWN[body] = spectrum, fit_self_affine(spectrum)
+    return _KNOWN[body]
+
+
+_KNOWN: WeakKeyDictionary[Body, tuple[Spectrum, SelfAffineFit]] = WeakKeyDictionary()
+
+
 def _fitted(
-    spectrum: IsotropicSpectrum | ProfileSpectrum,
-    observed: MapRings | ScanBins,
+    spectrum: Spectrum,
+    observed: Observed,
     remarks: tuple[str, ...],
 ) -> SelfAffineFit:
     """The law that explains a spectrum best, and the intervals of all that are likely."""
@@ -254,7 +281,7 @@ def _fitted(
     )
 
 
-def _tail(observed: MapRings | ScanBins, law: Law, q_low: float) -> float | None:
+def _tail(observed: Observed, law: Law, q_low: float) -> float | None:
     """From where on an instrument changes the spectrum; None if it does so nowhere."""
     own, seen = (observed.log_powers(law, seen=each) for each in (False, True))
     inside = np.isfinite(own)
@@ -263,8 +290,8 @@ def _tail(observed: MapRings | ScanBins, law: Law, q_low: float) -> float | None
 
 
 def _observed(
-    spectrum: IsotropicSpectrum | ProfileSpectrum,
-) -> tuple[MapRings | ScanBins, tuple[str, ...]]:
+    spectrum: Spectrum,
+) -> tuple[Observed, tuple[str, ...]]:
     """The spectrum as laws are compared with it, and what speaks against its instrument.
 
     An instrument that contradicts the spectrum's tail is taken as unknown.
@@ -289,15 +316,15 @@ def _observed(
     return unknown, (said,)
 
 
-def _compared(spectrum: IsotropicSpectrum | ProfileSpectrum) -> MapRings | ScanBins:
+def _compared(spectrum: Spectrum) -> Observed:
     if isinstance(spectrum, ProfileSpectrum):
         return ScanBins.of(spectrum)
     return MapRings.of(spectrum)
 
 
 def _within_reach(
-    spectrum: IsotropicSpectrum | ProfileSpectrum,
-) -> IsotropicSpectrum | ProfileSpectrum:
+    spectrum: Spectrum,
+) -> Spectrum:
     """The waves that a tip of known radius follows.
 
     Up to some wavenumber the rms curvature of the waves is small over that of the tip.
@@ -329,7 +356,7 @@ def _scaled(interval: Interval, by: float) -> Interval:
     return interval[0] * by, interval[1] * by
 
 
-def _rms_factors(observed: MapRings | ScanBins, likely: LikelyLaws) -> Real:
+def _rms_factors(observed: Observed, likely: LikelyLaws) -> Real:
     """Rms height of a surface as large as the piece over that of the piece, with both ends.
 
     The mean square of a piece has about a gamma distribution, whose shape is that of its powers.

@@ -45,20 +45,13 @@ def of_heights(body: Body, selves: Sequence[CoarserSelf]) -> Iterable[Finding]:
 
 def _named(body: Body, own: CoarserSelf, what: str) -> str:
     """Name heights or curvatures by the size of their cells."""
-    if own.cell == 1:
-        return f"the {what}"
-    return f"the {what} of{_cells(body, own)}"
+    return f"the {what}" if own.cell == 1 else f"the {what} of{_cells(body, own)}"
 
 
 def _cells(body: Body, own: CoarserSelf) -> str:
     """Name cells by their size."""
-    if own.cell == 1:
-        return " points"
-    return f" cells of {in_words(own.cell * _spacing(body), body.unit, 2)}"
-
-
-def _spacing(body: Body) -> float:
-    return max(body.spacing) if isinstance(body, Surface) else body.spacing
+    spacing = max(body.spacing) if isinstance(body, Surface) else body.spacing
+    return " points" if own.cell == 1 else f" cells of {in_words(own.cell * spacing, body.unit, 2)}"
 
 
 def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[Finding]:
@@ -110,7 +103,7 @@ def _slopes_of_the_highest(body: Body, own: CoarserSelf) -> Iterable[Finding]:
         if variance > 2 / _LEAST_SLOPES:
             continue
         ratio = float(squares[highest].mean()) / mean
-        yield _as_of_all(body, own, share, ratio, variance)
+        yield _as_of_all(f"the highest {share:.0%} of{_cells(body, own)}", ratio, variance)
 
 
 def _mean_and_slopes(heights: Real) -> tuple[Real, list[Real]]:
@@ -128,13 +121,11 @@ def _scatter_within(places: Mask, chance: Chance) -> float:
     if not part.any():
         return math.inf
     total = float((correlated(part, chance.reach) * chance.correlation**2).sum())
-    total /= 1 + chance.correlation.size / chance.count  # the correlation's own scatter adds up
+    total /= chance.own_scatter
     return 2 * max(total / float(part.sum()), 1.0) / float(places.sum())
 
 
-def _as_of_all(
-    body: Body, own: CoarserSelf, share: float, ratio: float, variance: float
-) -> Finding:
+def _as_of_all(places: str, ratio: float, variance: float) -> Finding:
     """Judge the mean square slope of the highest places over that of all."""
     shape = 2 / variance  # of a chi-squared variable with as many degrees of freedom
     score = _HEAVY * score_of_square(shape, ratio)
@@ -145,9 +136,9 @@ def _as_of_all(
             math.sqrt(special.chdtri(shape, each) / shape) for each in (1 - chance, chance)
         )
         return (
-            f"heights are not Gaussian: the rms slope of the highest {share:.0%} of"
-            f"{_cells(body, own)} is {in_digits(math.sqrt(ratio))} of that of all, and chance "
-            f"allows {in_digits(least)} to {in_digits(most)}"
+            f"heights are not Gaussian: the rms slope of {places} is "
+            f"{in_digits(math.sqrt(ratio))} of that of all, and chance allows {in_digits(least)} "
+            f"to {in_digits(most)}"
         )
 
     return Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _AS_OF_ALL, text)

@@ -122,7 +122,7 @@ class Observed(ABC):
         """Deviances and log levels of laws, over (response, node, end); the last end is none."""
         means, at = self.means, self.ends.at[ends]
         weight, added = (each[responses] for each in self._weights)
-        inside, log_share = (each[ends].T for each in (self.ends.inside, self.ends.log_share))
+        inside, log_share = self.ends.inside[ends].T, self.ends.log_share[ends].T
         law, last = self.expected(NODES[nodes], roll, corner, at)
         shares = self.responses.log_share[responses]
         total = (weight @ inside)[:, np.newaxis]

@@ -31,7 +31,8 @@ class LikelyLaws:
         most = 2 * special.gammaincinv(0.5, level)
         most += laws.deviance.min()
         responses = np.flatnonzero(laws.of_responses <= most)
-        return cls(laws, *np.nonzero(laws.deviance <= most), responses)
+        hursts, rolls, ends = np.nonzero(laws.deviance <= most)
+        return cls(laws, hursts, rolls, ends, responses)
 
     @property
     def hurst_interval(self) -> Interval:

@@ -31,113 +31,74 @@ _ROUNDING = 1e-12  # share of the mean square, below which a plane is rounding
 
 @dataclass(frozen=True)
 class LongShape:
-    """The part of heights that lies in polynomials of one degree.
+    """The part of heights that lies in polynomials of one degree."""
 
-    Attributes
-    ----------
-    degree : int
-        1 for a tilt, 2 for a bow.
-    rms : float
-        Its rms height. [length]
-    explained : float
-        That which waves of the piece's own spectrum have in the mean. [length]
-    share : float
-        Its mean square over that of the heights without it. [1]
-    chance : float
-        Chance of as much or more.
-    """
-
-    degree: int
-    rms: float
-    explained: float
-    share: float
-    chance: float
+    degree: int  # 1 for a tilt, 2 for a bow
+    rms: float  # its rms height [length]
+    explained: float  # that which waves of the piece's own spectrum have in the mean [length]
+    share: float  # its mean square over that of the heights without it
+    chance: float  # of as much or more
 
 
 def tilt_of(body: Body) -> tuple[float, ...] | None:
     """Slopes of the plane that a body had before it was levelled; None if it is not known. [1]"""
-    shape = body.heights.shape
-    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
+    sides, shape = _sides(body), body.heights.shape
     removed = [body.settings.get(name) for name in TILT_REMOVED[: len(shape)]]
-    left = slopes_of_plane(body.heights, spacings)
+    left = slopes_of_plane(body.heights, [*(sides / shape)])
     found = [slope + float(before or 0.0) for slope, before in zip(left, removed, strict=True)]
-    sides = [n * spacing for n, spacing in zip(shape, spacings, strict=True)]
-    lies = sum((slope * side) ** 2 / 12 for slope, side in zip(found, sides, strict=True))
+    lies = float(np.square(found * sides).sum()) / 12
     if not any(removed) and lies < _ROUNDING * body.rms_height**2:
         return None
     return tuple(found)
 
 
-def long_shapes(body: Body, fit: SelfAffineFit) -> Iterator[LongShape]:
-    """Yield the tilt, the bow and the third degree of a piece, as far as they are known.
+def long_shapes(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShape]:
+    """Yield the tilt, the bow and the third degree of pieces of one surface, in the mean.
 
-    Parameters
-    ----------
-    body : Surface or Line
-        Cut out of a larger one.
-    fit : SelfAffineFit
-        The law of its spectrum.
-    """
-    sides = body.sizes if isinstance(body, Surface) else (body.length,)
-    squares, counts = _mean_squares(body.detrended())
-    slopes = tilt_of(body)
-    if slopes is not None and body.settings.get(TILT) != MOUNTING:
-        squares[1] = sum((s * side) ** 2 / 12 for s, side in zip(slopes, sides, strict=True))
-    yield from _judged((body, fit), body.detrended().rms_height ** 2, squares, counts, counts)
-
-
-def long_shapes_of_many(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShape]:
-    """Yield the same of several pieces of one surface, in the mean.
-
-    A tilt that all of them have is the mounting's; it counts how much they are tilted differently.
+    As far as they are known. A tilt that several pieces have is the mounting's; it counts how much
+    they are tilted differently.
 
     Parameters
     ----------
     bodies : sequence of (Surface or Line)
-        Two or more, of the same size.
+        Cut out of a larger one, and of the same size.
     fit : SelfAffineFit
         The law of their mean spectrum.
     """
-    found = [_mean_squares(body.detrended()) for body in bodies]
-    squares = np.mean([each for each, _ in found], axis=0)
-    free = found[0][1] * len(bodies)
-    tilts = [None if body.settings.get(TILT) == MOUNTING else tilt_of(body) for body in bodies]
-    known = [tilt for tilt in tilts if tilt is not None]
+    level = [body.detrended() for body in bodies]
+    found = [_mean_squares(each) for each in level]
+    squares, counts = np.mean([each for each, _ in found], axis=0), found[0][1]
+    free, rest = counts * len(bodies), float(np.mean([each.rms_height**2 for each in level]))
+    known = [tilt for body in bodies if (tilt := _own_tilt(body)) is not None]
     if len(known) == len(bodies):
-        first = bodies[0]
-        sides = first.sizes if isinstance(first, Surface) else (first.length,)
-        squares[1] = float((np.var(known, axis=0, ddof=1) * np.square(sides)).sum()) / 12
-        free[1] -= found[0][1][1]
-    rest = float(np.mean([body.detrended().rms_height ** 2 for body in bodies]))
-    yield from _judged((bodies[0], fit), rest, squares, found[0][1], free)
-
-
-def _judged(
-    body_and_fit: tuple[Body, SelfAffineFit], rest: float, squares: Real, counts: Real, free: Real
-) -> Iterator[LongShape]:
-    """Yield shapes of given mean squares over `counts` polynomials, with degrees of freedom."""
-    body, fit = body_and_fit
-    laws = [_expected(body, fit.hurst, roll) for roll in _rolls(fit)]
+        tilts = np.square(_sides(bodies[0]) * (known - np.mean(known, axis=0) * (len(known) > 1)))
+        squares[1] = float(tilts.sum()) / 12 / max(1, len(known) - 1)
+        free[1] -= counts[1] * (len(known) > 1)
+    laws = [_expected(bodies[0], fit.hurst, roll) for roll in _rolls(fit)]
     own = slice(_OWN, _DEGREES)
     for degree in range(1, _OWN):
         if squares[degree] <= _ROUNDING * rest:  # removed, and not known
             continue
-        found = []
+        judged = []
         for law in laws:
-            level = float((squares[own] / law[own]).sum() / counts[own].sum())
-            explained = law[degree] * level
+            level_of_law = float((squares[own] / law[own]).sum() / counts[own].sum())
+            explained = law[degree] * level_of_law
             ratio = squares[degree] / counts[degree] / explained
             chance = float(special.fdtrc(free[degree], free[own].sum(), ratio))
-            found.append((chance, explained * counts[degree]))
-        chance, explained = max(found)
+            judged.append((chance, explained * counts[degree]))
+        chance, explained = max(judged)
         without = max(rest - (squares[degree] if degree > 1 else 0.0), _ROUNDING * rest)
-        yield LongShape(
-            degree,
-            math.sqrt(squares[degree]),
-            math.sqrt(explained),
-            float(squares[degree]) / without,
-            chance,
-        )
+        share, rms = float(squares[degree]) / without, math.sqrt(squares[degree])
+        yield LongShape(degree, rms, math.sqrt(explained), share, chance)
+
+
+def _own_tilt(body: Body) -> tuple[float, ...] | None:
+    """The tilt of a body if it is known, and not its mounting's."""
+    return None if body.settings.get(TILT) == MOUNTING else tilt_of(body)
+
+
+def _sides(body: Body) -> Real:
+    return np.array(body.sizes if isinstance(body, Surface) else [body.length])
 
 
 def _rolls(fit: SelfAffineFit) -> list[float]:

@@ -12,8 +12,7 @@ from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.spectra.departures import departures, judged
-from roughline.spectra.fit import SelfAffineFit
-from roughline.spectra.fitted import fitted
+from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropy
 from roughline.spectra.profile import ProfileSpectrum
 from roughline.topography.body import Body, Line, Surface
@@ -120,12 +119,9 @@ def roughness(body: Body) -> Roughness:
     remarks, spectrum, fit = [*border_doubts(body)], None, None
     remarks += [each.text for each in departures(body)]
     try:
-        estimate, law = fitted(body)
-        if isinstance(law, SelfAffineFit):
-            spectrum, fit = estimate, judged(body, law)
-            remarks += fit.objections
-        else:
-            remarks.append(str(law))
+        spectrum, law = fitted(body)
+        fit = judged(body, law)
+        remarks += fit.objections
     except InputError as error:
         remarks.append(str(error))
     ratio = isotropy(body) if isinstance(body, Surface) else None

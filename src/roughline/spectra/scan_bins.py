@@ -74,7 +74,7 @@ class ScanBins(Observed):
             margins=np.append(np.diff(self.edges)[last[:-1]], 0.0),
             inside=np.arange(bins) <= last[:, np.newaxis],
             log_share=np.zeros((last.size, bins)),
-            beyond=np.array([self.means.free_deviance(each + 1) for each in last]),
+            beyond=np.array([self.means.free_deviance(int(each) + 1) for each in last]),
         )
 
     def expected(self, hursts: Real, roll: float, corner: Corner, ends: Real) -> tuple[Real, Real]:
@@ -103,9 +103,7 @@ class ScanBins(Observed):
         own, seen = (np.exp(self.log_powers(law, seen=each)) for each in (False, True))
         piece = float(cuts.mean_square @ levels)
         more = float(self.modes @ (seen - own))
-        return float(modes_of_surface(cuts.edges) @ levels), max(
-            piece + more, _LEAST_LEFT * piece
-        )
+        return float(modes_of_surface(cuts.edges) @ levels), max(piece + more, _LEAST_LEFT * piece)
 
     def surfaces(self, count: int, generator: np.random.Generator) -> Iterator[Real]:
         """Draw spectra of surfaces that the scan may have been cut from.

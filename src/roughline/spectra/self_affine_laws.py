@@ -191,8 +191,8 @@ class Laws:
     def at(self, hurst: int, roll: int, end: int) -> Law:
         """The law of some indices, with its best explanation."""
         corner, response = self.explanations[self.explained[hurst, roll, end]]
-        values = (HURSTS[hurst], self.rolls[roll], self.ends[end])
-        return Law(*map(float, values), corner, response)
+        h, q_roll, q_end = map(float, (HURSTS[hurst], self.rolls[roll], self.ends[end]))
+        return Law(h, q_roll, q_end, corner, response)
 
     def drawn(self, count: int, generator: np.random.Generator) -> tuple[Indices, Indices, Indices]:
         """Draw laws by their likelihood, as indices.
