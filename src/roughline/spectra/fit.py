@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -243,11 +244,7 @@ def fitted(body: Body) -> tuple[Spectrum, SelfAffineFit]:
 _KNOWN: WeakKeyDictionary[Body, tuple[Spectrum, SelfAffineFit]] = WeakKeyDictionary()
 
 
-def _fitted(
-    spectrum: Spectrum,
-    observed: Observed,
-    remarks: tuple[str, ...],
-) -> SelfAffineFit:
+def _fitted(spectrum: Spectrum, observed: Observed, remarks: tuple[str, ...]) -> SelfAffineFit:
     """The law that explains a spectrum best, and the intervals of all that are likely."""
     q_low, last = 2 * math.pi / spectrum.length, float(observed.means.q[-1])
     laws = observed.laws
@@ -260,6 +257,7 @@ def _fitted(
     first_end, last_end = likely.end_interval
     rms, lowest_rms, highest_rms = spectrum.rms_height * _rms_factors(observed, likely)
     blurs = observed.responses.blurs
+    least_blur, most_blur = likely.blur_interval(blurs)
     return SelfAffineFit(
         hurst=hurst,
         hurst_interval=likely.hurst_interval,
@@ -275,7 +273,7 @@ def _fitted(
         q_last=q_low * last,
         corner=corner,
         blur=float(blurs[response]) * spectrum.spacing,
-        blur_interval=_scaled(likely.blur_interval(blurs), spectrum.spacing),
+        blur_interval=(least_blur * spectrum.spacing, most_blur * spectrum.spacing),
         q_tail=_tail(observed, law, q_low),
         remarks=remarks,
     )
@@ -289,9 +287,7 @@ def _tail(observed: Observed, law: Law, q_low: float) -> float | None:
     return q_low * float(observed.means.q[changed.argmax()]) if changed.any() else None
 
 
-def _observed(
-    spectrum: Spectrum,
-) -> tuple[Observed, tuple[str, ...]]:
+def _observed(spectrum: Spectrum) -> tuple[Observed, tuple[str, ...]]:
     """The spectrum as laws are compared with it, and what speaks against its instrument.
 
     An instrument that contradicts the spectrum's tail is taken as unknown.
@@ -322,9 +318,7 @@ def _compared(spectrum: Spectrum) -> Observed:
     return MapRings.of(spectrum)
 
 
-def _within_reach(
-    spectrum: Spectrum,
-) -> Spectrum:
+def _within_reach(spectrum: Spectrum) -> Spectrum:
     """The waves that a tip of known radius follows.
 
     Up to some wavenumber the rms curvature of the waves is small over that of the tip.
@@ -342,18 +336,13 @@ def _within_reach(
             f"a tip of radius {radius:.3g} follows {n} wavenumbers of the spectrum; a fit needs "
             f"{LEAST_MEANS}: check tip_radius, or measure with a finer tip"
         )
-    modes = spectrum.modes[:n]
-    if isinstance(spectrum, ProfileSpectrum):
-        edges = spectrum.edges[: n + 1]
-        return replace(
-            spectrum, q=q[:n], C_profile=spectrum.C_profile[:n], modes=modes, edges=edges
-        )
-    independent = np.broadcast_to(spectrum.independent, q.shape)[:n]
-    return replace(spectrum, q=q[:n], C_2d=spectrum.C_2d[:n], modes=modes, independent=independent)
-
-
-def _scaled(interval: Interval, by: float) -> Interval:
-    return interval[0] * by, interval[1] * by
+    # edges are one more than wavenumbers
+    longest: dict[str, Any] = {
+        name: value[: value.size - q.size + n]
+        for name, value in vars(spectrum).items()
+        if isinstance(value, np.ndarray)
+    }
+    return replace(spectrum, **longest)
 
 
 def _rms_factors(observed: Observed, likely: LikelyLaws) -> Real:

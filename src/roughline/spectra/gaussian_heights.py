@@ -59,9 +59,7 @@ def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[F
     third, fourth = chance.independent(3), chance.independent(4)
     if min(third, fourth) < _LEAST_VALUES or not values.any():
         return
-    values = values - values.mean()
-    values /= values.std()
-    skewness, kurtosis = float((values**3).mean()), float((values**4).mean())
+    skewness, kurtosis = skewness_and_kurtosis(values)
 
     def skewed(limit: float) -> str:
         return (
@@ -78,6 +76,20 @@ def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[F
     yield Finding(skewness_score(skewness, third), abs(skewness) / _SKEW, skewed)
     gravity = (kurtosis - 3) / (excess if kurtosis > 3 else -_LACK)
     yield Finding(kurtosis_score(kurtosis, fourth), gravity, tailed)
+
+
+def skewness_and_kurtosis(values: Real) -> tuple[float, float]:
+    """Skewness and kurtosis; their rounding does not depend on the scale of the values."""
+    deviation = values - values.mean()
+    largest = float(np.abs(deviation).max())
+    if largest == 0 or float(np.ptp(values)) == 0:
+        return math.nan, math.nan
+    deviation /= largest
+    variance = float((deviation**2).mean())
+    return (
+        float((deviation**3).mean()) / variance**1.5,
+        float((deviation**4).mean()) / variance**2,
+    )
 
 
 def _slopes_of_the_highest(body: Body, own: CoarserSelf) -> Iterable[Finding]:

@@ -140,24 +140,10 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     >>> print(spectrum.q[:3].round(2), spectrum.C_2d.shape == spectrum.q.shape)
     [ 6.28 12.57 18.85] True
     """
-    if min(surface.shape) < 8:
-        raise InputError(f"the surface has {surface.shape} points; a spectrum needs 8 x 8 or more")
     level = surface.detrended() if surface.is_cut_out else surface
-    heights = level.heights - level.heights.mean()
-    rms = math.sqrt(float((heights**2).mean()))
-    if rms == 0:
-        raise InputError("the heights are constant: they have no spectrum")
-    if surface.is_cut_out:
-        windows = [np.hanning(n + 1)[:-1] for n in surface.shape]
-        window = np.outer(*windows)
-        heights = heights * window / math.sqrt(float((window**2).mean()))
-    power = np.abs(fft.analyse(heights)) ** 2 / heights.size**2
+    q, power = waves_of(level)
     q_low = 2 * math.pi / surface.length
-    qx, qy = (
-        2 * np.pi * np.fft.fftfreq(n, spacing)
-        for n, spacing in zip(surface.shape, surface.spacing, strict=True)
-    )
-    along = np.hypot(qx[:, np.newaxis], qy).ravel() / q_low
+    along = q.ravel() / q_low
     ring = np.rint(along).astype(np.intp)
     inside = np.abs(along - ring) <= RING_HALF_WIDTH
     last = int(min(np.pi / spacing for spacing in surface.spacing) / q_low - 0.5)
@@ -174,7 +160,7 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
         q=q_low * waves,
         C_2d=mean / cell,
         length=surface.length,
-        rms_height=rms,
+        rms_height=level.rms_height,
         modes=counts,
         windowed=surface.is_cut_out,
         aspect=surface.sizes[0] / surface.sizes[1],
@@ -185,14 +171,34 @@ def isotropic_spectrum(surface: Surface) -> IsotropicSpectrum:
     )
 
 
-def mean_spectrum(spectra: Sequence[IsotropicSpectrum]) -> IsotropicSpectrum:
-    """Average the spectra of pieces of one surface, of the same size and points.
+def waves_of(surface: Surface) -> tuple[Real, Real]:
+    """Wavenumbers of the modes of a surface, and their shares of <h²>, as an FFT orders them.
 
-    Parameters
-    ----------
-    spectra : sequence of IsotropicSpectrum
-        One or more, with the same waves.
+    A piece of a larger surface is seen through a Hann window.
+
+    Raises
+    ------
+    InputError
+        As for :func:`isotropic_spectrum`.
     """
+    if min(surface.shape) < 8:
+        raise InputError(f"the surface has {surface.shape} points; a spectrum needs 8 x 8 or more")
+    heights = surface.heights - surface.heights.mean()
+    if not np.square(heights).any():
+        raise InputError("the heights are constant: they have no spectrum")
+    if surface.is_cut_out:
+        window = np.outer(*(np.hanning(n + 1)[:-1] for n in surface.shape))
+        heights = heights * window / math.sqrt(float((window**2).mean()))
+    power = np.abs(fft.analyse(heights)) ** 2 / heights.size**2
+    qx, qy = (
+        2 * np.pi * np.fft.fftfreq(n, spacing)
+        for n, spacing in zip(surface.shape, surface.spacing, strict=True)
+    )
+    return np.hypot(qx[:, np.newaxis], qy), power
+
+
+def mean_spectrum(spectra: Sequence[IsotropicSpectrum]) -> IsotropicSpectrum:
+    """Average the spectra of pieces of one surface, of the same size and points."""
     squares = [each.rms_height**2 for each in spectra]
     return replace(
         spectra[0],

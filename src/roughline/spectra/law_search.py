@@ -112,8 +112,8 @@ class Observed(ABC):
         power = values[0, :, 0]
         if seen:
             node = int(np.abs(NODES - hurst).argmin())
-            some = self.responses.at(slice(node, node + 1))
-            power = some.seen(response, values[:, :, 0], last)[0]
+            nodes = slice(node, node + 1)
+            power = self.responses.seen(response, nodes, values[:, :, 0], last)[0]
         return np.where(self.means.q <= end, power, -math.inf)
 
     def deviances(
@@ -138,7 +138,7 @@ class Observed(ABC):
         folds = np.flatnonzero(self.responses.reaches[responses] > 1)
         if folds.size:  # of laws without an end alone
             deviance[folds] = IMPOSSIBLE
-            seen = self.responses.at(nodes).seen(responses[folds], law[:, :, -1], last)
+            seen = self.responses.seen(responses[folds], nodes, law[:, :, -1], last)
             found = means.endless(seen, weight[folds], added[folds])
             deviance[folds, :, -1], log_level[folds, :, -1] = found
         return deviance, log_level

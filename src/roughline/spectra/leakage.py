@@ -40,36 +40,21 @@ _OF_A_RING = 24  # modes that are computed of a large ring
 
 @dataclass(frozen=True, eq=False)
 class Leakage:
-    """Expected power in the longest modes of a piece, from the waves of its surface.
+    """Expected power in the longest modes of a piece, from ranges of waves of its surface. [q_low]
 
-    Attributes
-    ----------
-    edges : ndarray, shape (waves + 1,)
-        Ends of the ranges of waves. [q_low]
-    waves : ndarray, shape (waves,)
-        Their middles. [q_low]
-    response : ndarray, shape (rings or functions, waves)
-        Power in each ring of a map, or of each function of a scan, for a spectrum of one in a
-        range of waves: C_2d for a map, C_profile for a scan. [1]
-    kept : ndarray, shape (waves,)
-        Share of the waves' mean square that is left without the mean plane. [1]
+    It is that in each ring of a map, or of each function of a scan, for a spectrum of one in a
+    range of waves: C_2d for a map, C_profile for a scan.
     """
 
-    edges: Real
-    waves: Real
-    response: Real
-    kept: Real
+    edges: Real  # of the ranges
+    waves: Real  # their middles
+    response: Real  # over (ring or function, range)
+    kept: Real  # share of the waves' mean square that is left without the mean plane
 
 
 @lru_cache(maxsize=8)
 def map_leakage(aspect: float = 1.0) -> Leakage:
-    """Leakage into the longest rings of a map, the mean over all directions.
-
-    Parameters
-    ----------
-    aspect : float
-        Lx / Ly. [1]
-    """
+    """Leakage into the longest rings of a map of some Lx / Ly, the mean over all directions."""
     sides = _sides(aspect)
     reach = _REACH / min(sides)
     edges = _edges(_MODES + reach)
@@ -114,17 +99,8 @@ def scan_leakage() -> Leakage:
 def power_inside(aspect: float = 1.0) -> tuple[Real, Real]:
     """Share of a ring's power that comes from waves below an end of the spectrum.
 
-    It is computed far from the longest waves, where it depends on the distance to the end alone.
-
-    Parameters
-    ----------
-    aspect : float
-        Lx / Ly of the map. [1]
-
-    Returns
-    -------
-    distance, share : ndarray
-        Wavenumber of the end less the ring's, rising [q_low]; the share rises from 0 to 1. [1]
+    It is computed far from the longest waves, where it depends alone on the distance to the end,
+    which is its wavenumber less the ring's. The distances rise, and the share from 0 to 1.
     """
     sides = _sides(aspect)
     far, steps = 200.0, 16

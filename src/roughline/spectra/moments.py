@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.computing import fft
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
+from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum, waves_of
 from roughline.spectra.lattice import ContinuumSpectrum, LatticeSpectrum, lattice_waves
+from roughline.spectra.leakage import RING_HALF_WIDTH
 from roughline.spectra.self_affine import SelfAffine
 from roughline.topography.body import Surface
 
@@ -20,23 +20,14 @@ SurfaceOrSpectrum = Surface | SelfAffine | ContinuumSpectrum | LatticeSpectrum |
 
 _PER_DECADE = 200  # bands of wavenumbers
 _ROUNDING = 1e-20  # of the largest C_2d, below which a transform's rounding lies
-_RING = 0.25  # half width of the rings of an IsotropicSpectrum, in waves along its length
 
 
 @dataclass(frozen=True, eq=False)
 class Bands:
-    """A roughness as shares of <h²> over wavenumbers.
+    """A roughness as shares of <h²> over wavenumbers."""
 
-    Attributes
-    ----------
-    q : ndarray
-        Wavenumbers, ascending. [1 / length]
-    power : ndarray
-        <h²> of the waves at each; their sum is that of the roughness. [length²]
-    """
-
-    q: Real
-    power: Real
+    q: Real  # ascending [1 / length]
+    power: Real  # <h²> of the waves at each; their sum is that of the roughness [length²]
 
 
 def bands(roughness: SurfaceOrSpectrum) -> Bands:
@@ -55,7 +46,8 @@ def bands(roughness: SurfaceOrSpectrum) -> Bands:
     if isinstance(roughness, Surface):
         if roughness.is_cut_out:
             return bands(isotropic_spectrum(roughness))
-        return _gathered([_waves_of(roughness)])
+        q, power = waves_of(roughness)
+        return _gathered([(q.ravel()[1:], power.ravel()[1:])])
     if isinstance(roughness, LatticeSpectrum):
         if roughness.body == "line":
             raise InputError(
@@ -68,22 +60,6 @@ def bands(roughness: SurfaceOrSpectrum) -> Bands:
     return _integrated(continuum)
 
 
-def _waves_of(surface: Surface) -> tuple[Real, Real]:
-    """Wavenumbers and shares of <h²> of all waves of a periodic surface."""
-    if min(surface.shape) < 8:
-        raise InputError(f"the surface has {surface.shape} points; a spectrum needs 8 x 8 or more")
-    heights = surface.heights - surface.heights.mean()
-    if not heights.any():
-        raise InputError("the heights are constant: they have no spectrum")
-    power = np.abs(fft.analyse(heights)) ** 2 / heights.size**2
-    along, across = (
-        2 * np.pi * np.fft.fftfreq(n, spacing)
-        for n, spacing in zip(surface.shape, surface.spacing, strict=True)
-    )
-    q = np.hypot(along[:, np.newaxis], across)
-    return q.ravel()[1:], power.ravel()[1:]
-
-
 def _averaged(spectrum: IsotropicSpectrum) -> Bands:
     """Shares of a spectrum that was averaged over directions."""
     q_0 = 2 * math.pi / spectrum.length
@@ -92,7 +68,7 @@ def _averaged(spectrum: IsotropicSpectrum) -> Bands:
     rings = spectrum.q.size
     within = np.concatenate([q for q, _ in lattice_waves(1.0, 2 * rings + 1)])
     ring = np.rint(within).astype(np.intp)
-    near = np.abs(within - ring) <= _RING
+    near = np.abs(within - ring) <= RING_HALF_WIDTH
     # the waves of a ring are not its middle: of the second, they are 2 and sqrt(5)
     middle = np.bincount(ring[near], within[near]) / np.maximum(np.bincount(ring[near]), 1)
     middle = middle[1 : rings + 1]

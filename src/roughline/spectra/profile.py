@@ -74,42 +74,23 @@ class ProfileSpectrum:
 class Cuts:
     """Expected spectrum of straight cuts, from levels of the surface's spectrum.
 
-    Wavenumbers are in units of the cut's q_low.
-
-    Attributes
-    ----------
-    edges : ndarray, shape (levels + 1,)
-        Ends of the ranges in which C_2d falls like q^-3 from a level. They begin with waves that
-        are longer than the cut, go on with its own, and end beyond the shortest.
-    q : ndarray, shape (levels,)
-        Geometric middles, at which C_2d has its levels.
-    matrix : ndarray, shape (means, levels)
-        C_profile as :func:`profile_spectrum` estimates it, for a level of one.
-    mean_square : ndarray, shape (levels,)
-        Expected mean square of the heights, without mean and tilt, for a level of one.
+    Wavenumbers are in units of the cut's q_low. C_2d has its levels at geometric middles of ranges
+    in which it falls like q^-3. They begin with waves that are longer than the cut, go on with its
+    own, and end beyond the shortest.
     """
 
-    edges: Real
-    q: Real
-    matrix: Real
-    mean_square: Real
-
-    @property
-    def longer(self) -> int:
-        """Number of levels of waves longer than the cut; the levels of its own waves follow."""
-        return LONGER.size
+    edges: Real  # of the ranges
+    q: Real  # their geometric middles
+    matrix: Real  # C_profile as :func:`profile_spectrum` estimates it, over (mean, level)
+    mean_square: Real  # expected of the heights, without mean and tilt, for a level of one
 
 
 def cuts_of_surface(edges: Real) -> Cuts:
     """Compute the spectrum that cuts of a surface are expected to have.
 
     C_profile follows by Abel's integral, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). The longest
-    waves are smeared by the ends of the cut and by the tilt that is removed.
-
-    Parameters
-    ----------
-    edges : ndarray, shape (bins + 1,)
-        Ends of the ranges of a :class:`ProfileSpectrum`. [q_low]
+    waves are smeared by the ends of the cut and by the tilt that is removed. The edges are those of
+    a :class:`ProfileSpectrum`. [q_low]
     """
     ends = np.concatenate([LONGER, edges, edges[-1] * _BEYOND])
     low, high = ends[:-1], ends[1:]

@@ -6,7 +6,7 @@ Wavenumbers are in units of the Nyquist wavenumber pi / spacing here, and length
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal, cast
 
@@ -37,33 +37,15 @@ _PLACES = 24  # between which images of shorter waves are interpolated
 
 @dataclass(frozen=True)
 class Instrument:
-    """What is known of the instrument that measured heights.
+    """What is known of the instrument that measured heights; None where it is not known."""
 
-    Attributes
-    ----------
-    pixels : {"means", "points"} or None
-        Whether heights are means over pixels or those of points; None if that is not known.
-    blur : float or None
-        Standard deviation of its Gaussian blur, in spacings; None if it is not known.
-    tip_radius : float or None
-        Radius of a tip; None if there is none, or it is not known. [length]
-    """
-
-    pixels: Pixels | None = None
-    blur: float | None = None
-    tip_radius: float | None = None
+    pixels: Pixels | None = None  # whether heights are means over pixels or those of points
+    blur: float | None = None  # standard deviation of its Gaussian blur, in spacings
+    tip_radius: float | None = None  # radius of a tip [length]
 
     @classmethod
     def of(cls, settings: Settings, spacing: float) -> Instrument:
-        """Take what settings of a body say.
-
-        Parameters
-        ----------
-        settings : mapping
-            Of a body.
-        spacing : float
-            Of its points. [length]
-        """
+        """Take what the settings of a body say whose points have a spacing."""
         pixels, blur, radius = (settings.get(name) for name in ("pixels", "blur", "tip_radius"))
         return cls(
             cast(Pixels, pixels) if pixels in ("means", "points") else None,
@@ -78,61 +60,44 @@ UNKNOWN = Instrument()
 
 @dataclass(frozen=True, eq=False)
 class Responses:
-    """What an instrument may do, each at the wavenumbers of a spectrum.
+    """What an instrument may do, each at the wavenumbers of a spectrum."""
 
-    Attributes
-    ----------
-    blurs, reaches : ndarray, shape (responses,)
-        Standard deviation of its blur; end of the surface's waves, 1 if none are too short for it,
-        and infinite where there is noise instead.
-    log_share : ndarray, shape (responses, means)
-        Logarithm of the share of their power that waves keep.
-    folded : ndarray, shape (responses, hursts, means)
-        Power of waves that are too short, which appear as longer ones, or of noise, over that of
-        the surface at the Nyquist wavenumber.
-    unknown : ndarray, shape (responses, means)
-        Variance of the logarithm of the power, as responses are not known exactly.
-    is_second_end : ndarray of bool, shape (responses,)
-        Whether it ends a spectrum, so that another end is one cause more than is needed: a blur of
-        more than pixels that are means, where it is not known.
+    blurs: Real  # standard deviation of its blur
+    reaches: Real  # end of the surface's waves; 1 if none are too short, infinite for noise instead
+    log_share: Real  # logarithm of the share of their power that waves keep, over (response, mean)
+    folded: Real
+    """Power of waves that are too short, which appear as longer ones, or of noise.
+
+    Over that of the surface at the Nyquist wavenumber, over (response, hurst, mean).
     """
 
-    blurs: Real
-    reaches: Real
-    log_share: Real
-    folded: Real
     unknown: Real
+    """Variance of the logarithm of the power, over (response, mean).
+
+    Responses are not known exactly.
+    """
+
     is_second_end: Mask
+    """Whether it ends a spectrum, so that another end is one cause more than is needed.
+
+    That is a blur of more than pixels that are means, where it is not known.
+    """
 
     @classmethod
     def of(cls, instrument: Instrument, u: Real, hursts: Real, dimensions: int) -> Responses:
         """List what an instrument may do to a map, or to a scan of one dimension.
 
-        Parameters
-        ----------
-        instrument : Instrument
-            What is known of it.
-        u : ndarray, shape (means,)
-            Wavenumbers of the spectrum.
-        hursts : ndarray, shape (hursts,)
-            Exponents.
-        dimensions : {1, 2}
-            Of the grid.
+        At wavenumbers u, and for surfaces of some exponents.
         """
-        means = instrument.pixels == "means"
-        tried = BLURS if instrument.blur is None else np.array([instrument.blur])
+        means, known = instrument.pixels == "means", instrument.blur is not None
+        tried = np.array([instrument.blur]) if known else BLURS
         sharp = tried[tried <= _FOLDS][::_EACH]
         noisy = sharp[: 1 if means else 3 : 2]
-        blurs = np.concatenate(
-            [tried, np.repeat(sharp, len(_REACHES)), np.repeat(noisy, _NOISES.size)]
-        )
-        reaches = np.ones(blurs.size)
-        reaches[tried.size : tried.size + sharp.size * len(_REACHES)] = np.tile(
-            _REACHES, sharp.size
-        )
-        reaches[tried.size + sharp.size * len(_REACHES) :] = np.inf
-        pixel = _pixel_means(u, dimensions) if means else np.zeros(u.size)
-        blurred = -((math.pi * blurs[:, np.newaxis] * u) ** 2)
+        blurs, reaches = np.array(
+            [(blur, 1.0) for blur in tried]
+            + [(blur, reach) for blur in sharp for reach in _REACHES]
+            + [(blur, math.inf) for blur in noisy for _ in _NOISES]
+        ).T
         folded = np.zeros((blurs.size, hursts.size, u.size))
         places, images = _images(tuple(hursts), dimensions, means, tuple(sharp))
         for i, image in enumerate(images, tried.size):
@@ -140,30 +105,20 @@ class Responses:
         exponents = -(2 * hursts + dimensions)[:, np.newaxis]
         for i, crossing in enumerate(np.tile(_NOISES, noisy.size), len(images) + tried.size):
             folded[i] = crossing**exponents
+        blurred = -((math.pi * blurs[:, np.newaxis] * u) ** 2)
         effect = folded[:, hursts.size // 2] * np.minimum(u, 1.0) ** (1 + dimensions)  # at H = 0.5
-        unknown = blurred if instrument.blur is None else np.zeros(blurred.shape)
-        uncertain = (_KNOWN * (np.abs(unknown) + np.log1p(effect))) ** 2
-        second = (blurs > AS_PIXELS) & (instrument.blur is None)
-        return cls(blurs, reaches, blurred + pixel, folded, uncertain, second)
+        unknown = (_KNOWN * ((not known) * np.abs(blurred) + np.log1p(effect))) ** 2
+        pixel = _pixel_means(u, dimensions) if means else 0.0
+        second = (blurs > AS_PIXELS) & (not known)
+        return cls(blurs, reaches, blurred + pixel, folded, unknown, second)
 
-    def at(self, hursts: slice) -> Responses:
-        """The same for some of the exponents."""
-        return replace(self, folded=self.folded[:, hursts])
+    def seen(self, which: int | Indices, nodes: slice, law: Real, last: Real) -> Real:
+        """Logarithm of the expected power of laws of some exponents, as the instrument sees them.
 
-    def seen(self, which: int | Indices, law: Real, last: Real) -> Real:
-        """Logarithm of the expected power of laws, as the instrument sees them.
-
-        Parameters
-        ----------
-        which : int or ndarray, shape (responses,)
-            The responses.
-        law : ndarray, shape (hursts, means)
-            Logarithm of the power of the surface.
-        last : ndarray, shape (hursts,)
-            The same at the Nyquist wavenumber.
+        The surface's is given over (hurst, mean), and at the Nyquist wavenumber.
         """
         kept = law + self.log_share[which][..., np.newaxis, :]
-        folded = self.folded[which]
+        folded = self.folded[:, nodes][which]
         if not folded.any():
             return kept
         return np.asarray(np.log(np.exp(kept) + np.exp(last)[:, np.newaxis] * folded))
@@ -175,7 +130,7 @@ def _pixel_means(u: Real, dimensions: int) -> Real:
         return np.asarray(2 * np.log(np.sinc(u / 2)))
     angles = _angles()
     x, y = np.outer(u, np.cos(angles)), np.outer(u, np.sin(angles))
-    return np.asarray(np.log((np.sinc(x / 2) * np.sinc(y / 2)).__pow__(2).mean(axis=1)))
+    return np.asarray(np.log(((np.sinc(x / 2) * np.sinc(y / 2)) ** 2).mean(axis=1)))
 
 
 @lru_cache(maxsize=8)

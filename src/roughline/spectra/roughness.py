@@ -13,6 +13,7 @@ from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.spectra.departures import departures, judged
 from roughline.spectra.fit import SelfAffineFit, fitted
+from roughline.spectra.gaussian_heights import skewness_and_kurtosis
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropy
 from roughline.spectra.profile import ProfileSpectrum
 from roughline.topography.body import Body, Line, Surface
@@ -114,7 +115,7 @@ def roughness(body: Body) -> Roughness:
         raise InputError(
             "this is a reduced line, made for springs, and not a topography: describe its surface"
         )
-    skewness, kurtosis = _shape(body.heights)
+    skewness, kurtosis = skewness_and_kurtosis(body.heights)
     summits = _summits(body.heights)
     remarks, spectrum, fit = [*border_doubts(body)], None, None
     remarks += [each.text for each in departures(body)]
@@ -131,25 +132,11 @@ def roughness(body: Body) -> Roughness:
         skewness=skewness,
         kurtosis=kurtosis,
         summits=summits.size,
-        summit_skewness=_shape(summits)[0] if summits.size > 2 else math.nan,
+        summit_skewness=skewness_and_kurtosis(summits)[0] if summits.size > 2 else math.nan,
         isotropy=ratio,
         spectrum=spectrum,
         fit=fit,
         remarks=remarks,
-    )
-
-
-def _shape(heights: Real) -> tuple[float, float]:
-    """Skewness and kurtosis; their rounding does not depend on the scale of the heights."""
-    deviation = heights - heights.mean()
-    largest = float(np.abs(deviation).max())
-    if largest == 0 or float(np.ptp(heights)) == 0:
-        return math.nan, math.nan
-    deviation /= largest
-    variance = float((deviation**2).mean())
-    return (
-        float((deviation**3).mean()) / variance**1.5,
-        float((deviation**4).mean()) / variance**2,
     )
 
 
