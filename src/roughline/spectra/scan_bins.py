@@ -172,13 +172,18 @@ class ScanBins(Observed):
 
         Longer waves make the mean square of the piece larger than its own waves do.
         """
+        waves, left = self._left
+        level = np.exp(power_law(waves, np.array([law.hurst]), law.roll, law.corner)[0])
+        return max(0.0, float(left @ level)) / (2 * math.pi)
+
+    @cached_property
+    def _left(self) -> tuple[Real, Real]:
+        """Waves of a surface, and what its piece has of each beside its own modes."""
         leakage = map_leakage()
         seen = leakage.edges[1:] < self.edges[-1]
-        hurst, roll, _, corner, _ = law
-        level = np.exp(power_law(leakage.waves[seen], np.array([hurst]), roll, corner)[0])
-        area = np.pi * np.diff(leakage.edges**2)[seen]
-        waves = modes_of_surface(leakage.edges)[seen]
-        return max(0.0, float((area * leakage.kept[seen] - waves) @ level)) / (2 * math.pi)
+        area = np.pi * np.diff(leakage.edges**2)
+        left = area * leakage.kept - modes_of_surface(leakage.edges)
+        return leakage.waves[seen], left[seen]
 
 
 @dataclass(frozen=True, eq=False)
