@@ -7,6 +7,7 @@ import pytest
 
 import roughline as rl
 from benchmarks.made_surfaces import GAUSSIAN, SIDE, Make, parent_of, piece_of
+from roughline.spectra.coarser_selves import coarser_selves
 from roughline.spectra.departures import departures
 
 
@@ -70,6 +71,19 @@ def test_flat_summits_and_steps_of_the_heights_are_told():
     rounded = rl.Surface(np.round(heights / 4e-7) * 4e-7, (SIDE, SIDE), "m")
     assert "resolution" in broken(rounded)
     assert broken(rl.Surface(np.zeros((64, 64)), (SIDE, SIDE), "m", is_cut_out=True)) == set()
+
+
+def test_a_map_of_four_times_the_area_shows_four_times_the_independent_values():
+    """Also beyond the 512 points along a side from which correlations are taken."""
+    heights = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=100.0).surface(1024, 3).heights
+    small, large = (
+        next(coarser_selves(rl.Surface(h, (1.0, 1.0)))) for h in (heights[:512, :512], heights)
+    )
+    for of_small, of_large in (
+        (small.of_heights, large.of_heights),
+        (small.of_detail, large.of_detail),
+    ):
+        assert of_large.independent(3) == pytest.approx(4 * of_small.independent(3), rel=0.3)
 
 
 def test_a_reduced_line_departs_from_nothing():

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 import roughline as rl
 from benchmarks.made_surfaces import Make, measured, parent_of, piece_of
@@ -246,6 +247,17 @@ def test_what_is_told_of_the_instrument_narrows_the_interval():
     assert known.blur == pytest.approx(body.spacing[0])
     assert np.ptp(known.hurst_interval) < np.ptp(unknown.hurst_interval)
     assert known.hurst_interval[0] <= hurst <= known.hurst_interval[1]
+
+
+def test_a_law_may_end_on_a_map_whose_blur_is_told():
+    spectrum = rl.SelfAffine(hurst=0.7, rms_height=1.0, q_roll=6 * Q_0, q_high=30 * Q_0)
+    blurred = ndimage.gaussian_filter(spectrum.surface(128, 5, "gaussian").heights, 1, mode="wrap")
+    instrument = {"pixels": "points", "blur": 1 / 128}
+    told = rl.Surface(blurred, (1.0, 1.0), settings=instrument, is_cut_out=False)
+    fit = fit_self_affine(isotropic_spectrum(told))
+    assert fit.remarks == ()
+    assert fit.hurst_interval[0] <= 0.7 <= fit.hurst_interval[1]
+    assert fit.q_high_interval[0] <= 30 * Q_0 <= fit.q_high_interval[1]
 
 
 def test_a_blurred_map_told_to_be_of_points_is_said():
