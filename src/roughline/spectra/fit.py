@@ -179,7 +179,7 @@ class SelfAffineFit:
 
 
 @public
-def fit_self_affine(spectrum: Spectrum) -> SelfAffineFit:
+def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffineFit:
     """Fit a self-affine law with roll-off and cutoff by maximum likelihood.
 
     The mean over the modes of a ring has a gamma distribution (Whittle's likelihood). Its expected
