@@ -41,16 +41,8 @@ def are_close(factor: float) -> bool:
 def warn_of_difference(name: str, factor: float, body: BodyName) -> None:
     """Warn where a quantity of the continuum is more than 5 % off that of the bodies.
 
-    The warning points at the caller of the property or method that calls this through one function.
-
-    Parameters
-    ----------
-    name : str
-        Name of the quantity, as an attribute of the spectrum.
-    factor : float
-        The quantity of the continuum over that of the bodies. [1]
-    body : {"surface", "line"}
-        Which bodies.
+    It is named as an attribute of the spectrum. The warning points at the caller of the property or
+    method that calls this through one function.
     """
     if are_close(factor):
         return

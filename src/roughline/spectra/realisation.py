@@ -21,25 +21,9 @@ _BYTES_PER_POINT = 40  # of a surface, while it is generated
 _LARGEST: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
 
 
-def refuse_unknown_body(body: str) -> None:
-    """Refuse what is neither "surface" nor "line".
-
-    Raises
-    ------
-    InputError
-        If it is neither.
-    """
-    one_of("body", body, _LARGEST)
-
-
 def refuse_points(n: int, body: BodyName) -> None:
-    """Refuse a number of points along a side that no body has.
-
-    Raises
-    ------
-    InputError
-        If it is not whole, below 3, or too large.
-    """
+    """Refuse what is neither "surface" nor "line", and a number of points that neither has."""
+    one_of("body", body, _LARGEST)
     if not is_whole(n) or not 3 <= n <= _LARGEST[body]:
         refuse("n", n, f"a whole number of points from 3 to {_LARGEST[body]} is needed")
 
@@ -55,23 +39,8 @@ def realisation(
 ) -> tuple[Real, dict[str, str | int]]:
     """Return random heights, and the settings that make them again.
 
-    Parameters
-    ----------
-    band : Band
-        Shape of the spectrum, and its range of wavenumbers.
-    normalisation : {"rms_height", "C_0"}
-        Whether the heights are scaled to an rms, or have the spectrum ``C_0`` times the shape.
-    magnitude : float
-        That rms [length] or that ``C_0`` [length⁴].
-    body : {"surface", "line"}
-        What is generated.
-    n, rng, amplitudes
-        As for :meth:`roughline.SelfAffine.surface`.
-
-    Raises
-    ------
-    InputError
-        If there are too few or too many points, or the amplitudes or the seed are not valid.
+    They are scaled to an rms height of the magnitude, or have the spectrum ``C_0``, which it is
+    then, times the shape of the band. The rest is as for :meth:`roughline.SelfAffine.surface`.
     """
     refuse_points(n, body)
     if body == "surface":

@@ -66,21 +66,16 @@ class Responses:
     reaches: Real  # end of the surface's waves; 1 if none are too short, infinite for noise instead
     log_share: Real  # logarithm of the share of their power that waves keep, over (response, mean)
     folded: Real
-    """Power of waves that are too short, which appear as longer ones, or of noise.
+    """Power of waves that are too short and appear as longer ones, or of noise.
 
     Over that of the surface at the Nyquist wavenumber, over (response, hurst, mean).
     """
 
-    unknown: Real
-    """Variance of the logarithm of the power, over (response, mean).
-
-    Responses are not known exactly.
-    """
-
+    unknown: Real  # variance of the logarithm of the power, as they are not known exactly
     is_second_end: Mask
-    """Whether it ends a spectrum, so that another end is one cause more than is needed.
+    """Whether it is an unknown blur of more than pixels that are means.
 
-    That is a blur of more than pixels that are means, where it is not known.
+    It ends a spectrum, so that another end is one cause more than is needed.
     """
 
     @classmethod

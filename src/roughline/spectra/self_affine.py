@@ -21,13 +21,7 @@ from roughline.spectra import synthesis
 from roughline.spectra.band import Band
 from roughline.spectra.difference import are_close, sum_over_integral, warn_of_difference
 from roughline.spectra.lattice import BodyName, ContinuumSpectrum, LatticeSpectrum
-from roughline.spectra.realisation import (
-    Amplitudes,
-    Normalisation,
-    realisation,
-    refuse_points,
-    refuse_unknown_body,
-)
+from roughline.spectra.realisation import Amplitudes, Normalisation, realisation, refuse_points
 from roughline.topography.body import Line, Surface
 from roughline.topography.settings import Settings
 
@@ -122,19 +116,13 @@ class SelfAffine:
             refuse("q_roll", q_roll, f"at least q_low, 2 pi / length = {q_low:g}, is needed")
         if not q_roll < q_high:
             refuse("q_high", q_high, f"more than q_roll, {q_roll:g}, is needed")
-        if rms_height is not None:
-            positive("rms_height", rms_height)
-            object.__setattr__(self, "normalisation", "rms_height")
-            object.__setattr__(self, "magnitude", float(rms_height))
-        else:
-            assert C_0 is not None
-            positive("C_0", C_0)
-            object.__setattr__(self, "normalisation", "C_0")
-            object.__setattr__(self, "magnitude", float(C_0))
-        object.__setattr__(self, "hurst", float(hurst))
-        object.__setattr__(self, "length", float(length))
-        object.__setattr__(self, "q_roll", float(q_roll))
-        object.__setattr__(self, "q_high", float(q_high))
+        magnitude = C_0 if rms_height is None else rms_height
+        assert magnitude is not None
+        object.__setattr__(self, "normalisation", "C_0" if rms_height is None else "rms_height")
+        positive(self.normalisation, magnitude)
+        values = {"hurst": hurst, "length": length, "magnitude": magnitude}
+        for name, value in (values | {"q_roll": q_roll, "q_high": q_high}).items():
+            object.__setattr__(self, name, float(value))
 
     def __repr__(self) -> str:
         """Write the call that makes this spectrum again."""
@@ -186,7 +174,6 @@ class SelfAffine:
         body : {"surface", "line"}
             Which of the two. Scaled to one rms height, their spectra differ.
         """
-        refuse_unknown_body(body)
         refuse_points(n, body)
         C_0 = self.magnitude
         if self.normalisation == "rms_height":

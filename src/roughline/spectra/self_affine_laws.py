@@ -149,10 +149,8 @@ class Deviations:
         of_surface = max(self.scatter, DESCRIPTION) ** 2  # variance
         share = of_surface / (of_surface + self.variance)
         spread = np.sqrt(of_surface * (1 - share))
-        return (
-            share * np.where(np.isfinite(self.variance), self.values, 0.0)
-            + spread * generator.standard_normal(share.size)
-        )[self.bins]
+        drawn = share * self.values + spread * generator.standard_normal(share.size)
+        return np.asarray(drawn[self.bins])
 
 
 class Law(NamedTuple):

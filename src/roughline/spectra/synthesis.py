@@ -88,13 +88,7 @@ def surface_draws(n: int, rng: np.random.Generator) -> Real:
 
 
 def rms_of(amplitudes: Real) -> float:
-    """Root-mean-square height of a line or a surface with modes of given moduli (Parseval).
-
-    Parameters
-    ----------
-    amplitudes : ndarray
-        As for :func:`line_heights` or :func:`surface_heights`. [length]
-    """
+    """Root-mean-square height of a line or a surface with modes of given moduli (Parseval)."""
     if amplitudes.ndim == 1:
         return float(np.sqrt(2 * np.einsum("i,i->", amplitudes, amplitudes)))
     half = (amplitudes.shape[0] - 1) // 2
@@ -129,18 +123,9 @@ def line_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: in
 
 
 def surface_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: int) -> Real:
-    """Sum modes of given amplitudes and random phases to a periodic surface.
+    """Sum modes of given amplitudes, shape (n, n // 2 + 1), to a periodic surface.
 
-    Parameters
-    ----------
-    amplitudes : ndarray, shape (n, n // 2 + 1)
-        Moduli of the modes, in units of `scale`.
-    rng : numpy.random.Generator
-        Draws the phases over 2 pi, as :func:`surface_draws` does.
-    scale : float
-        Unit of the amplitudes. [length]
-    n : int
-        Points along each side.
+    As :func:`line_heights`, with the phases of :func:`surface_draws`.
     """
     from roughline.spectra.loops import set_modes  # here because numba loads slowly
 
