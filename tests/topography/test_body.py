@@ -48,6 +48,8 @@ def test_detrending_removes_mean_and_tilt_and_nothing_else():
     assert tilted.settings["detrended"] == "tilt"
     plane = np.stack([np.ones(x.size), x.ravel(), y.ravel()])
     assert np.abs(plane @ tilted.heights.ravel()).max() < 1e-8
+    plane_alone = rl.Surface(1e3 + 0.3 * x - 0.2 * y, (1, 1)).detrended()
+    assert not plane_alone.heights.any()  # without the rounding of the subtraction
     line = rl.Line(np.sin(np.arange(50.0)) + 3 * np.arange(50), 1.0).detrended()
     assert abs(line.heights.sum()) < 1e-10
     assert abs(line.heights @ np.arange(50.0)) < 1e-8

@@ -12,7 +12,7 @@ import numpy as np
 
 from roughline.assessment.assess import Announce, assess_body
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import OF_INTERFACE
+from roughline.assessment.assumptions import OF_INTERFACE, broken
 from roughline.assessment.behind_maps import BehindMaps, behind_maps, missed_of_map
 from roughline.assessment.given import has_forces
 from roughline.assessment.limits import limits_of_answers
@@ -222,6 +222,7 @@ def _answers(results: Sequence[Assessment], behind: BehindMaps | None) -> Mappin
         keys = [key for key in keys if not forced and not results[0].answers[key].growth]
     limits = [limits_of_answers(each) for each in results]
     missed = [missed_of_map(each, behind) for each in results] if behind is not None else []
+    measured = not any(broken("grid", each.body) for each in results)
     answers = {}
     for key in keys:
         is_of_part = behind is not None and (question.joint is not None or key in OF_INTERFACE)
@@ -229,7 +230,7 @@ def _answers(results: Sequence[Assessment], behind: BehindMaps | None) -> Mappin
             [each.answers[key] for each in results],
             [each[key] for each in limits if key in each],
             _missed(key, missed) if is_of_part else None,
-            is_told=not (is_of_part and behind is not None and behind.untold),
+            is_told=measured and not (is_of_part and behind is not None and behind.untold),
         )
     return answers | _under_unloading(answers, question.joint is not None)
 

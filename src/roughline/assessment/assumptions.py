@@ -7,7 +7,7 @@ from typing import Literal
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.kinds import is_map
-from roughline.spectra.departures import Assumption, Departure, departures
+from roughline.spectra.departures import FIT_RESTS_ON, Assumption, Departure, departures
 from roughline.topography.body import Body
 
 Prediction = Literal["line scan", "larger surface", "part", "theories", "grid", "fit"]
@@ -15,16 +15,16 @@ Prediction = Literal["line scan", "larger surface", "part", "theories", "grid", 
 
 RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
     # reduced lines of Gaussian surfaces with its spectrum, for a square as long as it
-    "line scan": frozenset({"gaussian", "stationary"}),
+    "line scan": frozenset({"gaussian", "stationary", "measured"}),
     # k_i, h_c and reflection of one map, and all answers of a joint: its tiles have the heights and
     # the lay of the map, and speak for both
     "larger surface": frozenset({"stationary", "steady", "longer waves"}),
     # several maps show how places differ; what none of them shows are longer waves
     "part": frozenset({"longer waves"}),
     "theories": frozenset({"gaussian", "isotropic"}),
-    "grid": frozenset(),
-    # H, roll-off and cutoff of one law for all directions and places
-    "fit": frozenset({"isotropic", "stationary", "resolution"}),
+    # all intervals of a map: they are of its heights, whatever those are, if they are a surface's
+    "grid": frozenset({"measured"}),
+    "fit": FIT_RESTS_ON,
 }
 """By what is predicted, the assumptions on whose breaking its interval is taken down."""
 
@@ -71,6 +71,8 @@ def departures_in_words(result: Assessment) -> list[str]:
 def _predictions(result: Assessment) -> Sequence[Prediction]:
     """What is predicted beyond the body itself."""
     found: list[Prediction] = []
+    if result.curve.stiffness_error is not None:
+        found.append("grid")
     if is_map(result.body) and result.answers:
         found.append("larger surface")
     if result.theories:
@@ -82,6 +84,8 @@ def _without_interval(result: Assessment, prediction: Prediction) -> str:
     """Say which answers come without an interval, as far as there are any."""
     if prediction == "theories":
         return "theories assume otherwise"
+    if prediction == "grid":
+        return "all values come without an interval"
     given = result.answers
     keys = [*given] if result.question.joint else OF_INTERFACE
     names = [given[key].symbol for key in keys if key in given and _is_bare(result, key)]

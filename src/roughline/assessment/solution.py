@@ -32,7 +32,12 @@ def solved(
     case: LoadCase, body: Body, fields: list[int], progress: LoadProgress | None
 ) -> Solution:
     """Press a body; what its grid leaves open is known if the case asks for it."""
-    return Solution.of(*case.press(body, fields, progress))
+    return _as_measured(Solution.of(*case.press(body, fields, progress)), body)
+
+
+def _as_measured(solution: Solution, body: Body) -> Solution:
+    """The same without intervals where heights are not those of a surface."""
+    return replace(solution, intervals=None) if broken("grid", body) else solution
 
 
 def with_other_filling(
@@ -61,7 +66,8 @@ def with_other_filling(
         f"with missing points filled by {method} instead, stiffness changes by {_at_most(share)}, "
         f"area by {_at_most(area_share)}"
     )
-    return Solution.of(curve, interrupted, Changes(stiffness, unloading, area), note)
+    changes = Changes(stiffness, unloading, area)
+    return _as_measured(Solution.of(curve, interrupted, changes, note), body)
 
 
 def interface_of_the_larger_surface(

@@ -12,6 +12,7 @@ import numpy as np
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.errors import InputError
+from roughline.errors.checks import refuse
 from roughline.files.measurement import Measurement
 from roughline.files.read import measurement
 from roughline.topography.body import Body, Line, Surface
@@ -20,6 +21,7 @@ from roughline.topography.preparation import Preparation, as_prepared
 from roughline.topography.settings import MOUNTING, TILT
 from roughline.topography.trend import Trend
 from roughline.topography.two_bodies import facing
+from roughline.units import engineering
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +128,11 @@ def measured_body(
     if reading.tilt == MOUNTING:
         content = replace(content, settings={**content.settings, TILT: MOUNTING})
     content = replace(content, settings={**content.settings, **reading.of_instrument})
-    return content.body(reading.unit, reading.sizes, filling, trend, in_place=in_place)
+    body = content.body(reading.unit, reading.sizes, filling, trend, in_place=in_place)
+    if reading.blur is not None and reading.blur >= body.length:
+        length = engineering(body.length, "m")
+        refuse("blur", reading.blur, f"the heights span {length}: a shorter one is needed [m]")
+    return body
 
 
 def topographies(question: Question) -> list[Topography]:

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+import roughline as rl
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable
 from roughline.errors.checks import refuse
@@ -42,6 +43,10 @@ def compare_command(
     size: options.Size = None,
     fill: options.Fill = options.FillingChoice.harmonic,
     max_missing: options.MaxMissing = 0.1,
+    tilt: options.Tilt = options.TiltChoice.unknown,
+    pixels: options.Pixels = None,
+    blur: options.Blur = None,
+    tip_radius: options.TipRadius = None,
     out: Annotated[Path | None, typer.Option(help="Folder for a table (CSV) and a figure.")] = None,
     json: options.Json = False,
 ) -> None:
@@ -56,10 +61,12 @@ def compare_command(
     from roughline.report.progress import load_progress
     from roughline.report.terminal import print_comparison
 
+    reading = options.reading_of(
+        unit, channel, size, fill, max_missing, tilt, pixels, blur, tip_radius
+    )
     if file is None:
-        of_file = {"unit": unit, "channel": channel, "sizes": size}
-        of_file["missing"] = None if fill is options.FillingChoice.harmonic else fill.value
-        of_file["most_missing"] = None if max_missing == 0.1 else f"{max_missing:g}"
+        said, usual = vars(reading), vars(rl.Reading())
+        of_file = {name: value for name, value in said.items() if value != usual[name]}
         _refuse(of_file, "it says how a FILE is read, and there is none: leave it out")
     else:
         of_spectrum = {"hurst": hurst, "fractal_dimension": fractal_dimension, "length": length}
@@ -72,7 +79,7 @@ def compare_command(
         with writable(out):
             result = compare_models(
                 roughness,
-                reading=options.reading_of(unit, channel, size, fill, max_missing),
+                reading=reading,
                 n=n,
                 surfaces=surfaces,
                 force_bars=force_bar,

@@ -265,11 +265,8 @@ def press_command(
         frequency=frequency,
         theories=theory or (),
         grid_error=grid_error,
-        reading=options.with_instrument(
-            options.reading_of(unit, channel, size, fill, max_missing, tilt),
-            pixels,
-            blur,
-            tip_radius,
+        reading=options.reading_of(
+            unit, channel, size, fill, max_missing, tilt, pixels, blur, tip_radius
         ),
         preparation=options.preparation_of(trend, crop, low_pass, resample, remove_outliers),
         whole_curve=report is not None,

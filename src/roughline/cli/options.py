@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any, NoReturn
@@ -178,20 +177,21 @@ def reading_of(
     size: str | None,
     fill: FillingChoice,
     max_missing: float,
-    tilt: TiltChoice = TiltChoice.unknown,
+    tilt: TiltChoice,
+    pixels: PixelsChoice | None,
+    blur: str | None,
+    tip_radius: str | None,
 ) -> rl.Reading:
     """How the options say that files are read."""
-    return rl.Reading(unit, channel, size, fill.value, max_missing, tilt=tilt.value)
-
-
-def with_instrument(
-    reading: rl.Reading, pixels: PixelsChoice | None, blur: str | None, tip_radius: str | None
-) -> rl.Reading:
-    """Add what the options say of the instrument."""
     from roughline.units import in_si
 
-    return replace(
-        reading,
+    return rl.Reading(
+        unit,
+        channel,
+        size,
+        fill.value,
+        max_missing,
+        tilt=tilt.value,
         pixels=pixels.value if pixels else None,
         blur=None if blur is None else in_si("0 m" if blur == "0" else blur, "m", "blur"),
         tip_radius=None if tip_radius is None else _positive(tip_radius, "tip_radius"),

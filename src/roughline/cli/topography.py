@@ -56,8 +56,9 @@ def info(
 
     if curve := curve_in(file):
         return print_json(as_json(curve)) if json else print_curve_file(curve)
-    reading = options.reading_of(unit, channel, size, fill, max_missing, tilt)
-    reading = options.with_instrument(reading, pixels, blur, tip_radius)
+    reading = options.reading_of(
+        unit, channel, size, fill, max_missing, tilt, pixels, blur, tip_radius
+    )
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     with writable(out):
         result = describe(file, reading, steps)

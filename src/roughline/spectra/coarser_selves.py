@@ -13,8 +13,6 @@ from roughline.spectra.chance import MOST, Chance
 from roughline.topography.body import Body
 
 _LEAST = 8  # cells along the shortest side of a coarser self
-_SEARCHED = 1024  # points along a side that are searched for steps
-_ROUNDING = 1e-9  # of the largest height
 _FINE_REACH = 32  # cells over which detail is correlated at most
 
 
@@ -74,18 +72,3 @@ def _halved(heights: Real) -> Real:
         even = np.moveaxis(heights, axis, 0)[: n - n % 2]
         heights = np.moveaxis((even[::2] + even[1::2]) / 2, 0, axis)
     return heights
-
-
-def share_on_lines(heights: Real) -> float:
-    """Return the share of heights in line with their neighbours along every side."""
-    if min(heights.shape) < _LEAST:
-        return 0.0
-    heights = heights[tuple(slice(0, _SEARCHED) for _ in heights.shape)]
-    inner = (slice(1, -1),) * heights.ndim
-    scale = float(np.abs(heights).max())
-    in_line = np.ones(heights[inner].shape, dtype=bool)
-    for axis in range(heights.ndim):
-        along = np.moveaxis(np.diff(heights, n=2, axis=axis), axis, 0)
-        others = np.moveaxis(along[(slice(None), *inner[1:])], 0, axis)
-        in_line &= np.abs(others) <= _ROUNDING * scale
-    return 0.0 if in_line.all() else float(in_line.mean())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 from weakref import WeakKeyDictionary
@@ -13,7 +13,8 @@ from scipy import special
 from roughline.errors import InputError
 from roughline.spectra.alike import of_directions, of_places, of_sides
 from roughline.spectra.chance import Finding
-from roughline.spectra.coarser_selves import coarser_selves, share_on_lines
+from roughline.spectra.coarser_selves import coarser_selves
+from roughline.spectra.faults import Jump, jump, share_on_a_level, share_on_lines
 from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.spectra.gaussian_heights import of_heights
 from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
@@ -22,15 +23,29 @@ from roughline.topography.notebook import in_words
 from roughline.topography.settings import MOUNTING, TILT
 
 Assumption = Literal[
-    "gaussian", "isotropic", "stationary", "steady", "roll-off", "longer waves", "resolution"
+    "gaussian",
+    "isotropic",
+    "stationary",
+    "steady",
+    "roll-off",
+    "longer waves",
+    "resolution",
+    "measured",
 ]
 """What predictions from a topography rest on."""
+
+FIT_RESTS_ON: frozenset[Assumption] = frozenset(
+    {"isotropic", "stationary", "resolution", "measured"}
+)
+"""Assumptions behind one self-affine law for all directions and places."""
 
 _CHANCE = 0.002  # of a departure from an assumption that a topography fulfils, over all its tests
 _CHANCE_OF_DRIFT = 0.02  # of a drift over a map, which goes on beyond it
 _CHANCE_OF_WAVES = 0.01  # of tilt and bow: what few coefficients show is easily missed
 _LONGER = 0.02  # mean square of longer waves, over that of the rest, that matters
 _ON_LINES = 0.1  # share of heights that stand in steps that matters
+_ON_A_LEVEL = 0.003  # share of heights on one level, beyond the lowest, that matters
+_JUMPS = 0.02  # of the rms height, by which rows jump that matters
 _NO_ROLL_OFF = 2.0  # gravity of a roll-off that is not seen
 _LEVELLED = 1.01  # gravity of a tilt that is not known
 
@@ -75,6 +90,7 @@ def _departures(body: Body) -> tuple[Departure, ...]:
             found.append(_first("steady", of_sides(body), body, _CHANCE_OF_DRIFT))
     if body.is_cut_out and selves:
         found += _of_long_waves(body)
+    found += _of_faults(body)
     return tuple(sorted(filter(None, found), key=lambda each: -each.gravity))
 
 
@@ -89,6 +105,41 @@ def _of_steps(body: Body) -> Departure | None:
         "range, so slopes there are not the surface's: measure with finer steps or a larger range"
     )
     return Departure("resolution", text, share / _ON_LINES)
+
+
+def _of_faults(body: Body) -> Iterator[Departure]:
+    """Say where heights are the instrument's, not the surface's, so that no answer holds."""
+    if not body.is_cut_out or not body.rms_height:
+        return
+    if (share := share_on_a_level(body.heights)) > _ON_A_LEVEL:
+        text = (
+            f"{100 * share:.2g}% of the heights are equal to the last digit: the range of the "
+            "instrument ends there, and cuts summits off, or missing points were written as a "
+            "number: measure with a larger range, or mark missing points"
+        )
+        yield Departure("measured", text, share / _ON_A_LEVEL)
+    rows = jump(body.heights) if isinstance(body, Surface) else None
+    if isinstance(body, Surface) and rows and abs(rows.height) > _JUMPS * body.rms_height:
+        gravity = abs(rows.height) / _JUMPS / body.rms_height
+        yield Departure("measured", _of_rows(rows, body), gravity)
+
+
+def _of_rows(rows: Jump, surface: Surface) -> str:
+    """Say where rows of a map jump."""
+    height, scatter = (in_words(abs(each), surface.unit, 2) for each in (rows.height, rows.scatter))
+    at = in_words(rows.index * surface.spacing[rows.axis], surface.unit, 3)
+    place = f"at {'xy'[rows.axis]} = {at}"
+    side = "above" if rows.height > 0 else "below"
+    if rows.is_single:
+        return (
+            f"{place} a whole row stands {height} {side} those beside it, and others scatter by "
+            f"{scatter}: one line of the instrument is off: mark it as missing, or measure again"
+        )
+    return (
+        f"{place} all heights beyond stand {height} {side} those before, and other rows scatter by "
+        f"{scatter}: the instrument jumped, or two faces are seen: take either side (crop=), or "
+        "measure again"
+    )
 
 
 def _first(
@@ -160,10 +211,15 @@ def _grave_shapes(body: Body, fit: SelfAffineFit) -> list[LongShape]:
 
 
 def judged(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
-    """Take the intervals of a fit down where a bow stands in the place of the longest waves."""
-    if not fit.is_judged or not body.is_cut_out:
+    """Take the intervals of a fit down where a body departs from what one law rests on.
+
+    So does a bow, which stands in the place of the longest waves.
+    """
+    if not fit.is_judged:
         return fit
-    for shape in _grave_shapes(body, fit):
+    if any(each.assumption in FIT_RESTS_ON for each in departures(body)):
+        return fit.without_intervals()
+    for shape in _grave_shapes(body, fit) if body.is_cut_out else []:
         if shape.degree > 1:
             rms, explained = (in_words(each, body.unit, 2) for each in (shape.rms, shape.explained))
             return fit.without_intervals(

@@ -140,8 +140,8 @@ class SelfAffineFit:
             )
         return objections
 
-    def without_intervals(self, why: str) -> SelfAffineFit:
-        """Return the same law, not judged, with a remark that says why."""
+    def without_intervals(self, *why: str) -> SelfAffineFit:
+        """Return the same law, not judged, with a remark that says why where that is told."""
         nothing = (math.nan, math.nan)
         return replace(
             self,
@@ -150,7 +150,7 @@ class SelfAffineFit:
             q_high_interval=nothing,
             rms_interval=nothing,
             blur_interval=nothing,
-            remarks=(why, *self.remarks),
+            remarks=(*why, *self.remarks),
         )
 
     def spectrum(self) -> SelfAffine:

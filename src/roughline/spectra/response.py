@@ -26,6 +26,7 @@ AS_PIXELS = 0.3
 _NOISES = np.geomspace(0.1, 1.4, 13)
 """Where white noise is as strong as the surface's waves, that is tried."""
 
+_FAINTEST = -200.0  # logarithm of a share of their power that waves keep, told from no less
 _REACHES = (1.4, 2.0, 4.0)  # where waves may end that are shorter than the spacing resolves
 _FOLDS = 0.6  # blurs up to which such waves are seen
 _EACH = 3  # of them
@@ -100,7 +101,7 @@ class Responses:
         exponents = -(2 * hursts + dimensions)[:, np.newaxis]
         for i, crossing in enumerate(np.tile(_NOISES, noisy.size), len(images) + tried.size):
             folded[i] = crossing**exponents
-        blurred = -((math.pi * blurs[:, np.newaxis] * u) ** 2)
+        blurred = np.maximum(-((math.pi * blurs[:, np.newaxis] * u) ** 2), _FAINTEST)
         effect = folded[:, hursts.size // 2] * np.minimum(u, 1.0) ** (1 + dimensions)  # at H = 0.5
         unknown = (_KNOWN * ((not known) * np.abs(blurred) + np.log1p(effect))) ** 2
         pixel = _pixel_means(u, dimensions) if means else 0.0

@@ -18,6 +18,7 @@ DEGREES: dict[str, int] = {"none": -1, "mean": 0, "tilt": 1, "curvature": 2}
 """Degree of the polynomial of each name."""
 
 _BLOCK = 2**16  # heights changed together
+_ROUNDING = 1e-13  # of the largest height, below which what is left is of rounding alone
 
 
 def without_trend(heights: Real, trend: Trend) -> Real:
@@ -38,6 +39,8 @@ def without_trend(heights: Real, trend: Trend) -> Real:
 def remove_trend(heights: Real, trend: Trend) -> None:
     """Subtract the least-squares polynomial from heights in place, without a second copy of them.
 
+    Heights that are such a polynomial become zero, without the rounding of the subtraction.
+
     Parameters
     ----------
     heights, trend
@@ -48,6 +51,7 @@ def remove_trend(heights: Real, trend: Trend) -> None:
         return
     if not heights.flags.c_contiguous:
         heights = heights.T  # the polynomials of x and y change places
+    largest = max(float(heights.max()), -float(heights.min()))
     heights -= heights.mean()
     # the polynomials are orthonormal along each side, so that projections give the coefficients
     bases = [polynomials(n, min(degree, n - 1)) for n in heights.shape]
@@ -61,6 +65,8 @@ def remove_trend(heights: Real, trend: Trend) -> None:
     for start in range(0, len(heights), rows):
         block = slice(start, start + rows)
         heights[block] -= bases[0][block] @ along
+    if max(float(heights.max()), -float(heights.min())) <= _ROUNDING * largest:
+        heights[...] = 0.0
 
 
 def tilt_share(heights: Real, rms_height: float) -> float:
