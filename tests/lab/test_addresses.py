@@ -88,7 +88,7 @@ def test_an_address_of_the_paper_gives_its_state_again(said):
 
 
 CHOICES = (measured.FILLING, measured.TILT, measured.TREND, measured.OUTLIERS, measured.BODIES)
-CHOICES += (measured.BOUNDARY, measured.GRID)
+CHOICES += (measured.BOUNDARY, measured.GRID, measured.PIXELS)
 LENGTHS = quantities("m", 1e-9, 1)
 LOADS = quantities("N", 1e-9, 1e6) | quantities("Pa", 1, 1e12)
 MATERIALS = st.sampled_from(["steel", "gold", "E=70 GPa nu=0.33", "steel hardness=2 GPa", "Glass"])
@@ -96,7 +96,7 @@ OF_MY_SURFACE = some(
     {
         **{each.key: st.sampled_from(list(each.options)) for each in CHOICES},
         **{"first": MATERIALS, "second": MATERIALS | st.just("rigid")},
-        "low_pass": LENGTHS,
+        **{"low_pass": LENGTHS, "tip_radius": LENGTHS, "blur": LENGTHS | st.just("0")},
         "size": st.lists(LENGTHS, min_size=1, max_size=2).map(", ".join),
         "crop": st.lists(LENGTHS, min_size=4, max_size=4).map(", ".join),
         "unit": st.sampled_from(["nm", "um", "µm", "mm", "m"]),

@@ -205,6 +205,7 @@ def test_refused_controls_of_my_surface_leave_the_others_alive(pages):
         return page.locator(f'#measured [data-error="{key}"]')
 
     wrong = {"crop": "1 m", "low_pass": "1 km", "resample": "100000", "most_missing": "<b>x</b>"}
+    wrong |= {"blur": "-1 um", "tip_radius": "2"}
     wrong |= {"second": "3 GPa", "loads": "1,5", "joint_area": "1 nm^2", "hardness": "😀"}
     wrong |= {"friction": "30", "frequency": "nan"}
     for key, text in wrong.items():
@@ -217,6 +218,7 @@ def test_refused_controls_of_my_surface_leave_the_others_alive(pages):
     page.locator('[data-table="measured-bodies"]', has_text="gold").wait_for()
     page.check('#measured [data-key="trend"][value="curvature"]')
     page.locator('[data-list="prepared-remarks"]', has_text="curvature").wait_for()
+    page.check('#measured [data-key="pixels"][value="points"]')
     page.click("[data-press]")
     said_at("answers").filter(has_text="3-gpa").wait_for()
     assert len(complaints(page, "measured")) == len(wrong) + 1

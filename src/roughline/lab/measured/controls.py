@@ -43,6 +43,15 @@ TILT = Choice(
     "Whose the tilt of a measured topography is: the mounting's alone, such as the stage's, or "
     "also that of waves longer than the topography, which change the answers for a larger surface.",
 )
+PIXELS = Choice(
+    "pixels",
+    "heights are",
+    {"default": "as the file says", "means": "means over pixels", "points": "of points"},
+    "default",
+    "Whether heights are means over pixels or those of points, which tells the instrument from the "
+    "surface in the spectrum's tail. By default, they are means in files of optical instruments, "
+    "else it is not known.",
+)
 OUTLIERS = Choice(
     "outliers",
     "spikes",
@@ -92,6 +101,9 @@ KEYS = (
         "fill",
         "most_missing",
         "tilt",
+        "pixels",
+        "blur",
+        "tip_radius",
         "trend",
         "outliers",
         "crop",
@@ -104,8 +116,8 @@ KEYS = (
 
 
 DEFAULTS = {
-    **{each.key: each.default for each in (FILLING, TILT, TREND, OUTLIERS, BODIES, ELASTIC)},
-    **{each.key: each.default for each in (BOUNDARY, GRID)},
+    **{each.key: each.default for each in (FILLING, TILT, PIXELS, TREND, OUTLIERS)},
+    **{each.key: each.default for each in (BODIES, ELASTIC, BOUNDARY, GRID)},
     "most_missing": "10 %",
 }
 """Of controls that mean something without a text."""

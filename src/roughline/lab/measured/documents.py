@@ -40,6 +40,8 @@ _FLAGS = {
     "size": "--size",
     "fill": "--fill",
     "tilt": "--tilt",
+    "blur": "--blur",
+    "tip_radius": "--tip-radius",
     "crop": "--crop",
     "low_pass": "--low-pass",
     "resample": "--resample",
@@ -117,8 +119,9 @@ def as_command(said: Said, names: Sequence[str]) -> str:
         words += ["--theory", theory]
     if (wanted := said.get("grid_error")) in ("yes", "no"):
         words.append("--grid-error" if wanted == "yes" else "--no-grid-error")
-    if said.get("trend", "default") != "default":
-        words += ["--trend", said["trend"]]
+    for key in ("pixels", "trend"):
+        if said.get(key, "default") != "default":
+            words += [f"--{key}", said[key]]
     if said.get("outliers") == "remove":
         words.append("--remove-outliers")
     if said.get("elastic") == "yes":

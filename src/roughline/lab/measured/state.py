@@ -134,6 +134,17 @@ def reading_of(said: Said, name: str | None) -> Reading:
     with at("unit"):
         unit = said.get("unit")
         Reading(unit=unit)
+    with at("blur"):
+        blur = (
+            in_si("0 m" if said["blur"] == "0" else said["blur"], "m", "blur")
+            if "blur" in said
+            else None
+        )
+        Reading(blur=blur)
+    with at("tip_radius"):
+        radius = in_si(said["tip_radius"], "m", "tip radius") if "tip_radius" in said else None
+        Reading(tip_radius=radius)
+    pixels = c.PIXELS.read(said.get("pixels", c.PIXELS.default))
     return Reading(
         unit=unit,
         channel=said.get("channel"),
@@ -142,6 +153,9 @@ def reading_of(said: Said, name: str | None) -> Reading:
         most_missing=_share(said.get("most_missing")),
         name=name,
         tilt=c.TILT.read(said.get("tilt", c.TILT.default)),  # type: ignore[arg-type]
+        pixels=None if pixels == c.PIXELS.default else pixels,  # type: ignore[arg-type]
+        blur=blur,
+        tip_radius=radius,
     )
 
 
