@@ -28,7 +28,7 @@ _MARGIN = 15.0  # of deviances in which a law may still turn out to be likely
 _FEW_NODES = slice(None, None, 3)  # exponents of a first search
 _FEW_ROLLS = 4  # from roll-off to roll-off in the first search
 _FEW_ENDS = 6  # that are tried in the first search
-_FEW_BLURS = 2  # from blur to blur with which all ends are tried
+_FEW_BLURS = 2  # from blur to blur with which all ends are tried; a blurred law may end too
 
 
 @dataclass(frozen=True, eq=False)
