@@ -30,19 +30,29 @@ WANTED = (0.003, 0.03, 0.3)  # contact area fractions, about
 HARDNESS_BARS = (None, 0.5, 0.15, 0.05)  # over E* and the rms slope; None: elastic
 HURSTS = (0.3, 0.6, 0.9)
 COUNTS = (2, 3, 5, 10)
-DRAWS = 30
+DRAWS = 12
 SCANS = 4  # of each piece
+FINER = 4  # points of the surface along a pixel of a map
+SHORTEST = (4, 8, 16)  # points to the shortest wave, which is one, two or four pixels long
 KEY = ["study", "kind", "option", "seed"]
 
 
 def make_of(study, kind, seed):
-    """How a parent of a study is made, its exponent and roll-off at random."""
+    """How a parent of a study is made, its exponent, roll-off and shortest wave at random."""
     rng = np.random.default_rng([crc32(f"{study} {kind}".encode()), seed])
-    sizes = {"grid": (256, 1), "fit": (512, 2), "part": (64, 5), "scan": (256, 2)}
-    points, maps = sizes.get(study, (128, 4))
+    pixels, maps = {"grid": (64, 1), "fit": (128, 2), "scan": (64, 2), "part": (64, 5)}.get(
+        study, (64, 4)
+    )
+    points = pixels * FINER
     hurst = float(rng.uniform(0.2, 0.95))
     waves = float(rng.uniform(*((20, 60) if study == "scan" else (4, 12))))
-    return Make(points, maps, hurst, waves), rng
+    cells = float(rng.choice(SHORTEST)) if study in ("grid", "larger", "part") else 4.0
+    return Make(points, maps, hurst, waves, cells), rng
+
+
+def seen(piece, instrument, rng):
+    """A piece as an instrument sees it, on pixels that are FINER points long."""
+    return as_surface(measured(piece, instrument, FINER, rng), piece)
 
 
 def pressures_of(surface, hardness_bar=None):
@@ -82,7 +92,7 @@ def grid_rows(kind, option, seed):
     make, rng = make_of("grid", kind, seed)
     fine = parent_of(kind, make, rng).detrended()
     fine = as_surface(fine.heights, fine)
-    coarse = as_surface(measured(fine, instrument, 4, rng), fine)
+    coarse = seen(fine, instrument, rng)
     forces = pressures_of(fine, bar) * fine.area
     given = {"E_star": E_STAR, "forces": forces, "throw": False} | hardness_of(fine, bar)
     truth, curve = rl.press(fine, **given), rl.press(coarse, grid_error=True, **given)
@@ -111,7 +121,7 @@ def larger_rows(kind, option, seed):
     for _ in range(3):
         piece = piece_of(parent, make, rng)
         question = rl.Question(
-            piece,
+            seen(piece, "pixel means", rng),
             MATERIALS,
             joint_area=parent.area,
             loads=loads,
@@ -138,21 +148,22 @@ def part_rows(kind, option, seed):
     )
     side, count = make.points, make.maps
     places = [(i * side, j * side) for i in range(count) for j in range(count)]
-    maps = [
-        as_surface(parent.heights[i : i + side, j : j + side], piece_of(parent, make, rng))
-        for i, j in places
-    ]
+    one = piece_of(parent, make, rng)
+    pieces = [as_surface(parent.heights[i : i + side, j : j + side], one) for i, j in places]
+    given = {"E_star": E_STAR, "forces": pressures * one.area, "throw": False}
+    alone = [rl.press(each.detrended(), **given) for each in pieces]
+    truths = {
+        "interface_stiffness": whole.unloading_stiffness,
+        "contact_stiffness": np.exp(np.mean([np.log(each.stiffness) for each in alone], axis=0)),
+    }
+    maps = [seen(each, "pixel means", rng) for each in pieces]
     loads = [f"{each:.9g} Pa" for each in pressures]
-    for joint, key in ((parent.area, "interface_stiffness"), (None, "contact_stiffness")):
+    for joint, (key, truth) in zip((parent.area, None), truths.items(), strict=True):
         questions = [
             rl.Question(each, MATERIALS, joint_area=joint, loads=loads, fields=False, elastic=True)
             for each in maps
         ]
         stored = {id(question): rl.assess(question) for question in questions}
-        values = np.array([each.answers[key].values for each in stored.values()])
-        truth = np.exp(np.log(values).mean(axis=0))
-        if joint:
-            truth = whole.unloading_stiffness
         for n in COUNTS:
             for _ in range(DRAWS):
                 some = [questions[i] for i in rng.permutation(len(questions))[:n]]
@@ -193,11 +204,9 @@ def fit_rows(kind, option, seed):
     make, rng = make_of("fit", kind, seed)
     make = replace(make, hurst=HURSTS[seed % 3])
     piece = piece_of(parent_of(kind, make, rng), make, rng)
-    seen = as_surface(measured(piece, option, 4, rng), piece)
-    if np.isnan(seen.heights).any():
-        return
-    scan = rl.Line(seen.heights[:, 7].copy(), piece.sizes[0], unit="m", kind="profile")
-    for name, body in (("H of a map", seen.detrended()), ("H of a scan", scan.detrended())):
+    map_seen = seen(piece, option, rng)
+    scan = rl.Line(map_seen.heights[:, 7].copy(), piece.sizes[0], unit="m", kind="profile")
+    for name, body in (("H of a map", map_seen.detrended()), ("H of a scan", scan.detrended())):
         found = rl.roughness(body)
         ends = (math.nan, math.nan) if found.fit is None else found.fit.hurst_interval
         value = math.nan if found.fit is None else found.fit.hurst
@@ -219,7 +228,7 @@ STUDIES = {
         ),
         2,
     ),
-    "larger": (larger_rows, tuple(KINDS), ("elastic", "yielding"), 4),
+    "larger": (larger_rows, tuple(KINDS), ("elastic", "yielding"), 2),
     "part": (part_rows, tuple(KINDS), ("elastic",), 2),
     "scan": (scan_rows, tuple(KINDS), ("elastic",), 6),
     "fit": (fit_rows, SELF_AFFINE, INSTRUMENTS_OF_FITS, 6),
@@ -299,13 +308,14 @@ ASKED = {
     ),
     "larger": (
         "The larger surface behind one map",
-        "A map of 128 x 128 points, with its own tilt, is asked for a joint of 4 x 4 maps. The "
-        "truth is the whole joint.",
+        "A map of 64 x 64 pixels that are means, with its own tilt, is asked for a joint of 4 x 4 "
+        "maps. The truth is the whole joint on 1024 x 1024 points.",
     ),
     "part": (
         "A part, from several maps",
-        "Maps of 64 x 64 points, drawn from the 25 of a part. The truth of a joint is the whole "
-        "part, that of a map's own stiffness is the mean over all 25 places.",
+        "Maps of 64 x 64 pixels that are means, drawn from the 25 of a part. The truth of a joint "
+        "is the whole part on 1280 x 1280 points, that of a map's own stiffness is the mean over "
+        "all 25 places, on 256 x 256 points each.",
     ),
     "scan": (
         "A line scan",
