@@ -33,7 +33,7 @@ COUNTS = (2, 3, 5, 10)
 DRAWS = 12
 SCANS = 4  # of each piece
 FINER = 4  # points of the surface along a pixel of a map
-SHORTEST = (4, 8, 16)  # points to the shortest wave, which is one, two or four pixels long
+SHORTEST = (2, 4, 8, 16)  # points to the shortest wave, which is half a pixel to four pixels long
 KEY = ["study", "kind", "option", "seed"]
 
 
