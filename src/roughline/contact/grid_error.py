@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -16,17 +15,22 @@ from roughline.errors import InputError
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
 
-# On the difference to be expected, so that errors cover grids four times finer: 95 % of all kinds
-# of surfaces, and at least 90 % of each (benchmarks/grid_error.py).
-_SAFETY = 1.4
+# Half widths over what is measured, so that they hold 95 % of all surfaces on grids four times
+# finer (benchmarks/measured_coverage.py, benchmarks/grid_error.py):
+_OF_YIELD = 1.1  # of what a softer body shows
+_OF_AREA = 1.3  # of differences of the area's logarithm
+_OF_STEEPENING = 1.4  # of the logarithm of the steepening that opens the area
+# Of what yield takes from the stiffness on loading, which few cells decide, so much is uncertain.
+_SHARE_OF_YIELD = 0.3
+# Weights of differences from every other point, from means of two by two points, and between these
+# and means of four by four, which are larger the coarser the grid.
+_WEIGHTS = (1.0, 1.0, 0.25)
 # White noise has the fastest growth of all surfaces: means over two by two points halve its
 # heights, so that its mean square slope is 16 times as large from grid to grid.
 _GROWTH_OF_NOISE = 16.0
 # Means of points of a rougher self-affine surface steepen the last step so much, because the points
 # hold the shorter waves folded into them.
 _FASTEST_OF_POINTS = 4 / 3
-# Of what yield takes from the stiffness on loading, which few cells decide, so much is uncertain.
-_SHARE_OF_YIELD = 0.3
 _NEARLY_ALL = 0.9  # of a softer body at the hardness: as far as it is loaded at most
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
@@ -88,12 +92,14 @@ class _Grids:
 def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) -> Curve:
     """Add to a curve the discretisation errors estimated from coarser grids.
 
-    Differences between grids change from grid to grid as the heights of the waves that are added
-    do, half the square root of the steepening m: the error is that of the next two grids, a grid
-    convergence index [1]_. Added to it is what waves do that no grid here has. They steepen the
-    surface, so that Persson's theory tells the area of elastic bodies [2]_, and a body with the
-    hardness H / m tells what yield does. Parts that are independent add as squares; those of an
-    area are not, as differences between grids are those of their slopes.
+    The error of a stiffness goes with how its compliance differs between the surface, means
+    of two by two of its points, and every other one of them. Compliances add, so that differences
+    stay finite where a coarse grid is in full contact. Where points yield, a body with the hardness
+    H / m tells what waves do that no grid here has, if they steepen the surface by m.
+
+    The same waves open the contact area of elastic bodies as Persson's theory tells [1]_, where no
+    area is less than the force over the hardness. Beside it an area of N points scatters as a count
+    does, by 1 / sqrt(N).
 
     The error under a load does not depend on the other loads. The errors cover grids four times
     finer, but no noise that begins at the spacing.
@@ -118,48 +124,32 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) 
 
     References
     ----------
-    .. [1] P. J. Roache, "Perspective: a method for uniform reporting of grid refinement studies",
-       J. Fluids Eng. 116, 405-413 (1994).
-    .. [2] B. N. J. Persson, "Theory of rubber friction and contact mechanics", J. Chem. Phys. 115,
+    .. [1] B. N. J. Persson, "Theory of rubber friction and contact mechanics", J. Chem. Phys. 115,
        3840-3861 (2001).
     """
+    k, k_u, area = curve.stiffness, curve.unloading_stiffness, curve.area_fraction_corrected
+    assert k_u is not None
+    assert area is not None
     grids = _Grids.of(surface)
     coarser = [
-        press(each, loads, curve.hardness) for each in (grids.quarter, grids.half, grids.thinned)
+        press(each, loads, curve.hardness) for each in (grids.thinned, grids.half, grids.quarter)
     ]
     steepening = grids.steepening
     softer = _softer(grids, steepening, coarser[1], press)
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
-        return _with_errors(curve, coarser, softer, steepening)
-
-
-def _with_errors(
-    curve: Curve, coarser: Sequence[Curve], softer: tuple[Curve, Curve], steepening: float
-) -> Curve:
-    """Add the errors to a curve, from the curves of coarser grids and of softer bodies."""
-    k, k_u = curve.stiffness, curve.unloading_stiffness
-    area, most = curve.area_fraction_corrected, curve.area_fraction_most
-    assert k_u is not None
-    assert area is not None
-    assert most is not None
-    of_k, of_k_u, of_area = (
-        _difference(name, coarser, curve, math.sqrt(steepening) / 2)
-        for name in ("stiffness", "unloading_stiffness", "area_fraction_corrected")
-    )
-    of_k_u = np.hypot(of_k_u, _change("unloading_stiffness", *softer))
-    of_k = np.maximum(np.hypot(of_k, _change("stiffness", *softer)), of_k_u)
-    if curve.hardness is not None:  # nothing is left of k where all of the contact yields
+        of_k_u = np.hypot(
+            steepening * _of_compliance("unloading_stiffness", coarser, curve),
+            _OF_YIELD * _of_yield(*softer),
+        )
         taken = np.where((k > 0) & (k < k_u), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
-        of_k = np.maximum(of_k, of_k_u + taken)
-    yielding = area * np.exp(_change("area_fraction_corrected", *softer))
-    of_area = of_area + np.abs(_steeper(yielding, steepening, area))
-    return replace(
-        curve,
-        stiffness_error=_times(k, of_k),
-        unloading_stiffness_error=_times(k_u, of_k_u),
-        # as uncertain as its perimeter correction, also on plateaus, where none is made
-        area_fraction_error=np.maximum(_times(area, of_area), most - area),
-    )
+        of_k = np.maximum(steepening * _of_compliance("stiffness", coarser, curve), of_k_u + taken)
+        of_area = _of_area(curve, coarser, steepening, surface.heights.size)
+        return replace(
+            curve,
+            stiffness_error=_times(k, of_k),
+            unloading_stiffness_error=_times(k_u, of_k_u),
+            area_fraction_error=_times(area, of_area),
+        )
 
 
 def refuse_few_points(surface: Surface) -> None:
@@ -171,31 +161,50 @@ def refuse_few_points(surface: Surface) -> None:
         )
 
 
-def _difference(name: str, coarser: Sequence[Curve], curve: Curve, growth: float) -> Real:
-    """Return the error of the logarithm of a quantity from its differences between grids.
-
-    Parameters
-    ----------
-    name : str
-        The quantity.
-    coarser : sequence of Curve
-        Of n / 4 and n / 2 points, and of every other point.
-    curve : Curve
-        Of the surface.
-    growth : float
-        Factor of differences from grid to grid.
-    """
-    quarter, half, thinned = values = np.array([getattr(each, name) for each in coarser])
+def _of_compliance(name: str, coarser: Sequence[Curve], curve: Curve) -> Real:
+    """Root of the squares by which a compliance differs between grids, over that of the surface."""
     full = getattr(curve, name)
-    logs = np.abs(np.log([full / half, half / quarter, full / thinned])).max(axis=0)
-    # compliances over that of the surface; full contact has none, and the difference from it is
-    # the least that the last one can be
-    compliances = np.abs([1 - full / half, full / half - full / quarter, 1 - full / thinned])
-    following = _SAFETY * (growth + growth**2)
-    closed = np.log1p((_SAFETY + following) * compliances.max(axis=0))
-    error = np.where(np.isinf(values).any(axis=0) & np.isfinite(full), closed, following * logs)
-    error = np.where(np.isinf(full), np.nan, error)
-    return np.where((values == full).all(axis=0), 0.0, error)
+    values = np.array([getattr(each, name) for each in coarser])
+    found = _between(np.where(values == full, 1.0, full / values), 1.0)
+    return np.where(np.isinf(found), np.nan, found)
+
+
+def _between(of_coarser: Real, of_surface: Real | float) -> Real:
+    """Root of the weighted squares of differences between grids: thinned, halved and quartered."""
+    thinned, half, quarter = of_coarser
+    differences = [thinned - of_surface, half - of_surface, quarter - half]
+    return np.asarray(
+        np.sqrt(sum((w * d) ** 2 for w, d in zip(_WEIGHTS, differences, strict=True)))
+    )
+
+
+def _of_yield(alike: Curve, softer: Curve) -> Real:
+    """Share that a softer body takes from the compliance on unloading.
+
+    Near full contact a softer body is flattened more than waves alone would: it counts by the root
+    of the area that it leaves open.
+    """
+    before, after = alike.unloading_stiffness, softer.unloading_stiffness
+    area = softer.area_fraction_corrected
+    assert before is not None
+    assert after is not None
+    assert area is not None
+    share = 1 - np.minimum(before, after) / np.maximum(before, after)
+    return np.where(before == after, 0.0, share * np.sqrt(np.maximum(1 - area, 0.0)))
+
+
+def _of_area(curve: Curve, coarser: Sequence[Curve], steepening: float, points: int) -> Real:
+    """Logarithm of the factor by which the contact area may differ."""
+    area = curve.area_fraction_corrected
+    assert area is not None
+    values = np.array([each.area_fraction_corrected for each in coarser])
+    between = _between(np.log(np.where(values == area, 1.0, values / area)), 0.0)
+    opened = np.hypot(_steeper(steepening**_OF_STEEPENING, area), _OF_AREA * between)
+    if curve.hardness is not None:
+        least = curve.force / (curve.hardness * curve.length**2)
+        opened = np.minimum(opened, np.maximum(np.log(area / least), 0.0))
+    counted = 1 / np.sqrt(points * area)
+    return np.where((opened == 0) | (area == 0), 0.0, np.hypot(opened, counted))
 
 
 def _excess(squares: Sequence[float], acceleration: float) -> float:
@@ -231,19 +240,13 @@ def _pressed_softer(curve: Curve, surface: Surface, hardness: float, press: Pres
     return among_loads(press(surface, Loads("forces", forces), hardness), known)
 
 
-def _change(name: str, before: Curve, after: Curve) -> Real:
-    """Return the change of the logarithm of a quantity; none where both are equal."""
-    old, new = getattr(before, name), getattr(after, name)
-    return np.where(new == old, 0.0, np.log(new / old))
-
-
-def _steeper(yielding: Real, steepening: float, area: Real) -> Real:
-    """Return the change of the logarithm of an area where yield and steeper slopes change it."""
+def _steeper(steepening: float, area: Real) -> Real:
+    """Return how far the logarithm of an elastic contact area falls where slopes are steeper."""
     from scipy.special import erf, erfinv  # here because they load slowly
 
     # Persson: the error function of the pressure over the slope, times a constant
-    steeper = erf(erfinv(np.minimum(yielding, 1.0)) / steepening)
-    return np.where(area == 0, 0.0, np.log(steeper / area))
+    steeper = erf(erfinv(np.minimum(area, 1.0)) / steepening)
+    return np.where(area == 0, 0.0, np.log(np.minimum(area, 1.0) / steeper))
 
 
 def _times(value: Real, error: Real) -> Real:
