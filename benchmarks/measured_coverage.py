@@ -32,7 +32,14 @@ HURSTS = (0.3, 0.6, 0.9)
 COUNTS = (2, 3, 5, 10)
 DRAWS = 12
 SCANS = 4  # of each piece
-FINER = 4  # points of the surface along a pixel of a map
+SIZES = {  # pixels along a map, points of the surface along a pixel, maps along the surface
+    "grid": (64, 4, 1),
+    "larger": (128, 2, 4),
+    "part": (96, 2, 5),
+    "scan": (256, 1, 2),
+    "fit": (128, 4, 2),
+}
+ACROSS = {"turned": 0}  # axis across the lay of a kind, along which it is scanned; else 1
 SHORTEST = (2, 4, 8, 16)  # points to the shortest wave, which is half a pixel to four pixels long
 KEY = ["study", "kind", "option", "seed"]
 
@@ -40,19 +47,16 @@ KEY = ["study", "kind", "option", "seed"]
 def make_of(study, kind, seed):
     """How a parent of a study is made, its exponent, roll-off and shortest wave at random."""
     rng = np.random.default_rng([crc32(f"{study} {kind}".encode()), seed])
-    pixels, maps = {"grid": (64, 1), "fit": (128, 2), "scan": (64, 2), "part": (64, 5)}.get(
-        study, (64, 4)
-    )
-    points = pixels * FINER
+    pixels, finer, maps = SIZES[study]
     hurst = float(rng.uniform(0.2, 0.95))
     waves = float(rng.uniform(*((20, 60) if study == "scan" else (4, 12))))
     cells = float(rng.choice(SHORTEST)) if study in ("grid", "larger", "part") else 4.0
-    return Make(points, maps, hurst, waves, cells), rng
+    return Make(pixels * finer, maps, hurst, waves, cells), rng
 
 
-def seen(piece, instrument, rng):
-    """A piece as an instrument sees it, on pixels that are FINER points long."""
-    return as_surface(measured(piece, instrument, FINER, rng), piece)
+def seen(study, piece, instrument, rng):
+    """A piece as an instrument sees it."""
+    return as_surface(measured(piece, instrument, SIZES[study][1], rng), piece)
 
 
 def pressures_of(surface, hardness_bar=None):
@@ -92,7 +96,7 @@ def grid_rows(kind, option, seed):
     make, rng = make_of("grid", kind, seed)
     fine = parent_of(kind, make, rng).detrended()
     fine = as_surface(fine.heights, fine)
-    coarse = seen(fine, instrument, rng)
+    coarse = seen("grid", fine, instrument, rng)
     forces = pressures_of(fine, bar) * fine.area
     given = {"E_star": E_STAR, "forces": forces, "throw": False} | hardness_of(fine, bar)
     truth, curve = rl.press(fine, **given), rl.press(coarse, grid_error=True, **given)
@@ -121,7 +125,7 @@ def larger_rows(kind, option, seed):
     for _ in range(3):
         piece = piece_of(parent, make, rng)
         question = rl.Question(
-            seen(piece, "pixel means", rng),
+            seen("larger", piece, "pixel means", rng),
             MATERIALS,
             joint_area=parent.area,
             loads=loads,
@@ -156,7 +160,7 @@ def part_rows(kind, option, seed):
         "interface_stiffness": whole.unloading_stiffness,
         "contact_stiffness": np.exp(np.mean([np.log(each.stiffness) for each in alone], axis=0)),
     }
-    maps = [seen(each, "pixel means", rng) for each in pieces]
+    maps = [seen("part", each, "pixel means", rng) for each in pieces]
     loads = [f"{each:.9g} Pa" for each in pressures]
     for joint, (key, truth) in zip((parent.area, None), truths.items(), strict=True):
         questions = [
@@ -176,8 +180,15 @@ def part_rows(kind, option, seed):
                     yield row(name, wanted, float(truth[i]), float(answer.mean[i]), *ends, said)
 
 
+def scan_of(surface, kind, rng):
+    """A line scan of a map, at a random place, across its lay if it has one."""
+    heights = surface.heights.T if ACROSS.get(kind, 1) == 0 else surface.heights
+    place = int(rng.integers(heights.shape[0]))
+    return rl.Line(heights[place].copy(), surface.sizes[0], unit="m", kind="profile")
+
+
 def scan_rows(kind, option, seed):
-    """Rows and columns of a piece as line scans, and the piece in the full model."""
+    """Line scans of a piece, and the piece in the full model."""
     make, rng = make_of("scan", kind, seed)
     parent = parent_of(kind, make, rng)
     for _ in range(2):
@@ -185,11 +196,8 @@ def scan_rows(kind, option, seed):
         force_of_one = E_STAR * piece.rms_height * piece.sizes[0]
         forces = np.array([0.01, 0.1, 1.0]) * force_of_one
         truth = rl.press(piece, E_star=E_STAR, forces=forces, throw=False).stiffness
-        for number in range(SCANS):
-            heights = piece.heights if number % 2 else piece.heights.T
-            scan = rl.Line(
-                heights[rng.integers(make.points)].copy(), piece.sizes[0], unit="m", kind="profile"
-            ).detrended()
+        for _ in range(SCANS):
+            scan = scan_of(piece, kind, rng).detrended()
             pressed = rl.press_scan(scan, E_star=E_STAR, forces=forces)
             for i, force in enumerate(forces):
                 ends = float(pressed.low[i]), float(pressed.high[i])
@@ -204,8 +212,8 @@ def fit_rows(kind, option, seed):
     make, rng = make_of("fit", kind, seed)
     make = replace(make, hurst=HURSTS[seed % 3])
     piece = piece_of(parent_of(kind, make, rng), make, rng)
-    map_seen = seen(piece, option, rng)
-    scan = rl.Line(map_seen.heights[:, 7].copy(), piece.sizes[0], unit="m", kind="profile")
+    map_seen = seen("fit", piece, option, rng)
+    scan = scan_of(map_seen, kind, rng)
     for name, body in (("H of a map", map_seen.detrended()), ("H of a scan", scan.detrended())):
         found = rl.roughness(body)
         ends = (math.nan, math.nan) if found.fit is None else found.fit.hurst_interval
@@ -308,19 +316,19 @@ ASKED = {
     ),
     "larger": (
         "The larger surface behind one map",
-        "A map of 64 x 64 pixels that are means, with its own tilt, is asked for a joint of 4 x 4 "
+        "A map of 128 x 128 pixels that are means, with its own tilt, is asked for a joint of 4 x 4 "
         "maps. The truth is the whole joint on 1024 x 1024 points.",
     ),
     "part": (
         "A part, from several maps",
-        "Maps of 64 x 64 pixels that are means, drawn from the 25 of a part. The truth of a joint "
-        "is the whole part on 1280 x 1280 points, that of a map's own stiffness is the mean over "
-        "all 25 places, on 256 x 256 points each.",
+        "Maps of 96 x 96 pixels that are means, drawn from the 25 of a part. The truth of a joint "
+        "is the whole part on 960 x 960 points, that of a map's own stiffness is the mean over "
+        "all 25 places, on 192 x 192 points each.",
     ),
     "scan": (
         "A line scan",
-        "Rows and columns of maps of 256 x 256 points, with 20 to 60 roll-off wavelengths a side, "
-        "are pressed as line scans; the truth is the map in the full model.",
+        "Line scans of maps of 256 x 256 points, across the lay where there is one, with 20 to 60 roll-off wavelengths a side, "
+        "are pressed; the truth is the map in the full model.",
     ),
     "fit": (
         "The Hurst exponent",
