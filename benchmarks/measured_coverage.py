@@ -316,8 +316,8 @@ ASKED = {
     ),
     "larger": (
         "The larger surface behind one map",
-        "A map of 128 x 128 pixels that are means, with its own tilt, is asked for a joint of 4 x 4 "
-        "maps. The truth is the whole joint on 1024 x 1024 points.",
+        "A map of 128 x 128 pixels that are means, with its own tilt, is asked for a joint of "
+        "4 x 4 maps. The truth is the whole joint on 1024 x 1024 points.",
     ),
     "part": (
         "A part, from several maps",
@@ -327,7 +327,8 @@ ASKED = {
     ),
     "scan": (
         "A line scan",
-        "Line scans of maps of 256 x 256 points, across the lay where there is one, with 20 to 60 roll-off wavelengths a side, "
+        "Line scans of maps of 256 x 256 points, across the lay where there is one, with 20 to 60 "
+        "roll-off wavelengths a side, "
         "are pressed; the truth is the map in the full model.",
     ),
     "fit": (
