@@ -49,7 +49,8 @@ def test_a_fault_of_a_map_is_the_first_remark_above_its_answers(fault, invoke, t
         text = " ".join(answered(invoke, *command).split())
         assert remark in text
         if command[0] == "press":
-            assert remark in text[text.index("note:") :].split("note:")[1]
+            first = text[text.index("warning:") : text.index("normal force")]
+            assert remark in first.split("warning:")[1]
 
 
 def test_what_is_told_of_an_instrument_against_the_data_is_refused_or_leaves_the_answer(

@@ -19,7 +19,7 @@ from roughline.report.part_tables import (
     part_table,
     star_is_shown_of,
 )
-from roughline.report.terminal import MOST_WITH_ALL, print_files, print_table
+from roughline.report.terminal import MOST_WITH_ALL, print_files, print_remarks, print_table
 
 if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
@@ -42,6 +42,7 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
     console = Console(markup=False)
     print_table(console, *maps_table(part))
     console.print()
+    print_remarks(console, "warning", part.warnings)
     print_table(console, *leading_table(part))
     count = len(part.headings)
     if part.answers:
@@ -59,8 +60,7 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
         console.print(f"* {UNRESOLVED}", highlight=False)
     if count > MOST_WITH_ALL:
         console.print(f"other answers at more than {MOST_WITH_ALL} loads: use {many_answers_by}")
-    for remark in part.remarks:
-        console.print(f"note: {remark}", highlight=False, soft_wrap=not console.is_terminal)
+    print_remarks(console, "note", part.notes)
     print_files(files)
 
 

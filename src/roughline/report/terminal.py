@@ -70,6 +70,7 @@ def print_assessment(
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
+    print_remarks(console, "warning", assessment.warnings)
     count = assessment.asked.size
     if count > _MOST_SHOWN:
         console.print(_in_one_line(assessment, long_curves_by), highlight=False, soft_wrap=True)
@@ -92,9 +93,14 @@ def print_assessment(
         console.print(failure, highlight=False, soft_wrap=not console.is_terminal)
     for theory in assessment.theories:
         console.print(_theory_line(theory, assessment), highlight=False, soft_wrap=True)
-    for note in assessment.remarks:
-        console.print(f"note: {note}", highlight=False, soft_wrap=not console.is_terminal)
+    print_remarks(console, "note", assessment.notes)
     print_files(files)
+
+
+def print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:
+    """Print remarks, a line each: warnings stand above the answers, notes below."""
+    for remark in remarks:
+        console.print(f"{kind}: {remark}", highlight=False, soft_wrap=not console.is_terminal)
 
 
 def _in_one_line(assessment: Assessment, long_curves_by: str) -> str:
@@ -146,6 +152,8 @@ def _theory_line(theory: TheoryCurve, assessment: Assessment) -> str:
 def print_description(description: Description, files: Iterable[Path] = ()) -> None:
     """Print what a topography is like."""
     console = Console(markup=False)
+    if description.roughness is not None:
+        print_remarks(console, "warning", description.roughness.remarks)
     rows = description_table(description)
     indent = 2 + max(len(name) for name, _ in rows)
     for name, value in rows:
@@ -154,9 +162,7 @@ def print_description(description: Description, files: Iterable[Path] = ()) -> N
         console.print(line, highlight=False, soft_wrap=True)
     for obstacle in description.obstacles:
         console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
-    remarks = description.roughness.remarks if description.roughness else []
-    for note in (*description.notes, *remarks):
-        console.print(f"note: {note}", highlight=False, soft_wrap=True)
+    print_remarks(console, "note", description.notes)
     print_files(files)
 
 
@@ -179,12 +185,11 @@ def print_comparison(compared: ModelComparison, files: Iterable[Path] = ()) -> N
     """Print both curves, their difference, and where the reduced model may be trusted."""
     console = Console(markup=False)
     console.print(compared.what, highlight=False, soft_wrap=True)
+    print_remarks(console, "warning", compared.comparison.warnings)
     print_table(console, *comparison_table(compared))
     if not compared.comparison.resolved.all():
         console.print("* fewer than ten cells in contact: the grid decides, not the surface")
     console.print(verdict_in_words(compared), highlight=False, soft_wrap=True)
-    for warning in compared.comparison.warnings:
-        console.print(f"note: {warning}", highlight=False, soft_wrap=True)
     print_files(files)
 
 
