@@ -64,6 +64,11 @@ class _Grids:
         return cls(_halved(half), half, _thinned(surface), surface)
 
     @property
+    def coarser(self) -> tuple[Surface, Surface, Surface]:
+        """The coarser ones, in the order of their weights."""
+        return self.thinned, self.half, self.quarter
+
+    @property
     def steepening(self) -> float:
         """How much larger the rms slope of a grid four times finer will be.
 
@@ -131,9 +136,7 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) 
     assert k_u is not None
     assert area is not None
     grids = _Grids.of(surface)
-    coarser = [
-        press(each, loads, curve.hardness) for each in (grids.thinned, grids.half, grids.quarter)
-    ]
+    coarser = [press(each, loads, curve.hardness) for each in grids.coarser]
     steepening = grids.steepening
     softer = _softer(grids, steepening, coarser[1], press)
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
