@@ -62,9 +62,10 @@ def press_scan(
 
     Each of 200 lines belongs to a surface that the scan may be cut from. The spectrum of this
     surface is a self-affine law with deviations from it; both are drawn with the probability that
-    the scan gives them. Phases are random. The surface is assumed to be isotropic, and its heights
-    Gaussian: on others the stiffness may be off by a factor of several. So there is no interval
-    where the scan shows other heights, or is too short to show which it has.
+    the scan gives them. Phases are random. The surface is assumed to be isotropic and alike
+    everywhere, and its heights Gaussian: on others the stiffness may be off by a factor of several.
+    So there is no interval where the scan shows other heights, or is too short to show which it
+    has. What lies beside the scan, it cannot show.
 
     Parameters
     ----------
@@ -160,8 +161,9 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> Curve:
             **as_body(scan.settings),
         },
         warnings=(
-            "a line scan shows one direction only: the surface is assumed to be isotropic, and a "
-            "square whose side is the scan's length",
+            "a line scan shows one line only: the surface is assumed to be isotropic, alike "
+            "everywhere and without waves longer than the scan, and a square whose side is the "
+            "scan's length",
         ),
     )
 
