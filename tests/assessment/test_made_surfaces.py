@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-SEED = 1000  # the benchmark begins at 0
+SEED = 1001  # the benchmark begins at 0
 
 CASES = {
     "grid": [

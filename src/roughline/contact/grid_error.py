@@ -169,7 +169,8 @@ def _of_compliance(name: str, coarser: Sequence[Curve], curve: Curve) -> Real:
     full = getattr(curve, name)
     values = np.array([getattr(each, name) for each in coarser])
     found = _between(np.where(values == full, 1.0, full / values), 1.0)
-    return np.where(np.isinf(found), np.nan, found)
+    is_apart = (full == 0) & (values != 0).any(axis=0)  # and a coarser grid is not
+    return np.where(np.isinf(found) | is_apart, np.nan, found)
 
 
 def _between(of_coarser: Real, of_surface: Real | float) -> Real:
@@ -207,7 +208,8 @@ def _of_area(curve: Curve, coarser: Sequence[Curve], steepening: float, points: 
         least = curve.force / (curve.hardness * curve.length**2)
         opened = np.minimum(opened, np.maximum(np.log(area / least), 0.0))
     counted = 1 / np.sqrt(points * area)
-    return np.where((opened == 0) | (area == 0), 0.0, np.hypot(opened, counted))
+    found = np.where(opened == 0, 0.0, np.hypot(opened, counted))
+    return np.where(area > 0, found, np.where((values == 0).all(axis=0), 0.0, np.nan))
 
 
 def _excess(squares: Sequence[float], acceleration: float) -> float:

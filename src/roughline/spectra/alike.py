@@ -14,7 +14,7 @@ from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Surface
 from roughline.topography.notebook import in_words
 
-_VARIES = 0.1  # relative scatter of rms slopes between places that matters
+_VARIES = 0.05  # relative scatter of rms slopes between places that matters
 _TILES = (2, 4, 8)  # along a side, whose slopes are compared
 _NONE = 1e-6  # of the largest mean square slope: none
 _LEAST_OF_TILE = 10  # independent squares of slopes in a tile

@@ -41,7 +41,7 @@ FIT_RESTS_ON: frozenset[Assumption] = frozenset(
 
 _CHANCE = 0.002  # of a departure from an assumption that a topography fulfils, over all its tests
 _CHANCE_OF_DRIFT = 0.02  # of a drift over a map, which goes on beyond it
-_CHANCE_OF_WAVES = 0.01  # of tilt and bow: what few coefficients show is easily missed
+_CHANCE_OF_WAVES = 0.02  # of tilt and bow: what few coefficients show is easily missed
 _LONGER = 0.02  # mean square of longer waves, over that of the rest, that matters
 _ON_LINES = 0.1  # share of heights that stand in steps that matters
 _ON_A_LEVEL = 0.003  # share of heights on one level, beyond the lowest, that matters
