@@ -8,7 +8,7 @@ last load is unloaded to three tenths. Measured files given as arguments are cut
 is the finer grid, and its means of four by four points are the map.
 
 Cases are appended to a file and not computed again. ``--part 2/8`` computes the second of every
-eight. ``--through-assess`` judges R and G of materials with an exact hardness as well.
+eight.
 """
 
 import argparse
@@ -50,7 +50,6 @@ QUANTITIES = {  # symbol: quantity, its error
     "k": ("stiffness", "stiffness_error"),
     "A": ("area_fraction_corrected", "area_fraction_error"),
 }
-ANSWERS = {"R": "constriction_resistance", "G": "thermal_conductance"}
 E_STAR = 1.0
 
 
@@ -110,32 +109,6 @@ def judged(surface, finer, over_slope):
     return found
 
 
-def judged_through_assess(surface, finer):
-    """The same for resistance and conductance of two metals with an exact hardness."""
-    results = [
-        rl.assess(
-            rl.Question(
-                each,
-                materials=("steel", "copper"),
-                loads=["1 MPa", "5 MPa", "20 MPa"],
-                hardness="1.2 GPa",
-                grid_error=each is surface,
-            )
-        )
-        for each in (surface, finer)
-    ]
-    found = {}
-    for symbol, key in ANSWERS.items():
-        answer, true = (each.answers[key] for each in results)
-        values, low, high = (
-            np.array(each, float) for each in (answer.values, answer.low, answer.high)
-        )
-        off = np.log(np.array(true.values, float) / values)
-        claimed = np.where(off > 0, np.log(high / values), np.log(values / low))
-        found[symbol] = np.abs(off).tolist(), claimed.tolist()
-    return found
-
-
 def cases(arguments):
     """Names of the cases and how each one is judged."""
     for seed in range(arguments.first_seed, arguments.first_seed + arguments.seeds):
@@ -167,8 +140,6 @@ def rows_of(arguments):
             for over_slope in hardnesses:
                 found = judged(surface, finer, over_slope)
                 row["found"].append([sampling, over_slope and round(over_slope, 3), found])
-            if arguments.through_assess and kind in KINDS:
-                row["found"].append([sampling, "assess", judged_through_assess(surface, finer)])
         rows.append(row)
         with path.open("a") as file:
             file.write(json.dumps(row) + "\n")
@@ -205,9 +176,11 @@ def table(rows, title, group, symbols):
         print(f"| {key} | {size} | {' | '.join(cells)} |")
 
 
-def is_gaussian(kind):
-    """Whether the models of intervals are exact for a kind."""
-    return kind in GAUSSIAN or kind in ON_TWO_GRIDS
+def group_of(kind):
+    """Measured maps each, and whether the models of intervals are exact for a made kind."""
+    if kind.startswith("quarters"):
+        return kind
+    return "Gaussian" if kind in GAUSSIAN or kind in ON_TWO_GRIDS else "others"
 
 
 def main():
@@ -219,22 +192,9 @@ def main():
     parser.add_argument("--hardnesses", type=int, default=3, help="of each surface, drawn by seed")
     parser.add_argument("--part", default="1/1")
     parser.add_argument("--rows", default="grid-error-rows.jsonl")
-    parser.add_argument("--through-assess", action="store_true")
     arguments = parser.parse_args()
     rows = rows_of(arguments)
     print(f"\nroughline {rl.__version__}, loads F / (E* h L) = 0.003 to 1")
-    table(
-        rows,
-        "elastic",
-        lambda kind, sampling, hard: f"{kind}, {sampling}" if hard is None else None,
-        ["k", "A"],
-    )
-    table(
-        rows,
-        "yielding",
-        lambda kind, sampling, hard: f"{kind}, {sampling}" if isinstance(hard, float) else None,
-        [*QUANTITIES],
-    )
     table(
         rows,
         "H over E*∇h",
@@ -243,22 +203,12 @@ def main():
     )
     table(
         rows,
-        "Gaussian or not",
+        "surfaces",
         lambda kind, sampling, hard: (
-            None
-            if hard == "assess"
-            else f"{'Gaussian' if is_gaussian(kind) else 'others'}, {sampling}, "
-            f"{'elastic' if hard is None else 'yielding'}"
+            f"{group_of(kind)}, {sampling}, {'elastic' if hard is None else 'yielding'}"
         ),
         [*QUANTITIES],
     )
-    if arguments.through_assess:
-        table(
-            rows,
-            "through rl.assess",
-            lambda kind, sampling, hard: f"{kind}, {sampling}" if hard == "assess" else None,
-            [*ANSWERS],
-        )
 
 
 if __name__ == "__main__":
