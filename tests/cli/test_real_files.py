@@ -20,8 +20,8 @@ PRESS = ("--materials", "steel,copper", "--load", "10 uN")  # more than copper b
         ("al3d-1.al3d", [200, 296], "within 5% of the border"),
         ("di-1.di", [512, 512], "21 spikes kept"),
         ("opd-1.opd", [640, 480], "116 missing points (0.04%) filled: harmonic"),
-        ("dektak-1.csv", [9600], "a line scan shows one direction"),
-        ("mitutoyo_mock.xlsx", [960], "a line scan shows one direction"),
+        ("dektak-1.csv", [9600], "a line scan shows one line"),
+        ("mitutoyo_mock.xlsx", [960], "a line scan shows one line"),
     ],
 )
 def test_files_that_can_be_pressed(topographies, invoke, name, points, told):
