@@ -72,7 +72,7 @@ def test_a_line_scan_is_pressed_with_an_interval():
     assert (found.curve.stiffness < found.high).all()
     assert (found.curve.force == forces).all()
     assert found.curve.area_fraction is None
-    assert "one direction" in found.curve.warnings[0]
+    assert "one line only" in found.curve.warnings[0]
     assert found.curve.settings["lines"] == 200
     found.curve.to_dataset()
     with pytest.raises(rl.InputError, match="this is a reduced line"):
