@@ -97,14 +97,14 @@ class _Grids:
 def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) -> Curve:
     """Add to a curve the discretisation errors estimated from coarser grids.
 
-    The error of a stiffness goes with how its compliance differs between the surface, means
-    of two by two of its points, and every other one of them. Compliances add, so that differences
-    stay finite where a coarse grid is in full contact. Where points yield, a body with the hardness
-    H / m tells what waves do that no grid here has, if they steepen the surface by m.
+    The error of a stiffness is the steepening m, by which two finer grids raise the rms slope,
+    times the root of squares by which its compliance differs between grids. Compliances add, and
+    their differences stay finite where a coarse grid is in full contact. Where points yield, a body
+    with the hardness H / m tells what waves do that no grid here has.
 
     The same waves open the contact area of elastic bodies as Persson's theory tells [1]_, where no
-    area is less than the force over the hardness. Beside it an area of N points scatters as a count
-    does, by 1 / sqrt(N).
+    area is less than the force over the hardness. Besides, an area of N points scatters
+    as a count does, by 1 / sqrt(N).
 
     The error under a load does not depend on the other loads. The errors cover grids four times
     finer, but no noise that begins at the spacing.
