@@ -5,8 +5,10 @@ import time
 from contextlib import contextmanager
 
 import roughline as rl
-from roughline.halfspace import cascade, convolution, path, preconditioner, tangent
-from roughline.halfspace.restricted import RestrictedOperators
+from roughline.halfspace.inverse import approximate_inverse as preconditioner
+from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators.restricted import RestrictedOperators
+from roughline.halfspace.search import cascade, path, tangent
 
 
 @contextmanager

@@ -20,8 +20,8 @@ from page import Page
 
 import roughline as rl
 from roughline.computing.cores import available_cores
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import GridNodes
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.operators.operator import GridNodes
 
 CORES = available_cores()
 

@@ -90,7 +90,7 @@ def judged(request):
 @pytest.fixture
 def nothing_kept():
     """Press without what presses before have kept, and keep nothing for those that follow."""
-    from roughline.halfspace import lending  # compiled loops load slowly, so only here
+    from roughline.halfspace.search import lending  # compiled loops load slowly, so only here
 
     lending._kept.clear()
     yield

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.halfspace.kernel import love
+from roughline.halfspace.elasticity.kernel import love
 
 _ROUNDING = 1e-12  # of what is compared with zero, over the largest of its kind
 _AT_HARDNESS = 1e-9  # a node so near, over H, bears H: after reloading it does to rounding

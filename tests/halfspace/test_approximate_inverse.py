@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from roughline.computing import fft
-from roughline.halfspace import preconditioner as room
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.lattice_loops import GROUP, invert_groups
-from roughline.halfspace.operator import GridNodes
-from roughline.halfspace.preconditioner import ApproximateInverse, preconditioner
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.inverse import approximate_inverse as room
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
+from roughline.halfspace.inverse.lattice_loops import GROUP, invert_groups
+from roughline.halfspace.operators.operator import GridNodes
 
 SHAPE = 150, 600  # so that there are groups, and blocks and groups are cut at the edges
 

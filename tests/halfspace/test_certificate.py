@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace import convolution, exchange
-from roughline.halfspace.convolution import Convolution
-from roughline.halfspace.kernel import love
+from roughline.halfspace.elasticity.kernel import love
+from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.search import exchange
 
 pytestmark = pytest.mark.usefixtures("nothing_kept")  # a sound kernel, or a damaged one
 
@@ -111,7 +112,7 @@ def test_a_contact_set_that_only_grows_is_refused(monkeypatch):
 
 
 def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
-    from roughline.halfspace import patch
+    from roughline.halfspace.search import patch
 
     monkeypatch.setattr(patch, "preconditioner", lambda inverse, nodes: np.copy)
     curve = pressed()

@@ -3,20 +3,20 @@
 import numpy as np
 import pytest
 
-from roughline.halfspace.cascade import first_guess
-from roughline.halfspace.conditions import (
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.kernel import love
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
+from roughline.halfspace.laws.conditions import (
     UnilateralContact,
     YieldingContact,
     out_of_bounds,
     residuals,
     violations,
 )
-from roughline.halfspace.correction import solve
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.kernel import love
-from roughline.halfspace.preconditioner import ApproximateInverse
-from roughline.halfspace.state import Load, Method, Problem
-from roughline.halfspace.tangent import response
+from roughline.halfspace.search.cascade import first_guess
+from roughline.halfspace.search.correction import solve
+from roughline.halfspace.search.state import Load, Method, Problem
+from roughline.halfspace.search.tangent import response
 
 ELASTIC = UnilateralContact()
 YIELDING = YieldingContact(hardness=4.0)

@@ -11,7 +11,7 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import brentq, nnls
 
 import roughline as rl
-from roughline.halfspace.kernel import love
+from roughline.halfspace.elasticity.kernel import love
 
 N = 16
 SIZES = (1.0, 1.6)

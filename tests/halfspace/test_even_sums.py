@@ -5,10 +5,10 @@ import pytest
 
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
-from roughline.halfspace import convolution
-from roughline.halfspace.even_sums import Lags, even_sums
-from roughline.halfspace.lattices import kernels_on, lags_for, lattice_shapes
-from roughline.halfspace.preconditioner import ApproximateInverse
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
+from roughline.halfspace.inverse.even_sums import Lags, even_sums
+from roughline.halfspace.inverse.lattices import kernels_on, lags_for, lattice_shapes
+from roughline.halfspace.operators import convolution
 
 ROUNDING = 1e-14
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace import convolution
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import GridNodes, displacement_field
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators.operator import GridNodes, displacement_field
 
 ROUNDING = 1e-13
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 import random_surfaces
 import roughline as rl
 from random_surfaces import surfaces
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import displacement_field
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.operators.operator import displacement_field
 
 laws = settings(random_surfaces.laws, max_examples=15)
 

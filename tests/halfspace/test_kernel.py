@@ -6,9 +6,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from roughline.halfspace import convolution
-from roughline.halfspace.kernel import love, love_rows
-from roughline.halfspace.operator import GridNodes, displacement_field
+from roughline.halfspace.elasticity.kernel import love, love_rows
+from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators.operator import GridNodes, displacement_field
 
 KERNEL = 4e-15  # relative
 

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 import roughline as rl
 from random_surfaces import laws, surfaces
 from roughline.exact.punch import square_stiffness
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import displacement_field
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.operators.operator import displacement_field
 
 RTOL = 1e-6  # the certified tolerance
 NEUTRAL = 1e-9  # the problem is solved without units: only their rounding is left

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace import lending
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.lending import lent
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.search import lending
+from roughline.halfspace.search.lending import lent
 
 pytestmark = pytest.mark.usefixtures("nothing_kept")
 

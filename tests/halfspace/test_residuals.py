@@ -6,7 +6,7 @@ import pytest
 import roughline as rl
 from halfspace.dense_hardness import Body
 from roughline.contact import loads
-from roughline.halfspace.kernel import love
+from roughline.halfspace.elasticity.kernel import love
 
 RTOL = 1e-6
 ROUGH = np.random.default_rng(5).normal(size=(16, 12))

@@ -8,13 +8,14 @@ from scipy.linalg import eigh
 
 import roughline as rl
 from roughline.computing import fft
-from roughline.halfspace import convolution, correction, lending
-from roughline.halfspace.coarse_grid import CoarseGrid
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import GridNodes, displacement_field
-from roughline.halfspace.preconditioner import ApproximateInverse
-from roughline.halfspace.restricted import RestrictedOperator, RestrictedOperators
-from roughline.halfspace.small_grid import SmallGrid
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
+from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators.coarse_grid import CoarseGrid
+from roughline.halfspace.operators.operator import GridNodes, displacement_field
+from roughline.halfspace.operators.restricted import RestrictedOperator, RestrictedOperators
+from roughline.halfspace.operators.small_grid import SmallGrid
+from roughline.halfspace.search import correction, lending
 
 
 def contact_nodes(shape, seed, part):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.halfspace.state import Contact
+from roughline.halfspace.search.state import Contact
 from roughline.topography.body import Surface
 from roughline.topography.repetition import border_jump
 

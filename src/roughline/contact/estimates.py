@@ -135,8 +135,8 @@ def estimate(
 def _convolution_seconds(shape: tuple[int, int], periodic: bool) -> float:
     """Return how long a convolution of whole fields takes, from the time of a small one. [s]"""
     # compiled loops load slowly, so only here
-    from roughline.halfspace.half_space import HalfSpace
-    from roughline.halfspace.operator import displacement_field
+    from roughline.halfspace.elasticity.homogeneous import HalfSpace
+    from roughline.halfspace.operators.operator import displacement_field
 
     operator = HalfSpace(1.0, periodic).operator((_PROBE, _PROBE), (1.0, 1.0))
     pressure = np.ones(operator.shape)

@@ -17,12 +17,16 @@ from roughline.contact.loads import Loads
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
 from roughline.errors import Interrupted
-from roughline.halfspace.conditions import ContactConditions, UnilateralContact, YieldingContact
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.lending import lent
-from roughline.halfspace.path import solve_path
-from roughline.halfspace.preconditioner import ApproximateInverse
-from roughline.halfspace.state import Load, Method, Problem
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
+from roughline.halfspace.laws.conditions import (
+    ContactConditions,
+    UnilateralContact,
+    YieldingContact,
+)
+from roughline.halfspace.search.lending import lent
+from roughline.halfspace.search.path import solve_path
+from roughline.halfspace.search.state import Load, Method, Problem
 from roughline.topography.body import Surface
 from roughline.topography.borders import border_doubts
 from roughline.topography.effects import grave_effects

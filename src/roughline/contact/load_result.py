@@ -17,9 +17,9 @@ from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
 from roughline.contact.quantity import OVER_LOADS
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
-from roughline.halfspace.outline import overstated_cells
-from roughline.halfspace.state import Contact, Outcome
-from roughline.halfspace.tangent import Response
+from roughline.halfspace.search.outline import overstated_cells
+from roughline.halfspace.search.state import Contact, Outcome
+from roughline.halfspace.search.tangent import Response
 
 
 @dataclass(frozen=True, eq=False)

@@ -178,7 +178,7 @@ def press(
         refuse_few_points(body)
     # imported here because compiled loops load slowly
     from roughline.contact.full import press_surface
-    from roughline.halfspace.state import Method
+    from roughline.halfspace.search.state import Method
 
     method = Method(rtol, max_iterations, precision)
     pressed = partial(press_surface, E_star=E_star, method=method, periodic=periodic)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.contact.loads import Loads
-from roughline.halfspace.separation import Separation
+from roughline.halfspace.search.separation import Separation
 from roughline.topography.body import Surface
 
 

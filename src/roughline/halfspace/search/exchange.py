@@ -14,10 +14,10 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.conditions import Violations
-from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.separation import Separation
-from roughline.halfspace.state import Problem
+from roughline.halfspace.laws.conditions import Violations
+from roughline.halfspace.search.contact_set import ContactSet
+from roughline.halfspace.search.separation import Separation
+from roughline.halfspace.search.state import Problem
 
 # After more rounds than this without a new minimum of wrong nodes, the equations are solved to the
 # tolerance before nodes are exchanged. After twice as many, nodes are exchanged one by one.

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.halfspace import loops
-from roughline.halfspace.conditions import Residuals, residuals
-from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.operator import Precision
-from roughline.halfspace.state import Contact, Load, Outcome, Problem
+from roughline.halfspace.laws.conditions import Residuals, residuals
+from roughline.halfspace.operators import loops
+from roughline.halfspace.operators.operator import Precision
+from roughline.halfspace.search.contact_set import ContactSet
+from roughline.halfspace.search.state import Contact, Load, Outcome, Problem
 
 _GAPS_AT_A_TIME = 2**18  # so many fit into a cache
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Integers, Real
-from roughline.halfspace import loops
+from roughline.halfspace.operators import loops
 
 _ROWS_AT_A_TIME = 64
 

@@ -30,12 +30,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.exchange import ExchangeRule, able_to_carry, watched_nodes
-from roughline.halfspace.relaxation import relaxed
-from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
-from roughline.halfspace.stopping import StoppingRule
-from roughline.halfspace.trial import Trial
+from roughline.halfspace.search.contact_set import ContactSet
+from roughline.halfspace.search.exchange import ExchangeRule, able_to_carry, watched_nodes
+from roughline.halfspace.search.relaxation import relaxed
+from roughline.halfspace.search.state import Contact, Load, Method, Outcome, Problem
+from roughline.halfspace.search.stopping import StoppingRule
+from roughline.halfspace.search.trial import Trial
 
 
 def search(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:

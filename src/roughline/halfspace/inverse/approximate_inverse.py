@@ -23,13 +23,13 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Integers, Real, Single
-from roughline.halfspace import block_loops as loops
-from roughline.halfspace.cholesky import Cholesky
-from roughline.halfspace.even_sums import Lags, even_sums
-from roughline.halfspace.lattice_loops import fill_direct
-from roughline.halfspace.lattices import Lattices, kernels_on, lags_for, lattice_shapes
-from roughline.halfspace.operator import GridNodes, Operator, unit_in_single
-from roughline.halfspace.restricted import NEAR, RestrictedOperators
+from roughline.halfspace.inverse import block_loops as loops
+from roughline.halfspace.inverse.cholesky import Cholesky
+from roughline.halfspace.inverse.even_sums import Lags, even_sums
+from roughline.halfspace.inverse.lattice_loops import fill_direct
+from roughline.halfspace.inverse.lattices import Lattices, kernels_on, lags_for, lattice_shapes
+from roughline.halfspace.operators.operator import GridNodes, Operator, unit_in_single
+from roughline.halfspace.operators.restricted import NEAR, RestrictedOperators
 
 _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square

@@ -9,9 +9,9 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from roughline.halfspace import lattice_loops as loops
-from roughline.halfspace.cholesky import Cholesky
-from roughline.halfspace.lattice_loops import GROUP
+from roughline.halfspace.inverse import lattice_loops as loops
+from roughline.halfspace.inverse.cholesky import Cholesky
+from roughline.halfspace.inverse.lattice_loops import GROUP
 
 _COARSEST = 32  # blocks along a side of the lattice whose equations are solved directly
 _INVERSES_AT_A_TIME = 2**7  # groups; for fewer, starting a thread does not pay

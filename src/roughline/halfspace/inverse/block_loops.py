@@ -23,7 +23,7 @@ class Layout(NamedTuple):
     blocks : ndarray of int
         The block of its band to which each column belongs.
     rows, starts, columns : ndarray of int
-        As those of :class:`roughline.halfspace.operator.GridNodes`.
+        As those of :class:`roughline.halfspace.operators.operator.GridNodes`.
     first_run, runs : ndarray of int
         Its runs.
     corner, width : int

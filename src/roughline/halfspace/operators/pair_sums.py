@@ -9,7 +9,7 @@ import numpy as np
 from roughline.computing import fft
 from roughline.computing.arrays import Floats, Integers, Real
 from roughline.computing.compiled import compiled
-from roughline.halfspace.operator import GridNodes
+from roughline.halfspace.operators.operator import GridNodes
 
 KernelRows = Callable[[int, Real], None]
 """Fills rows of the table of a kernel by the distance in cells, from a first row on."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.preconditioner import ApproximateInverse
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 
 _Grid = tuple[HalfSpace, tuple[int, int], tuple[float, float]]
 

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 from roughline.errors import InputError
-from roughline.halfspace import convolution
-from roughline.halfspace.operator import Operator
+from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators.operator import Operator
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,12 @@ from typing import Literal
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
-from roughline.halfspace.conditions import ContactConditions, Residuals
-from roughline.halfspace.half_space import HalfSpace
-from roughline.halfspace.operator import GridNodes, Operator, Precision
-from roughline.halfspace.preconditioner import ApproximateInverse
-from roughline.halfspace.restricted import RestrictedOperator
-from roughline.halfspace.separation import Separation
+from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
+from roughline.halfspace.laws.conditions import ContactConditions, Residuals
+from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
+from roughline.halfspace.operators.restricted import RestrictedOperator
+from roughline.halfspace.search.separation import Separation
 
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
 # epsilons of F / (E* sqrt(A_0)) on grids of 8 to 10^6 points.

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
-from roughline.halfspace.state import Contact
+from roughline.halfspace.search.state import Contact
 
 # Cells by which the area is overstated, for each pair of neighbours of which one is in contact.
 _PER_PAIR = (math.pi - 1 + math.log(2)) / 24

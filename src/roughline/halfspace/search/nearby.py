@@ -9,13 +9,13 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.contact_set import ContactSet, merged
-from roughline.halfspace.exchange import able_to_carry
-from roughline.halfspace.operator import GridNodes, Precision
-from roughline.halfspace.restricted import RestrictedOperator
-from roughline.halfspace.separation import Separation
-from roughline.halfspace.state import Load, Problem
-from roughline.halfspace.trial import Trial
+from roughline.halfspace.operators.operator import GridNodes, Precision
+from roughline.halfspace.operators.restricted import RestrictedOperator
+from roughline.halfspace.search.contact_set import ContactSet, merged
+from roughline.halfspace.search.exchange import able_to_carry
+from roughline.halfspace.search.separation import Separation
+from roughline.halfspace.search.state import Load, Problem
+from roughline.halfspace.search.trial import Trial
 
 # Nodes of a gap below so many times the error on contact may come into contact.
 REACH = 2.0

@@ -16,11 +16,11 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real, Single
-from roughline.halfspace import restricted_loops as loops
-from roughline.halfspace.convolution import Convolution
-from roughline.halfspace.operator import GridNodes, Operator
-from roughline.halfspace.padded_grid import PaddedGrid
-from roughline.halfspace.small_grid import SmallGrid
+from roughline.halfspace.operators import restricted_loops as loops
+from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.operator import GridNodes, Operator
+from roughline.halfspace.operators.padded_grid import PaddedGrid
+from roughline.halfspace.operators.small_grid import SmallGrid
 
 _SPREAD_AT_A_TIME = 2**14  # nodes; for fewer, starting a thread costs more than it saves
 _SMALL = 2**18  # modes, up to which one thread transforms whole rows sooner than two share them

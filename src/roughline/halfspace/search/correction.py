@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.halfspace.active_set import search
-from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.convolution import MUCH
-from roughline.halfspace.exchange import able_to_carry
-from roughline.halfspace.nearby import Nearby, nearby, within_reach
-from roughline.halfspace.operator import Precision
-from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
-from roughline.halfspace.trial import Trial
+from roughline.halfspace.operators.convolution import MUCH
+from roughline.halfspace.operators.operator import Precision
+from roughline.halfspace.search.active_set import search
+from roughline.halfspace.search.contact_set import ContactSet
+from roughline.halfspace.search.exchange import able_to_carry
+from roughline.halfspace.search.nearby import Nearby, nearby, within_reach
+from roughline.halfspace.search.state import Contact, Load, Method, Outcome, Problem
+from roughline.halfspace.search.trial import Trial
 
 _GAIN = 2e-3  # of residuals by a search near the contact
 _DEFECT = 2e-3  # of residuals that a restricted operator leaves, about

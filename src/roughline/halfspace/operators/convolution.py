@@ -10,10 +10,10 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from roughline.halfspace import loops
-from roughline.halfspace.kernel import love_rows
-from roughline.halfspace.operator import GridNodes, Precision, unit_in_single
-from roughline.halfspace.pair_sums import ROWS_AT_A_TIME, KernelRows, displaced_by_pairs
+from roughline.halfspace.elasticity.kernel import love_rows
+from roughline.halfspace.operators import loops
+from roughline.halfspace.operators.operator import GridNodes, Precision, unit_in_single
+from roughline.halfspace.operators.pair_sums import ROWS_AT_A_TIME, KernelRows, displaced_by_pairs
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
@@ -125,7 +125,7 @@ class Convolution:
         Pairs of few nodes are summed over; other displacements are transformed.
 
         Parameters and result are those of
-        :meth:`roughline.halfspace.operator.Operator.displacement`.
+        :meth:`roughline.halfspace.operators.operator.Operator.displacement`.
         """
         if precision == "float32" and (unit := unit_in_single(pressure)) != 1:
             result = self.displacement(pressure / unit, sources, targets, precision, out)
@@ -207,7 +207,7 @@ def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) ->
     """Half-space loaded on one rectangle and free around it.
 
     The convolution over twice the rectangle is exact: equal to the dense matrix of
-    :func:`roughline.halfspace.kernel.love`.
+    :func:`roughline.halfspace.elasticity.kernel.love`.
 
     Parameters
     ----------

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from roughline.halfspace.exchange import ExchangeRule
-from roughline.halfspace.operator import Precision
-from roughline.halfspace.relaxation import Relaxation
-from roughline.halfspace.state import Method, Outcome
-from roughline.halfspace.trial import Trial
+from roughline.halfspace.operators.operator import Precision
+from roughline.halfspace.search.exchange import ExchangeRule
+from roughline.halfspace.search.relaxation import Relaxation
+from roughline.halfspace.search.state import Method, Outcome
+from roughline.halfspace.search.trial import Trial
 
 # Single precision serves while errors are above this part of the approach; its own are 1e-7 of it.
 _SINGLE_ABOVE = 1e-4

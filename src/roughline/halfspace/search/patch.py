@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.halfspace.contact_set import merged
-from roughline.halfspace.operator import GridNodes, Operator, Precision
-from roughline.halfspace.preconditioner import ApproximateInverse, preconditioner
-from roughline.halfspace.restricted import RestrictedOperator
+from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
+from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
+from roughline.halfspace.operators.restricted import RestrictedOperator
+from roughline.halfspace.search.contact_set import merged
 
 
 class Patch:

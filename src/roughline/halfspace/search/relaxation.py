@@ -7,17 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
-from roughline.halfspace.conditions import (
+from roughline.halfspace.laws.conditions import (
     ContactConditions,
     Violations,
     out_of_bounds,
     violations,
 )
-from roughline.halfspace.contact_set import merged
-from roughline.halfspace.operator import Precision
-from roughline.halfspace.patch import ConjugateGradients, Patch
-from roughline.halfspace.state import Load, Problem
-from roughline.halfspace.trial import Trial
+from roughline.halfspace.operators.operator import Precision
+from roughline.halfspace.search.contact_set import merged
+from roughline.halfspace.search.patch import ConjugateGradients, Patch
+from roughline.halfspace.search.state import Load, Problem
+from roughline.halfspace.search.trial import Trial
 
 # Conjugate gradients aim below the tolerance so that the certificate is not missed by a hair.
 _AIM = 0.3

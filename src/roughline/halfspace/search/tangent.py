@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.halfspace.operator import GridNodes
-from roughline.halfspace.patch import ConjugateGradients, Patch
-from roughline.halfspace.state import Contact, Method, Problem
+from roughline.halfspace.operators.operator import GridNodes
+from roughline.halfspace.search.patch import ConjugateGradients, Patch
+from roughline.halfspace.search.state import Contact, Method, Problem
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
 # error, and the bound on it is this part of the tolerance on residuals.

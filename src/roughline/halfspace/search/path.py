@@ -14,12 +14,12 @@ from itertools import zip_longest
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.cascade import first_guess
-from roughline.halfspace.conditions import Residuals, UnilateralContact
-from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.correction import solve
-from roughline.halfspace.state import Contact, Load, Method, Outcome, Problem
-from roughline.halfspace.tangent import Response, Tangent, response
+from roughline.halfspace.laws.conditions import Residuals, UnilateralContact
+from roughline.halfspace.search.cascade import first_guess
+from roughline.halfspace.search.contact_set import ContactSet
+from roughline.halfspace.search.correction import solve
+from roughline.halfspace.search.state import Contact, Load, Method, Outcome, Problem
+from roughline.halfspace.search.tangent import Response, Tangent, response
 
 # Where the force changes by more than this, over the force so far, coarser grids guess better than
 # the tangent.

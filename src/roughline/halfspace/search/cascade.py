@@ -8,11 +8,11 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from roughline.halfspace.contact_set import ContactSet
-from roughline.halfspace.correction import guessed
-from roughline.halfspace.lending import lent
-from roughline.halfspace.separation import Separation
-from roughline.halfspace.state import Load, Method, Problem
+from roughline.halfspace.search.contact_set import ContactSet
+from roughline.halfspace.search.correction import guessed
+from roughline.halfspace.search.lending import lent
+from roughline.halfspace.search.separation import Separation
+from roughline.halfspace.search.state import Load, Method, Problem
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
 _NODES_AT_A_TIME = 2**15  # whose means a thread computes, so many fit into a cache

@@ -24,10 +24,10 @@ from scipy.special import erfc
 
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real, Single
-from roughline.halfspace import restricted_loops as loops
-from roughline.halfspace.coarse_grid import CoarseGrid, at_cells
-from roughline.halfspace.operator import GridNodes, Operator, Precision
-from roughline.halfspace.padded_grid import PaddedGrid
+from roughline.halfspace.operators import restricted_loops as loops
+from roughline.halfspace.operators.coarse_grid import CoarseGrid, at_cells
+from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
+from roughline.halfspace.operators.padded_grid import PaddedGrid
 
 _WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
 _RADIUS = 2.25  # of the near part, in cells of the coarse grid
@@ -116,8 +116,8 @@ class RestrictedOperator:
         """Return the displacement of some nodes under the pressure on some nodes.
 
         Parameters and result are those of
-        :meth:`roughline.halfspace.operator.Operator.displacement`, but targets are given, and all
-        is computed in single precision.
+        :meth:`roughline.halfspace.operators.operator.Operator.displacement`, but targets are given,
+        and all is computed in single precision.
         """
         if out is None:
             out = np.empty(targets.indices.size)

@@ -1,0 +1,1 @@
+"""What pressure and gap obey at a node."""

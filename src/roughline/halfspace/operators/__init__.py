@@ -1,0 +1,1 @@
+"""How the displacements under given pressures are computed."""
