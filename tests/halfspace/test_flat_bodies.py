@@ -5,7 +5,8 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 import roughline as rl
-from halfspace.dense_hardness import Body, History
+from halfspace.dense_contact import Body
+from halfspace.dense_hardness import History
 
 RTOL = {"mixed": 1e-6, "float64": 1e-6, "float32": 1e-4}
 SIZES = (1.0, 1.3)

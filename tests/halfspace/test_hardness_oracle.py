@@ -7,7 +7,8 @@ from scipy.optimize import lsq_linear
 from threadpoolctl import threadpool_limits
 
 import roughline as rl
-from halfspace.dense_hardness import Body, History
+from halfspace.dense_contact import Body
+from halfspace.dense_hardness import History
 
 E_STAR = 2.0
 LOADS = np.array([0.2, 0.5, 0.3, 1.0, 0.4, 0.0, 1.0, 1.3, 0.7])  # over the force drawn for a body

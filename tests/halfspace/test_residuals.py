@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from halfspace.dense_hardness import Body
+from halfspace.dense_contact import Body
 from roughline.contact import loads
 from roughline.halfspace.elasticity.kernel import love
 
