@@ -71,6 +71,8 @@ def shape(name, n):
 LOADS = [0.003, 0.03, 0.3, 3.0]
 _DEEP = [0.01, 0.1, 0.5, 1.0]
 _MANY = np.geomspace(1e-3, 5, 9)
+_HISTORY = [0.1, 0.3, 1.0, 0.4, 0.1, 0.7, 1.3]
+_NEARLY = [2.3, 2.5, 2.558]
 _STEEL = {"E_star": 1.1e11}
 
 PRESSED = {
@@ -87,6 +89,7 @@ PRESSED = {
     "free 256 depths": (rough, (256, 9), {"hurst": 0.9}, {"depths": _DEEP}),
     "free very rough": (rough, (64, 10), {"hurst": 0.0}, {"n_loads": 8}),
     "free Gaussian": (rough, (64, 11, "gaussian"), {}, {"forces": LOADS}),
+    "free 512": (rough, (512, 87), {}, {"forces": LOADS}),
     "free depths": (rough, (64, 12), {}, {"depths": _DEEP, "fields": [1]}),
     "free light": (rough, (64, 13), {}, {"forces": [1e-30, 1e-12, 1e-5]}),
     "free heavy": (rough, (32, 14), {}, {"forces": [10.0, 1e3, 1e8]}),
@@ -122,6 +125,21 @@ PRESSED = {
         {"forces": LOADS, "periodic": True, "precision": "float32", "rtol": 1e-3},
     ),
     "periodic full": (rough, (32, 39), {}, {"forces": [5.0, 20.0, 100.0], "periodic": True}),
+    "periodic 512": (rough, (512, 88), {}, {"forces": LOADS, "periodic": True}),
+    "periodic nearly full": (rough, (64, 40), {"cut": 8}, {"depths": _NEARLY, "periodic": True}),
+    "yielding": (rough, (64, 121), {}, {"forces": _MANY, "hardness": 8.0, "fields": [8]}),
+    "yielding 256": (rough, (256, 122), {}, {"forces": LOADS, "hardness": 4.0}),
+    "yielding depths": (rough, (96, 123), {}, {"depths": _DEEP, "hardness": 2.0}),
+    "yielding, back and forth": (rough, (64, 124), {}, {"forces": _HISTORY, "hardness": 3.0}),
+    "yielding, by depth back and forth": (
+        *(rough, (64, 125), {"hurst": 0.5}),
+        {"depths": [0.2, 1.0, 0.7, 0.4, 0.8, 1.2], "hardness": 3.0, "fields": True},
+    ),
+    "yielding periodic": (
+        *(rough, (128, 126), {"cut": 16}),
+        {"forces": _HISTORY, "hardness": 4.0, "periodic": True},
+    ),
+    "yielding everywhere": (rough, (32, 127), {}, {"forces": [0.1, 0.5], "hardness": 0.6}),
     "strip 16 x 64": (strip, ((16, 64), (0.25, 1.0), 41), {}, {"n_loads": 8}),
     "strip 128 x 8": (strip, ((128, 8), (4.0, 0.25), 42), {}, {"forces": LOADS, "fields": True}),
     "strip 48 x 32, cells not square": (

@@ -8,7 +8,7 @@ import json
 import re
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
-from itertools import takewhile
+from itertools import repeat, takewhile
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,8 @@ import roughline as rl
 
 _PICTURE = re.compile(r"base64,([A-Za-z0-9+/=]+)")
 _INSIDE = {"band"}  # names of parts that are no answers
+_WORK = "convolutions"  # the name of what answers take, which may change
+_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _OF_THE_RUN = {"seconds", "core_seconds", "started", "cores"}  # names whose values are times
 _OF_A_MOMENT = (  # texts that differ from run to run
     (re.compile(r"^.*(━|\d:\d\d:\d\d left).*\n?", re.MULTILINE), ""),
@@ -179,8 +181,15 @@ def kept(path):
         return {str(name): stored[f"v{i}"] for i, name in enumerate(stored["names"])}
 
 
-def differences(first, second):
-    """List how two sets of named arrays differ, as (kind, name, how)."""
+def differences(first, second, rtol=None):
+    """List how two sets of named arrays differ, as (kind, name, how).
+
+    With a tolerance, or the one that was asked for where that is larger, values that agree to it
+    are of the kind "bits", and convolutions of the kind "work".
+    """
+    if rtol is not None:
+        asked = [float(values) for name, values in first.items() if name.endswith("/rtol")]
+        rtol = max([rtol, *asked])
     found = []
     for name in dict.fromkeys([*first, *second]):
         if name not in second:
@@ -188,9 +197,43 @@ def differences(first, second):
         elif name not in first:
             found.append(("new", name, f"is {_shown(second[name])}"))
         elif how := _difference(first[name], second[name]):
-            texts = "U" in (first[name].dtype.kind, second[name].dtype.kind)
-            found.append(("text" if texts else "number", name, how))
+            # where the bodies touch everywhere, a gap is compared with what moves
+            moved = first.get(name.replace("/gap", "/displacement"), first[name])
+            kind = _kind(name, first[name], second[name], rtol, moved)
+            found.append((kind, name, how))
     return found
+
+
+def _kind(name, before, after, rtol, scale):
+    """Of what kind a difference is."""
+    texts = "U" in (before.dtype.kind, after.dtype.kind)
+    if rtol is not None and before.dtype.kind == after.dtype.kind and before.shape == after.shape:
+        if _WORK in name:
+            return "work"
+        if _agree(name, before, after, rtol, scale):
+            return "bits"
+    return "text" if texts else "number"
+
+
+def _agree(name, before, after, rtol, scale):
+    """Whether values agree to a part of the largest; of residuals, whether those fit that did."""
+    if before.dtype.kind == "U":
+        return "residual" in name or all(map(_texts_agree, before.flat, after.flat, repeat(rtol)))
+    finite = np.isfinite(before)
+    if before.dtype.kind != "f" or (finite != np.isfinite(after)).any():
+        return False
+    before, after = before[finite], after[finite]
+    if "residual" in name:
+        return bool(((before <= rtol) == (after <= rtol)).all())
+    largest = max(abs(values[np.isfinite(values)]).max(initial=0.0) for values in (before, scale))
+    return bool((abs(after - before) <= rtol * largest).all())
+
+
+def _texts_agree(before, after, rtol):
+    """Whether two texts differ in numbers only, and those agree."""
+    numbers = [np.array(_NUMBER.findall(text), dtype=float) for text in (before, after)]
+    words = [_NUMBER.sub("#", text) for text in (before, after)]
+    return words[0] == words[1] and np.allclose(*numbers, rtol=rtol, atol=0.0)
 
 
 def _difference(before, after):
