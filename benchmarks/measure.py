@@ -20,7 +20,8 @@ from page import Page
 
 import roughline as rl
 from roughline.computing.cores import available_cores
-from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.operator import GridNodes
 
 CORES = available_cores()
@@ -59,7 +60,7 @@ def plain_convolution(n):
 
 def our_convolution(n, precision):
     """Time our convolution, a tenth of the nodes in contact."""
-    operator = HalfSpace(E_star=1.0).operator((n, n), (1 / n, 1 / n))
+    operator = on_grid(Homogeneous(E_star=1.0), (n, n), (1 / n, 1 / n))
     nodes = np.flatnonzero(np.random.default_rng(0).random((n, n)) < 0.1)
     loaded, pressure = GridNodes.of(nodes, (n, n)), np.ones(nodes.size)
     return seconds(lambda: operator.displacement(pressure, loaded, loaded, precision))

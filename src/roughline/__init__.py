@@ -44,6 +44,8 @@ if TYPE_CHECKING:
     from roughline.errors import UnitError as UnitError
     from roughline.files.netcdf import write as write
     from roughline.files.read import read as read
+    from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
+    from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
     from roughline.spectra.fit import fit_self_affine as fit_self_affine
     from roughline.spectra.isotropic import isotropic_spectrum as isotropic_spectrum
     from roughline.spectra.profile import profile_spectrum as profile_spectrum
@@ -102,6 +104,8 @@ _HOMES = {
     "set_threads": "computing.fft",
     "read": "files.read",
     "write": "files.netcdf",
+    "HalfSpace": "halfspace.elasticity.half_space",
+    "Homogeneous": "halfspace.elasticity.homogeneous",
     "PowerLaw": "statistics.power_law",
     "fit_power_law": "statistics.power_law",
     "find_window": "statistics.window",

@@ -116,7 +116,7 @@ def test_the_contact_that_loads_bring_about_is_foreseen(periodic, force_bar):
     surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(256, 1)
     curve = rl.press(surface, E_star=1.0, forces=[force_bar], periodic=periodic)
     loads = Loads("forces", np.array([force_bar]))
-    share = partial(expected_area_fraction, surface, 1.0, periodic=periodic)
+    share = partial(expected_area_fraction, surface, rl.Homogeneous(1.0, periodic))
     expected = share(loads, None)
     assert abs(expected - curve.area_fraction[0]) < 0.12
     by_depth = Loads("depths", curve.depth)

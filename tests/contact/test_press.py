@@ -88,11 +88,12 @@ def test_impossible_loads_are_refused_by_both_models(surface, line, loads, messa
 
 WRONG_ARGUMENTS = {
     "E_star": ["110 GPa", None, True, [1.0, 2.0], 1e200, 10**400, 1j],
+    "half_space": [1.0, "free", rl.HalfSpace, rl.Homogeneous, {"E_star": 1.0}],
     "hardness": ["1 GPa", -1.0, math.nan, True, np.ones(2)],
     "depths": ["1", [None], [[1], [1, 2]], [True], [1j], {}, np.ma.masked_equal([1.0, 2.0], 2.0)],
     "forces": [None, -1.0, [math.inf], [], "10 N", 1e308],
     "n_loads": ["3", 2.5, 1, True, 10**12, math.nan, [3]],
-    "periodic": ["no", None, 1, [True]],
+    "periodic": ["no", 1, [True]],
     "fields": [3, "0", [True], [2], [-1], [0.5], None],
     "grid_error": ["yes", 1],
     "rtol": ["1e-6", 0.0, 1.0, math.nan, None],
@@ -107,8 +108,9 @@ WRONG_ARGUMENTS = {
 def test_every_argument_is_checked_and_named_in_one_line(surface, name):
     for wrong in WRONG_ARGUMENTS[name]:
         loads = {} if name in ("depths", "n_loads") else {"forces": [0.1]}
+        modulus = {} if name == "half_space" else {"E_star": 1.0}
         with pytest.raises(rl.InputError) as refusal:
-            rl.press(surface, **{"E_star": 1.0} | loads | {name: wrong})
+            rl.press(surface, **modulus | loads | {name: wrong})
         message = str(refusal.value)
         assert name in message or "no loads given" in message
         assert "\n" not in message
@@ -135,11 +137,52 @@ def test_a_load_that_is_no_number_of_a_load_has_no_surface(surface, load):
         curve.surface_after(load)
 
 
-@pytest.mark.parametrize("E_star", [0.0, -1.0, math.nan, math.inf, "stiff", None])
+@pytest.mark.parametrize("E_star", [0.0, -1.0, math.nan, math.inf, "stiff"])
 def test_an_impossible_modulus_is_refused(surface, line, E_star):
     for body in (surface, line):
         with pytest.raises(rl.InputError, match="E_star is .*; a positive, finite contact mod"):
             rl.press(body, E_star=E_star, depths=[0.1])
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, "press needs E_star=, the contact modulus, which rl.contact_modulus(first, second)"),
+        ({"periodic": True}, "press needs E_star=, the contact modulus"),
+        ({"half_space": rl.Homogeneous(1.0), "E_star": 1.0}, "leave E_star out"),
+        ({"half_space": rl.Homogeneous(1.0), "periodic": False}, "leave periodic out"),
+        ({"half_space": 1.0}, "half_space is 1.0; an rl.HalfSpace is needed, such as"),
+        ({"half_space": rl.Homogeneous(1e160)}, "half_space.E_star is 1e+160; a positive, finite"),
+        ({"half_space": rl.Homogeneous(1.0, "yes")}, 'half_space.periodic is "yes"; True or'),
+    ],
+)
+def test_a_half_space_is_given_once(surface, line, given, message):
+    for body in (surface, line):
+        with pytest.raises(rl.InputError, match=re.escape(message)):
+            rl.press(body, forces=[0.1], **given)
+
+
+def test_the_short_forms_mean_the_homogeneous_half_space(surface, line):
+    for body, periodic in ((surface, False), (surface, True), (line, False)):
+        half_space = rl.Homogeneous(2.0, periodic)
+        short = rl.press(body, E_star=2.0, periodic=periodic, forces=[0.1])
+        curve = rl.press(body, half_space=half_space, forces=[0.1])
+        assert short.half_space == curve.half_space == half_space
+        assert curve.E_star == 2.0
+        assert curve.depth.tolist() == short.depth.tolist()
+        assert curve.settings == short.settings
+
+
+def test_a_line_has_the_modulus_of_a_free_half_space_and_no_more(line):
+    with pytest.raises(rl.InputError, match="periodic, fields and grid_error belong to the full"):
+        rl.press(line, half_space=rl.Homogeneous(1.0, periodic=True), forces=[0.1])
+
+    class Other(rl.HalfSpace):
+        E_star, periodic = 1.0, False
+        spectrum = in_units = disc_stiffness = None
+
+    with pytest.raises(rl.InputError, match="half_space is an Other; the springs of a Line have"):
+        rl.press(line, half_space=Other(), forces=[0.1])
 
 
 def test_impossible_settings_are_refused(surface, line):

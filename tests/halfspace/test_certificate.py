@@ -7,7 +7,7 @@ import pytest
 
 import roughline as rl
 from roughline.halfspace.elasticity.kernel import love
-from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators import discretisation
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.search import exchange
 
@@ -50,13 +50,13 @@ def test_the_sound_solver_is_certified():
 
 
 def test_a_kernel_of_the_wrong_sign_is_refused(monkeypatch):
-    sound = convolution.free
+    sound = discretisation._free
 
     def wrong(*arguments):
         operator = sound(*arguments)
         return dataclasses.replace(operator, spectrum=-operator.spectrum)
 
-    monkeypatch.setattr(convolution, "free", wrong)
+    monkeypatch.setattr(discretisation, "_free", wrong)
     curve = pressed()
     assert not curve.converged.any()
     assert np.isnan(curve.stiffness).all()

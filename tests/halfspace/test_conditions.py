@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.elasticity.kernel import love
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.laws.conditions import (
@@ -13,6 +13,7 @@ from roughline.halfspace.laws.conditions import (
     residuals,
     violations,
 )
+from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.search.cascade import first_guess
 from roughline.halfspace.search.correction import solve
 from roughline.halfspace.search.state import Load, Method, Problem
@@ -110,8 +111,8 @@ def test_a_pull_and_an_excess_are_compared_with_the_mean_pressure():
 def test_the_stiffness_on_loading_is_that_of_the_elastic_nodes_and_on_unloading_of_all():
     n, method = 12, Method(rtol=1e-6, max_iterations=100)
     x, y = np.indices((n, n)) - (n - 1) / 2
-    half_space = HalfSpace(1.0)
-    inverse = ApproximateInverse.of(half_space.operator((n, n), (1.0, 1.0)))
+    half_space = Homogeneous(1.0)
+    inverse = ApproximateInverse.of(on_grid(half_space, (n, n), (1.0, 1.0)))
     problem = Problem(
         half_space, inverse, (x**2 + y**2) / 20, 1.0, 0.0, YieldingContact(hardness=0.1)
     )

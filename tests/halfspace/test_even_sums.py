@@ -5,10 +5,11 @@ import pytest
 
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.inverse.even_sums import Lags, even_sums
 from roughline.halfspace.inverse.lattices import kernels_on, lags_for, lattice_shapes
-from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators.discretisation import on_grid
 
 ROUNDING = 1e-14
 
@@ -69,7 +70,7 @@ def test_the_number_of_threads_changes_no_bit_of_the_approximate_inverse():
     try:
         for threads in (1, available_cores()):
             fft.set_threads(threads)
-            operator = convolution.free((200, 150), (1.0, 0.9), 1.0)
+            operator = on_grid(Homogeneous(1.0), (200, 150), (1.0, 0.9))
             inverse = ApproximateInverse.of(operator)
             found.append((operator.spectrum, inverse.taps, *inverse.block_kernels))
     finally:

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 import random_surfaces
 import roughline as rl
 from random_surfaces import surfaces
-from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.operator import displacement_field
 
 laws = settings(random_surfaces.laws, max_examples=15)
@@ -149,7 +150,7 @@ def test_what_is_returned_obeys_the_conditions(problem, shares, by_force):
     surface, hardness = problem.surface, problem.hardness
     if not by_force:
         curve = problem.pressed(None, depths=curve.depth)
-    operator = HalfSpace(1.0, problem.periodic).operator(surface.shape, surface.spacing)
+    operator = on_grid(Homogeneous(1.0, problem.periodic), surface.shape, surface.spacing)
     separation = surface.heights.max() - surface.heights
     cell, before = surface.area / surface.heights.size, np.zeros(surface.shape)
     for i, found in enumerate(curve.fields):

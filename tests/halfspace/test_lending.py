@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.search import lending
 from roughline.halfspace.search.lending import lent
 
 pytestmark = pytest.mark.usefixtures("nothing_kept")
 
-HALF_SPACE = HalfSpace(1.0)
+HALF_SPACE = Homogeneous(1.0)
 SQUARE = (1.0, 1.0)
 
 
@@ -61,8 +61,8 @@ def test_a_grid_is_lent_to_one_at_a_time_and_kept_for_the_next():
     with lent(HALF_SPACE, (8, 8), SQUARE) as again:
         assert again is one
     for half_space, shape, spacing in (
-        (HalfSpace(2.0), (8, 8), SQUARE),
-        (HalfSpace(1.0, periodic=True), (8, 8), SQUARE),
+        (Homogeneous(2.0), (8, 8), SQUARE),
+        (Homogeneous(1.0, periodic=True), (8, 8), SQUARE),
         (HALF_SPACE, (8, 9), SQUARE),
         (HALF_SPACE, (8, 8), (1.0, 1.1)),
     ):

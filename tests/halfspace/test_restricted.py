@@ -8,10 +8,11 @@ from scipy.linalg import eigh
 
 import roughline as rl
 from roughline.computing import fft
-from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.operators import convolution
 from roughline.halfspace.operators.coarse_grid import CoarseGrid
+from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.operator import GridNodes, displacement_field
 from roughline.halfspace.operators.restricted import RestrictedOperator, RestrictedOperators
 from roughline.halfspace.operators.small_grid import SmallGrid
@@ -62,7 +63,7 @@ def matrices(operator, ratios, nodes):
 )
 def test_it_is_the_exact_operator_to_a_fiftieth_for_any_pressure(shape, spacing, ratios, periodic):
     """Each correction of the defect then leaves a fiftieth of the error, in energy."""
-    operator = HalfSpace(1.0, periodic).operator(shape, spacing)
+    operator = on_grid(Homogeneous(1.0, periodic), shape, spacing)
     exact, split = matrices(operator, ratios, contact_nodes(shape, 3, 0.08))
     assert np.abs(split - split.T).max() <= 1e-5 * np.abs(exact).max()
     if periodic:  # even pressure displaces nothing
@@ -72,7 +73,7 @@ def test_it_is_the_exact_operator_to_a_fiftieth_for_any_pressure(shape, spacing,
 
 
 def test_its_memory_is_clean_after_use():
-    operator = HalfSpace(1.0, True).operator((64, 64), (1.0, 1.0))
+    operator = on_grid(Homogeneous(1.0, True), (64, 64), (1.0, 1.0))
     nodes = GridNodes.of(contact_nodes((64, 64), 1, 0.3), (64, 64))
     split = made(operator, (4, 4))
     first = split.displacement(np.ones(nodes.indices.size), nodes, nodes)
@@ -83,7 +84,7 @@ def test_its_memory_is_clean_after_use():
 
 @pytest.mark.parametrize("unit", [1e-300, 1e-30, 1.0, 1e30])
 def test_units_do_not_matter(unit):
-    operator = HalfSpace(1.0).operator((64, 64), (1.0, 1.0))
+    operator = on_grid(Homogeneous(1.0), (64, 64), (1.0, 1.0))
     nodes = GridNodes.of(contact_nodes((64, 64), 1, 0.3), (64, 64))
     split = on(operator, nodes)
     pressure = np.random.default_rng(0).random(nodes.indices.size)
@@ -94,7 +95,7 @@ def test_units_do_not_matter(unit):
 
 @pytest.mark.skipif(fft.threads() < 2, reason="needs two cores")
 def test_its_bits_do_not_depend_on_the_number_of_threads():
-    operator = HalfSpace(1.0).operator((256, 200), (1.0, 1.0))
+    operator = on_grid(Homogeneous(1.0), (256, 200), (1.0, 1.0))
     nodes = GridNodes.of(contact_nodes((256, 200), 1, 0.3), (256, 200))
     split = on(operator, nodes)
     pressure = np.random.default_rng(0).random(nodes.indices.size)
@@ -120,7 +121,7 @@ def test_its_bits_do_not_depend_on_the_number_of_threads():
     ids=["line", "two points", "strip", "oblong cells", "primes"],
 )
 def test_where_no_coarse_grid_exists_there_is_none(shape, spacing, periodic):
-    operator = HalfSpace(1.0, periodic).operator(shape, spacing)
+    operator = on_grid(Homogeneous(1.0, periodic), shape, spacing)
     nodes = GridNodes.of(np.arange(1), shape)
     assert on(operator, nodes) is None
 
@@ -232,7 +233,7 @@ def test_later_searches_look_beside_the_contact_too(monkeypatch):
 @pytest.mark.parametrize("shape", [(19, 19), (35, 131), (67, 12), (16, 24), (21, 15)])
 @pytest.mark.parametrize("periodic", [False, True])
 def test_whole_fields_on_small_grids_are_displaced_as_others(shape, periodic):
-    operator = HalfSpace(2.0, periodic).operator(shape, (1.0, 0.7))
+    operator = on_grid(Homogeneous(2.0, periodic), shape, (1.0, 0.7))
     small = SmallGrid.of(shape, operator.periods, operator.spectrum)
     rng = np.random.default_rng(3)
     for _ in range(2):  # its memory is used again
@@ -243,7 +244,7 @@ def test_whole_fields_on_small_grids_are_displaced_as_others(shape, periodic):
 
 
 def test_the_coarse_grid_is_chosen_by_what_is_in_contact():
-    operator = HalfSpace(1.0).operator((256, 256), (1.0, 1.0))
+    operator = on_grid(Homogeneous(1.0), (256, 256), (1.0, 1.0))
     shapes = [
         on(operator, GridNodes.of(contact_nodes((256, 256), 1, part), (256, 256)))
         for part in (0.001, 0.1, 0.5, 1.0)

@@ -12,6 +12,8 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import as_number, is_whole, refuse, several, shown
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 
 LARGEST = 1e150
 """Beyond it, squares leave the range of double precision."""
@@ -27,6 +29,36 @@ def checked_number(
     if number is None or not (least <= number <= most and number > 0):
         refuse(name, value, f"{allowed} is needed")
     return number
+
+
+def given_half_space(
+    half_space: HalfSpace | None, E_star: float | None, periodic: bool | None
+) -> HalfSpace:
+    """Return the half-space that is given, as it is or by the short forms."""
+    allowed = "a positive, finite contact modulus from 1e-150 to 1e150"
+    if half_space is None:
+        if E_star is None:
+            raise InputError(
+                "press needs E_star=, the contact modulus, which rl.contact_modulus(first, second) "
+                "gives of two materials; give it, or half_space="
+            )
+        E_star = checked_number("E_star", E_star, allowed, 1 / LARGEST, LARGEST)
+        return Homogeneous(E_star, periodic is not None and checked_flag("periodic", periodic))
+    if E_star is not None or periodic is not None:
+        short = "periodic" if E_star is None else "E_star"
+        raise InputError(
+            f"half_space and {short} are given; the half-space has a modulus and a boundary of its "
+            f"own: leave {short} out"
+        )
+    if not isinstance(half_space, HalfSpace):
+        refuse(
+            "half_space",
+            half_space,
+            "an rl.HalfSpace is needed, such as rl.Homogeneous(E_star=1.0, periodic=True)",
+        )
+    checked_number("half_space.E_star", half_space.E_star, allowed, 1 / LARGEST, LARGEST)
+    checked_flag("half_space.periodic", half_space.periodic)
+    return half_space
 
 
 def checked_count(name: str, value: Any, least: int = -_MOST) -> int:

@@ -22,6 +22,7 @@ from roughline.contact.quantity import OVER_LOADS, Quantity, unit_of
 from roughline.contact.status import STATUS_FLAGS, Status
 from roughline.errors import InputError, StoreError
 from roughline.errors.checks import refuse
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.topography.body import Surface, with_heights
 
 if TYPE_CHECKING:
@@ -56,8 +57,8 @@ class Curve:
     residual : ndarray, shape (loads,)
         Largest residual of the returned solution, each relative to its scale as :func:`press`
         defines them; NaN where nothing was solved. [1]
-    E_star : float
-        Contact modulus. [pressure]
+    half_space : HalfSpace
+        What the body was pressed into.
     rms_height : float
         Root-mean-square height of the body. [length]
     length : float
@@ -110,7 +111,7 @@ class Curve:
     status: NDArray[np.int8]
     resolved: Mask
     residual: Real
-    E_star: float
+    half_space: HalfSpace
     rms_height: float
     length: float
     unit: str | None
@@ -133,6 +134,11 @@ class Curve:
 
     __repr__ = described
     _repr_html_ = html_of_curve
+
+    @property
+    def E_star(self) -> float:
+        """Contact modulus. [pressure]"""
+        return self.half_space.E_star
 
     @property
     def hardness(self) -> float | None:

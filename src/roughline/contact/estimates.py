@@ -18,6 +18,8 @@ from roughline.contact.arguments import (
 )
 from roughline.contact.loads import Loads
 from roughline.errors.public import public_names
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.topography.body import Surface
 
 # Most memory that a path of loads held at any time beside the surface, as measured
@@ -135,10 +137,10 @@ def estimate(
 def _convolution_seconds(shape: tuple[int, int], periodic: bool) -> float:
     """Return how long a convolution of whole fields takes, from the time of a small one. [s]"""
     # compiled loops load slowly, so only here
-    from roughline.halfspace.elasticity.homogeneous import HalfSpace
+    from roughline.halfspace.operators.discretisation import on_grid
     from roughline.halfspace.operators.operator import displacement_field
 
-    operator = HalfSpace(1.0, periodic).operator((_PROBE, _PROBE), (1.0, 1.0))
+    operator = on_grid(Homogeneous(1.0, periodic), (_PROBE, _PROBE), (1.0, 1.0))
     pressure = np.ones(operator.shape)
     displacement_field(operator, pressure)  # compiles
     probes = []
@@ -190,7 +192,7 @@ def bytes_at_a_point(
 
 
 def expected_area_fraction(
-    surface: Surface, E_star: float, loads: Loads, hardness: float | None, *, periodic: bool
+    surface: Surface, half_space: HalfSpace, loads: Loads, hardness: float | None
 ) -> float:
     """Estimate the largest share of a surface that its loads bring into contact. [1]
 
@@ -201,9 +203,11 @@ def expected_area_fraction(
     largest = float(loads.values.max())
     if loads.control == "depths":
         reached = np.count_nonzero(surface.heights > surface.heights.max() - largest)
-        return min(1.0, (2.0 if periodic else 1.0) * float(reached) / surface.heights.size)
+        return min(
+            1.0, (2.0 if half_space.periodic else 1.0) * float(reached) / surface.heights.size
+        )
     slope, pressure = surface.rms_slope, largest / surface.area
-    share = math.erf(_SLOPE_FACTOR * pressure / (E_star * slope)) if slope else 1.0
+    share = math.erf(_SLOPE_FACTOR * pressure / (half_space.E_star * slope)) if slope else 1.0
     return share if hardness is None else max(share, min(pressure / hardness, 1.0))
 
 

@@ -17,7 +17,8 @@ from roughline.contact.loads import Loads
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
 from roughline.errors import Interrupted
-from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.laws.conditions import (
     ContactConditions,
@@ -36,11 +37,10 @@ from roughline.topography.settings import as_body
 
 def press_surface(
     surface: Surface,
-    E_star: float,
+    half_space: HalfSpace,
     loads: Loads,
     method: Method,
     *,
-    periodic: bool,
     hardness: float | None,
     kept: frozenset[int],
     progress: Callable[[int, int], None] | None,
@@ -51,15 +51,15 @@ def press_surface(
     ----------
     surface : Surface
         The surface. [length]
-    E_star : float
-        Contact modulus. [pressure]
+    half_space : HalfSpace
+        What it is pressed into.
     loads : Loads
         Checked loads.
     method : Method
         Tolerance, bound on the convolutions and precision.
     kept : frozenset of int
         Numbers of the loads whose fields are kept.
-    hardness, periodic, progress
+    hardness, progress
         As for :func:`roughline.press`.
 
     Raises
@@ -77,7 +77,7 @@ def press_surface(
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
         with linear_algebra.on_one_thread():
             path, kept_there = replace(loads, values=values), {int(places[i]) for i in kept}
-            for result in _results(surface, E_star, path, method, hardness, periodic, kept_there):
+            for result in _results(surface, half_space, path, method, hardness, kept_there):
                 results.append(result)
                 if progress is not None:
                     progress(len(results), values.size)
@@ -85,7 +85,7 @@ def press_surface(
         interrupted = True
     results += [LoadResult()] * (values.size - len(results))
     results = _in_order(results, places.tolist())
-    curve = _curve(surface, E_star, loads, method, results, hardness, periodic)
+    curve = _curve(surface, half_space, loads, method, results, hardness)
     if kept:
         fields = [each.fields if i in kept else None for i, each in enumerate(results)]
         curve = replace(curve, fields=tuple(fields))
@@ -106,27 +106,25 @@ def _in_order(results: Sequence[LoadResult], places: Sequence[int]) -> list[Load
 
 def _results(
     surface: Surface,
-    E_star: float,
+    half_space: HalfSpace,
     loads: Loads,
     method: Method,
     hardness: float | None,
-    periodic: bool,
     with_fields: Set[int],
 ) -> Iterator[LoadResult]:
     """Solve the contact under each load in turn."""
-    scaled = ScaledSurface.of(surface, E_star, loads)
-    half_space = HalfSpace(E_star, periodic).scaled(scaled.E_star, scaled.length)
+    scaled = ScaledSurface.of(surface, half_space, loads)
     unit = scaled.force if loads.control == "forces" else scaled.height
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
-    with lent(half_space, surface.shape, scaled.spacing) as inverse:
-        problem = _problem(half_space, inverse, scaled, hardness, method)
+    with lent(scaled.half_space, surface.shape, scaled.spacing) as inverse:
+        problem = _problem(inverse, scaled, hardness, method)
         solved = solve_path(problem, path, method)
         del problem  # the path knows when the untouched bodies need no memory
         dents: Indentation | None = None
         for i in range(len(path)):  # enumerate() would hold a contact while the next is solved
             contact, response = next(solved)
             result = LoadResult.of(
-                contact, response, scaled, hardness, periodic=periodic, with_fields=i in with_fields
+                contact, response, scaled, hardness, with_fields=i in with_fields
             )
             if dents is not None and result.dents is not None and result.dents.equals(dents):
                 result = replace(result, dents=dents)  # one memory for all loads that add none
@@ -136,7 +134,6 @@ def _results(
 
 
 def _problem(
-    half_space: HalfSpace,
     inverse: ApproximateInverse,
     scaled: ScaledSurface,
     hardness: float | None,
@@ -147,7 +144,7 @@ def _problem(
     if hardness is not None:
         conditions = YieldingContact(hardness / scaled.pressure)
     return Problem(
-        half_space,
+        scaled.half_space,
         inverse,
         scaled.separation(),
         scaled.surface.rms_height / scaled.height,
@@ -158,12 +155,11 @@ def _problem(
 
 def _curve(
     surface: Surface,
-    E_star: float,
+    half_space: HalfSpace,
     loads: Loads,
     method: Method,
     results: Sequence[LoadResult],
     hardness: float | None,
-    periodic: bool,
 ) -> Curve:
     """Put the results of all loads together, without fields."""
     values = columns(results)
@@ -172,22 +168,25 @@ def _curve(
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
     shares = np.array([result.border_share for result in results])
     at_the_border = (
-        jump_warnings(surface) if periodic else border_warnings(surface, values["force"], shares)
+        jump_warnings(surface)
+        if half_space.periodic
+        else border_warnings(surface, values["force"], shares)
     )
     return Curve(
         **values,
-        E_star=E_star,
+        half_space=half_space,
         rms_height=surface.rms_height,
         length=surface.length,
         unit=surface.unit,
         settings={
             "roughline_version": __version__,
             "model": "full",
-            "boundary": "periodic" if periodic else "free",
+            "boundary": "periodic" if half_space.periodic else "free",
             "control": loads.control,
             "rtol": method.rtol,
             "max_iterations": method.max_iterations,
             "precision": method.precision,
+            **({} if isinstance(half_space, Homogeneous) else {"half_space": repr(half_space)}),
             **({} if hardness is None else {"hardness": hardness}),
             **as_body(surface.settings),
         },

@@ -68,7 +68,6 @@ class LoadResult:
         scaled: ScaledSurface,
         hardness: float | None,
         *,
-        periodic: bool,
         with_fields: bool,
     ) -> LoadResult:
         """Return what one load gives.
@@ -81,8 +80,8 @@ class LoadResult:
             Its stiffness and its change with the load; None if the contact was not certified.
         scaled, hardness : ScaledSurface, float or None
             The untouched surface, and the largest pressure that a node bears. [pressure]
-        periodic, with_fields : bool
-            Whether the half-space is periodic, and whether the fields are kept.
+        with_fields : bool
+            Whether the fields are kept.
         """
         worst, of = contact.residuals.worst, contact.residuals.worst_is_of
         if contact.outcome is Outcome.UNKNOWN_SURFACE:
@@ -93,7 +92,7 @@ class LoadResult:
         if not response.converged:
             return cls(Status.NO_TANGENT, worst, of, convolutions)
         cells, nodes = contact.nodes.size, contact.gap.size
-        most, overstated = _overstated(contact, scaled, hardness, periodic)
+        most, overstated = _overstated(contact, scaled, hardness)
         dents = None if hardness is None else _dents(contact, scaled)
         indented = np.zeros(1) if dents is None else dents.depth
         dissipated = (hardness or 0.0) * scaled.cell_area * float(indented.sum())
@@ -133,10 +132,10 @@ def columns(results: Sequence[LoadResult]) -> dict[str, Any]:
 
 
 def _overstated(
-    contact: Contact, scaled: ScaledSurface, hardness: float | None, periodic: bool
+    contact: Contact, scaled: ScaledSurface, hardness: float | None
 ) -> tuple[float, float]:
     """Return by how many cells the outline overstates the area, at most and as estimated."""
-    most, overstated = overstated_cells(contact, scaled.spacing, periodic)
+    most, overstated = overstated_cells(contact, scaled.spacing, scaled.half_space.periodic)
     if hardness is not None:
         borne = contact.force * scaled.force / (hardness * scaled.cell_area)
         overstated = _of_yielding(overstated, max(contact.nodes.size - borne, 0.0), contact)

@@ -13,6 +13,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.contact.arguments import LARGEST, checked_count, checked_values
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
 
@@ -82,9 +83,8 @@ def line_loads(line: Line, springs: Springs, given: GivenLoads) -> Loads:
 
 def surface_loads(
     surface: Surface,
-    E_star: float,
+    half_space: HalfSpace,
     given: GivenLoads,
-    periodic: bool,
     rtol: float,
     *,
     single: bool,
@@ -104,12 +104,13 @@ def surface_loads(
         loads = _checked_loads(given)
         if hardness is not None and loads.control == "forces":
             _refuse_beyond_hardness(surface, loads, hardness)
-        elif hardness is None and periodic and loads.control == "depths":
+        elif hardness is None and half_space.mean_is_free and loads.control == "depths":
             _refuse_beyond_full_contact(surface, float(loads.values.max()))
-        _refuse_beyond_precision(surface, E_star, loads, rtol, single)
+        _refuse_beyond_precision(surface, half_space.E_star, loads, rtol, single)
         return loads
     _refuse_constant(surface, given)
-    if periodic:
+    E_star = half_space.E_star
+    if half_space.periodic:
         # Persson: 95 % contact at a mean pressure of E* times the rms slope
         highest = E_star * surface.rms_slope * surface.area
     else:
@@ -120,11 +121,11 @@ def surface_loads(
     few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
     lowest = highest
     if few < separation.size:
-        # so many cells as one disc, pressed down to the last of them: F = 2 E* a d
+        # so many cells as one disc, pressed down to the last of them
         radius = np.sqrt(few * surface.spacing[0] * surface.spacing[1] / np.pi)
-        lowest = 2 * E_star * radius * separation[few]
+        lowest = half_space.disc_stiffness(float(radius)) * separation[few]
     loads = _spaced_loads(given, float(lowest), highest)
-    _refuse_beyond_precision(surface, E_star, loads, rtol, single)
+    _refuse_beyond_precision(surface, half_space.E_star, loads, rtol, single)
     return loads
 
 

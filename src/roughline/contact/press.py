@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike
 
 from roughline.computing.memory import fits_into_memory, refuse_beyond_memory
 from roughline.contact.arguments import (
-    LARGEST,
     checked_count,
     checked_flag,
     checked_number,
+    given_half_space,
     kept_loads,
     refuse_other_progress,
 )
@@ -25,8 +25,10 @@ from roughline.contact.loads import GivenLoads, Loads, surface_loads
 from roughline.contact.reduced import press_line
 from roughline.contact.status import Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
-from roughline.errors.checks import one_of
+from roughline.errors.checks import one_of, shown
 from roughline.errors.public import public_names
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.topography.body import Body, Line, Surface
 
 
@@ -34,12 +36,13 @@ from roughline.topography.body import Body, Line, Surface
 def press(
     body: Body,
     *,
-    E_star: float,
+    E_star: float | None = None,
+    half_space: HalfSpace | None = None,
     hardness: float | None = None,
     depths: ArrayLike | None = None,
     forces: ArrayLike | None = None,
     n_loads: int | None = None,
-    periodic: bool = False,
+    periodic: bool | None = None,
     fields: bool | Sequence[int] = False,
     grid_error: bool = False,
     rtol: float = 1e-6,
@@ -51,15 +54,18 @@ def press(
     """Press a rough body into an elastic half-space.
 
     A :class:`~roughline.Surface` is solved with the full model (every interaction, the
-    half-space free around the surface unless `periodic`), a :class:`~roughline.Line` with the
+    half-space free around the surface unless it is periodic), a :class:`~roughline.Line` with the
     reduced model (independent springs, solved exactly). Units are any coherent set.
 
     Parameters
     ----------
     body : Surface or Line
         The rough body. [length]
-    E_star : float
+    E_star : float, optional
         Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [pressure]
+    half_space : HalfSpace, optional
+        What the body is pressed into, in place of `E_star` and `periodic`, which are short for
+        :class:`~roughline.Homogeneous`.
     hardness : float, optional
         Largest pressure that a point bears, the indentation hardness of the softer body; where it
         is reached, the surface is permanently indented. Default, or infinite: both bodies are
@@ -71,8 +77,8 @@ def press(
     n_loads : int, optional
         Number of forces, log-spaced from about ten springs or cells in contact to saturation.
     periodic : bool, optional
-        Repeat the surface periodically. Depths then count the approach of the mean planes, k is
-        the stiffness of the interface alone and is infinite in full contact.
+        Repeat the surface periodically; default: no. Depths then count the approach of the mean
+        planes, k is the stiffness of the interface alone and is infinite in full contact.
     fields : bool or sequence of int, optional
         Keep pressure, displacement, gap, contact, plastic points and indentation of every load,
         or of loads with these numbers (from 0).
@@ -138,25 +144,26 @@ def press(
     >>> print(rl.press(line, E_star=1.0, depths=[0.01]).stiffness.round(3))
     [0.308]
     """
-    allowed = "a positive, finite contact modulus from 1e-150 to 1e150"
-    E_star = checked_number("E_star", E_star, allowed, 1 / LARGEST, LARGEST)
+    half_space = given_half_space(half_space, E_star, periodic)
     hardness = _checked_hardness(hardness, body)
     rtol = checked_number("rtol", rtol, "a tolerance from 1e-12 to 0.1", 1e-12, 0.1)
     max_iterations = checked_count("max_iterations", max_iterations, 1)
-    periodic, grid_error = (
-        checked_flag("periodic", periodic),
-        checked_flag("grid_error", grid_error),
-    )
+    grid_error = checked_flag("grid_error", grid_error)
     throw = checked_flag("throw", throw)
     one_of("precision", precision, ("mixed", "float64", "float32"))
     refuse_other_progress(progress)
     if isinstance(body, Line):
-        if periodic or grid_error or fields is not False:
+        if half_space.periodic or grid_error or fields is not False:
             raise InputError(
                 "periodic, fields and grid_error belong to the full model; the reduced model of a "
                 "Line has none of these: leave them out, or press a Surface"
             )
-        return press_line(body, E_star, GivenLoads(depths, forces, n_loads))
+        if not isinstance(half_space, Homogeneous):
+            raise InputError(
+                f"half_space is {shown(half_space)}; the springs of a Line have one "
+                "modulus: give E_star, or press a Surface"
+            )
+        return press_line(body, half_space, GivenLoads(depths, forces, n_loads))
     if not isinstance(body, Surface):
         raise InputError(
             f"body is a {type(body).__name__}; a Surface or a Line is needed: wrap heights as "
@@ -165,15 +172,14 @@ def press(
         )
     loads = surface_loads(
         body,
-        E_star,
+        half_space,
         GivenLoads(depths, forces, n_loads),
-        periodic,
         rtol,
         single=precision == "float32",
         hardness=hardness,
     )
     kept = kept_loads(fields, loads.values.size)
-    _refuse_beyond_memory(body, E_star, loads, hardness, periodic, len(kept))
+    _refuse_beyond_memory(body, half_space, loads, hardness, len(kept))
     if grid_error:
         refuse_few_points(body)
     # imported here because compiled loops load slowly
@@ -181,7 +187,7 @@ def press(
     from roughline.halfspace.search.state import Method
 
     method = Method(rtol, max_iterations, precision)
-    pressed = partial(press_surface, E_star=E_star, method=method, periodic=periodic)
+    pressed = partial(press_surface, half_space=half_space, method=method)
     curve = pressed(body, loads=loads, hardness=hardness, kept=kept, progress=progress)
     if grid_error:
         try:
@@ -202,24 +208,23 @@ def press(
 
 def _refuse_beyond_memory(
     surface: Surface,
-    E_star: float,
+    half_space: HalfSpace,
     loads: Loads,
     hardness: float | None,
-    periodic: bool,
     kept: int,
 ) -> None:
     """Refuse loads that memory cannot hold; full contact is supposed where that fits."""
     memory = partial(
         memory_for,
         surface.shape,
-        periodic,
+        half_space.periodic,
         kept,
         yielding=hardness is not None,
         several=loads.values.size > 1,
     )
     if fits_into_memory(memory(area_fraction=1.0)):
         return
-    share = expected_area_fraction(surface, E_star, loads, hardness, periodic=periodic)
+    share = expected_area_fraction(surface, half_space, loads, hardness)
     refuse_beyond_memory(
         memory(area_fraction=share),
         f"pressing {surface.shape[0]} x {surface.shape[1]} points"

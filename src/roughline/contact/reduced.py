@@ -9,6 +9,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.loads import GivenLoads, line_loads
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
+from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Line
 from roughline.topography.borders import decided
@@ -16,15 +17,15 @@ from roughline.topography.effects import grave_effects
 from roughline.topography.settings import as_body
 
 
-def press_line(line: Line, E_star: float, given: GivenLoads) -> Curve:
+def press_line(line: Line, half_space: Homogeneous, given: GivenLoads) -> Curve:
     """Press a reduced line.
 
     Parameters
     ----------
     line : Line
         The line. [length]
-    E_star : float
-        Contact modulus. [pressure]
+    half_space : Homogeneous
+        Whose contact modulus the springs have.
     given : GivenLoads
         The loads as the caller gave them.
 
@@ -39,7 +40,7 @@ def press_line(line: Line, E_star: float, given: GivenLoads) -> Curve:
             "surface (their spectra differ, the paper's eq. 7): press the surface, or build the "
             "reduced line from its spectrum with SelfAffine(...).line(n)"
         )
-    springs = Springs.under(line.heights, line.spacing, E_star)
+    springs = Springs.under(line.heights, line.spacing, half_space.E_star)
     loads = line_loads(line, springs, given)
     if loads.control == "forces":
         force, touching = loads.values, springs.under_forces(loads.values)
@@ -56,7 +57,7 @@ def press_line(line: Line, E_star: float, given: GivenLoads) -> Curve:
         status=np.zeros(depth.size, dtype=np.int8),
         resolved=touching.count >= RESOLVED_FROM,
         residual=np.zeros(depth.size),
-        E_star=E_star,
+        half_space=half_space,
         rms_height=line.rms_height,
         length=line.length,
         unit=line.unit,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.contact.loads import Loads
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.search.separation import Separation
 from roughline.topography.body import Surface
 
@@ -27,6 +28,8 @@ class ScaledSurface:
         Unit of pressures where both lengths are equal. [pressure]
     spacing : tuple of float
         Sides of a cell over `length`. [1]
+    half_space : HalfSpace
+        The half-space in units of `E_star` and `length`.
     """
 
     surface: Surface
@@ -34,18 +37,20 @@ class ScaledSurface:
     length: float
     E_star: float
     spacing: tuple[float, float]
+    half_space: HalfSpace
 
     @classmethod
-    def of(cls, surface: Surface, E_star: float, loads: Loads) -> ScaledSurface:
+    def of(cls, surface: Surface, half_space: HalfSpace, loads: Loads) -> ScaledSurface:
         """Choose the units."""
         height = surface.rms_height
         if height == 0:  # a flat punch has no heights: its depth, at least roughly, gives the unit
             height = float(loads.values.max())
             if loads.control == "forces":
-                height /= E_star * surface.length
+                height /= half_space.E_star * surface.length
         dx, dy = surface.spacing
         length = float(np.sqrt(dx) * np.sqrt(dy))
-        return cls(surface, height, length, E_star, (dx / length, dy / length))
+        scaled = half_space.in_units(half_space.E_star, length)
+        return cls(surface, height, length, half_space.E_star, (dx / length, dy / length), scaled)
 
     def separation(self) -> Separation:
         """Return the distance of the bodies at first touch over `height`. [1]"""

@@ -1,30 +1,35 @@
-"""The elastic half-space: its elasticity and its boundary."""
+"""The half-space of one material."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.halfspace.operators import convolution
-from roughline.halfspace.operators.operator import Operator
+from roughline.halfspace.elasticity.half_space import HalfSpace
 
 
 @dataclass(frozen=True)
-class HalfSpace:
-    """An elastic half-space, before it is divided into cells.
+class Homogeneous(HalfSpace):
+    """An elastic half-space of one material.
 
-    Attributes
+    Parameters
     ----------
     E_star : float
-        Contact modulus E*. [pressure]
-    periodic : bool
-        Whether pressures repeat periodically beyond the grid. If not, the surface is free there.
+        Contact modulus, 1 / E* = (1 - nu1²) / E1 + (1 - nu2²) / E2. [pressure]
+    periodic : bool, optional
+        Whether pressures repeat themselves beyond the grid. If not, the surface is free there.
 
     Raises
     ------
     InputError
         If the modulus is not positive and finite.
+
+    References
+    ----------
+    .. [1] K. L. Johnson, *Contact Mechanics*, Cambridge (1985), §13.2 (waves), eq. 3.25 (cells),
+       eq. 3.36 (discs).
     """
 
     E_star: float
@@ -36,45 +41,21 @@ class HalfSpace:
                 f"E_star is {self.E_star!r}; a positive, finite contact modulus is needed"
             )
 
-    def scaled(self, pressure: float, length: float) -> HalfSpace:
-        """Return the same half-space in other units.
+    def spectrum(self, q: Real) -> Real:
+        """Return 2 / (E* q), the displacement over the pressure of waves."""
+        return 2 / (self.E_star * q)
 
-        Parameters
-        ----------
-        pressure, length : float
-            The new units, in the old ones. A homogeneous half-space has no length of its own to
-            be scaled. [pressure] and [length]
-        """
+    def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
+        """Fill rows of the table of displacements under unit pressure on one cell."""
+        # here because compiled loops load slowly
+        from roughline.halfspace.elasticity.kernel import love_rows
+
+        love_rows(first, *spacing, 1 / self.E_star, rows)
+
+    def in_units(self, pressure: float, length: float) -> Homogeneous:
+        """Return the same half-space in other units; it has no length of its own to be scaled."""
         return replace(self, E_star=self.E_star / pressure)
 
-    def operator(self, shape: tuple[int, int], spacing: tuple[float, float]) -> Operator:
-        """Return the map from pressures to displacements on a grid.
-
-        Parameters
-        ----------
-        shape : tuple of int
-            Points of the grid, (nx, ny).
-        spacing : tuple of float
-            Sides of a cell, (dx, dy). [length]
-        """
-        make = convolution.periodic if self.periodic else convolution.free
-        return make(shape, spacing, self.E_star)
-
-    def coarser_grid(
-        self, shape: tuple[int, int], spacing: tuple[float, float]
-    ) -> tuple[tuple[int, int], tuple[float, float]]:
-        """Return shape and spacing of a grid with half as many points a side, rounded up.
-
-        A free grid takes cells of double size, of which the last may reach beyond an odd side. A
-        periodic grid keeps its sides, which are its periods.
-
-        Parameters
-        ----------
-        shape, spacing
-            Those of the finer grid, as for :meth:`operator`.
-        """
-        (nx, ny), (dx, dy) = shape, spacing
-        mx, my = -(-nx // 2), -(-ny // 2)
-        if self.periodic:
-            return (mx, my), (dx * nx / mx, dy * ny / my)
-        return (mx, my), (dx * min(nx, 2), dy * min(ny, 2))
+    def disc_stiffness(self, radius: float) -> float:
+        """Return the force per approach of a rigid disc, 2 E* a."""
+        return 2 * self.E_star * radius

@@ -138,7 +138,7 @@ def _raised(operator: Operator) -> float:
 
     Nothing, unless even pressure displaces nothing.
     """
-    return float(operator.spectrum.max()) if operator.zero_mean else 0.0
+    return float(operator.spectrum.max()) if operator.mean_is_free else 0.0
 
 
 def _stencil_cells(operator: Operator, stretch: float) -> Indices:

@@ -67,7 +67,7 @@ class CoarseGrid:
         nx, ny = (-(-n // ratio) + _BEYOND for n, ratio in zip(operator.shape, ratios, strict=True))
         dx, dy = (ratio * side for ratio, side in zip(ratios, operator.spacing, strict=True))
         shape = (px, py) if periodic else (nx, ny)
-        convolution = Convolution(shape, (dx, dy), (px, py), corrected, operator.zero_mean)
+        convolution = Convolution(shape, (dx, dy), (px, py), corrected)
         return cls(convolution, (_spline_weights(ratios[0]), _spline_weights(ratios[1])), periodic)
 
     @cached_property

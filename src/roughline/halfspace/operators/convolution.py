@@ -1,4 +1,4 @@
-"""The elastic half-space on a grid as a fast convolution, free or periodic."""
+"""The displacement of a grid under pressures, as a fast convolution."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from roughline.halfspace.elasticity.kernel import love_rows
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators import loops
 from roughline.halfspace.operators.operator import GridNodes, Precision, unit_in_single
-from roughline.halfspace.operators.pair_sums import ROWS_AT_A_TIME, KernelRows, displaced_by_pairs
+from roughline.halfspace.operators.pair_sums import ROWS_AT_A_TIME, displaced_by_pairs
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
@@ -21,9 +21,7 @@ _PAIRS = 4.0  # of nodes for each mode, up to which sums over pairs take less ti
 _MANY = 2**20  # ... where there are so many modes
 _SPARE = 8  # modes at the end of each row, as caches hold few rows a power of two apart
 _SMALL = 2**16  # modes, which a thread transforms before another has begun
-_TABLE_AT_A_TIME = 2**16  # points
 _LARGE = 2**22  # points of the padded rows, from which on memory counts
-_LONG = 64  # points along a side, from which on it has as many periods to choose from
 
 
 MUCH = 2**26
@@ -49,23 +47,26 @@ class Convolution:
         Eigenvalues of the convolution over ``periods[0] * periods[1]``, the normalisation of the
         two transforms. The kernel is even in x and y, so the spectrum is real and even, and a
         quarter of it is stored. [length / pressure]
-    zero_mean : bool
-        Whether displacements count from their mean, so that even pressure displaces nothing.
-    kernel_rows : callable, optional
-        Fills rows of the table of displacements under unit pressure, by the distance in cells.
+    half_space : HalfSpace or None
+        Whose convolution it is; None for another kernel, of which the spectrum is all that there
+        is.
     """
 
     shape: tuple[int, int]
     spacing: tuple[float, float]
     periods: tuple[int, int]
     spectrum: Real
-    zero_mean: bool
-    kernel_rows: KernelRows | None = None
+    half_space: HalfSpace | None = None
 
     @property
     def cell_area(self) -> float:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1]
+
+    @property
+    def mean_is_free(self) -> bool:
+        """Whether displacements count from their mean, so that even pressure displaces nothing."""
+        return bool(self.spectrum[0, 0] == 0)
 
     def _parts(self, precision: Precision) -> int:
         """Return in how many parts modes along y are taken: all, or even ones, then odd ones.
@@ -110,7 +111,8 @@ class Convolution:
         modes = self.periods[0] * self.periods[1]
         fit = targets <= ROWS_AT_A_TIME * self.shape[1]
         few = sources * targets <= _PAIRS * modes
-        return self.kernel_rows is not None and modes >= _MANY and fit and few
+        free = self.half_space is not None and not self.half_space.periodic
+        return free and modes >= _MANY and fit and few
 
     def displacement(
         self,
@@ -134,8 +136,8 @@ class Convolution:
         if out is None:
             out = np.empty(self.shape if targets is None else targets.indices.size)
         if targets is not None and self.sums_are_cheap(sources.indices.size, targets.indices.size):
-            assert self.kernel_rows is not None
-            out[:] = displaced_by_pairs(self.kernel_rows, pressure, sources, targets)
+            assert self.half_space is not None
+            out[:] = displaced_by_pairs(self.half_space, self.spacing, pressure, sources, targets)
         else:
             for odd in range(self._parts(precision)):
                 self._transform(pressure, sources, targets, precision, out, odd)
@@ -201,61 +203,3 @@ class Convolution:
         fft.share_out_blocks(transform_rows, pairs, pairs_at_a_time)
         fft.share_out_blocks(convolve_columns, spectrum.shape[1], modes_at_a_time)
         fft.share_out_blocks(transform_rows_back, pairs_out, pairs_at_a_time)
-
-
-def free(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:
-    """Half-space loaded on one rectangle and free around it.
-
-    The convolution over twice the rectangle is exact: equal to the dense matrix of
-    :func:`roughline.halfspace.elasticity.kernel.love`.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Points of the grid, (nx, ny).
-    spacing : tuple of float
-        Sides of a cell, (dx, dy). [length]
-    E_star : float
-        Contact modulus E*. [pressure]
-    """
-    mx, my = _padded(shape[0]), _padded(shape[1])
-    spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
-
-    def fill(first: int, last: int) -> None:
-        love_rows(first, *spacing, 1 / E_star / (mx * my), spectrum[first:last])
-
-    rows, columns = spectrum.shape
-    fft.share_out_blocks(fill, rows, max(1, _TABLE_AT_A_TIME // columns))
-    fft.cosine_spectrum(spectrum)
-    return Convolution(
-        shape,
-        spacing,
-        (mx, my),
-        spectrum,
-        zero_mean=False,
-        kernel_rows=lambda first, rows: love_rows(first, *spacing, 1 / E_star, rows),
-    )
-
-
-def _padded(n: int) -> int:
-    """Return a period of at least twice a side; a long one can be halved three times."""
-    return fft.good_size(2 * n, 8 if n >= _LONG else 2)
-
-
-def periodic(shape: tuple[int, int], spacing: tuple[float, float], E_star: float) -> Convolution:
-    """Half-space loaded periodically; displacements are counted from their mean.
-
-    Each Fourier mode of the pressure displaces the surface by 2 / (E* |q|) times itself
-    (Johnson 1985, §13.2); the mode q = 0 is dropped.
-
-    Parameters
-    ----------
-    shape, spacing, E_star
-        As for :func:`free`.
-    """
-    (nx, ny), (dx, dy) = shape, spacing
-    qx = 2 * np.pi / (nx * dx) * np.arange(nx // 2 + 1)[:, np.newaxis]
-    qy = 2 * np.pi / (ny * dy) * np.arange(ny // 2 + 1)[np.newaxis, :]
-    q = np.hypot(qx, qy)
-    q[0, 0] = np.inf
-    return Convolution(shape, spacing, shape, 2 / (E_star * q) / (nx * ny), zero_mean=True)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.loops import list_rows
 from roughline.halfspace.operators.restricted_loops import find_runs
 
@@ -102,8 +103,12 @@ class Operator(Protocol):
         """Area of one cell. [length²]"""
 
     @property
-    def zero_mean(self) -> bool:
+    def mean_is_free(self) -> bool:
         """Whether displacements count from their mean, so that even pressure displaces nothing."""
+
+    @property
+    def half_space(self) -> HalfSpace | None:
+        """Whose displacements they are; None for another kernel."""
 
     @property
     def periods(self) -> tuple[int, int]:

@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Floats, Integers, Real
 from roughline.computing.compiled import compiled
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.operator import GridNodes
-
-KernelRows = Callable[[int, Real], None]
-"""Fills rows of the table of a kernel by the distance in cells, from a first row on."""
 
 ROWS_AT_A_TIME = 32
 """Rows of the table whose sums are added up before those of others."""
 
 
 def displaced_by_pairs(
-    kernel_rows: KernelRows, pressure: Real, sources: GridNodes, targets: GridNodes
+    half_space: HalfSpace,
+    spacing: tuple[float, float],
+    pressure: Real,
+    sources: GridNodes,
+    targets: GridNodes,
 ) -> Real:
     """Return the displacement of some nodes under the pressure on some nodes.
 
@@ -28,8 +28,10 @@ def displaced_by_pairs(
 
     Parameters
     ----------
-    kernel_rows : callable
-        Fills rows of the kernel's table. [length / pressure]
+    half_space : HalfSpace
+        Whose kernel it is.
+    spacing : tuple of float
+        Sides of a cell, (dx, dy). [length]
     pressure : ndarray
         Pressures on the sources. [pressure]
     sources, targets : GridNodes
@@ -41,7 +43,7 @@ def displaced_by_pairs(
 
     def add(first: int, last: int) -> None:
         table = np.empty((last - first, ny))
-        kernel_rows(first, table)
+        half_space.kernel(first, spacing, table)
         part = parts[first // ROWS_AT_A_TIME]
         _add_pairs(table, first, pressure, loaded, targets.listed, part)
 

@@ -34,6 +34,7 @@ _RADIUS = 2.25  # of the near part, in cells of the coarse grid
 _SIDES = 2, 4, 8  # cells along the side of a coarse cell, where these are square
 _REACH = int(_RADIUS * _SIDES[-1])  # of the near part, at most
 _SHARES = 0.6, 0.35, 0.025  # of the grid, up to which the coarse cells of each size serve best
+_NEARLY_EVEN = 1e-3  # wavenumber, over that of the longest wave, that stands for q = 0
 _FEWEST_POINTS = 64  # along the shorter side of the grid
 _ROUNDING = 8  # to which the lengths of runs, and rows of the near part, are rounded up
 _SUMS_AT_A_TIME = 2**21  # near sums; for fewer, starting a thread does not pay
@@ -89,8 +90,10 @@ class RestrictedOperator:
         spectrum = operator.spectrum[: kx.size, : ky.size]
         smooth = spectrum * erfc(q * _WIDTH * side / 2)
         # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
-        some = 1 + kx.size // 8
-        smooth[0, 0] -= spectrum[some, 0] * q[some, 0] * _WIDTH * side / np.sqrt(np.pi)
+        assert operator.half_space is not None
+        q_small = np.array([_NEARLY_EVEN * 2 * np.pi / max(px * dx, py * dy)])
+        limit = float((q_small * operator.half_space.spectrum(q_small))[0]) / (px * py)
+        smooth[0, 0] -= limit * _WIDTH * side / np.sqrt(np.pi)
         lags = [np.arange(int(_RADIUS * side / spacing) + 1) for spacing in (dx, dy)]
         near = kernel[: lags[0].size, : lags[1].size] - at_cells(smooth, coarse, ratios, lags)
         inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _RADIUS * side

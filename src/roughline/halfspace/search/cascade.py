@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
+from bisect import bisect_left
 from dataclasses import replace
 
 import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
+from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.search.contact_set import ContactSet
 from roughline.halfspace.search.correction import guessed
 from roughline.halfspace.search.lending import lent
@@ -45,7 +48,9 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     coarse_separation = _halved(separation)
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(problem, load), 0.0
-    shape, spacing = problem.half_space.coarser_grid(operator.shape, operator.spacing)
+    shape, spacing = coarser_grid(
+        operator.shape, operator.spacing, periodic=problem.half_space.periodic
+    )
     with lent(problem.half_space, shape, spacing) as inverse:
         coarse = replace(problem, inverse=inverse, separation=coarse_separation)
         contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
@@ -110,20 +115,23 @@ def _spread(coarse: ContactSet, shape: tuple[int, int], shares: list[Real]) -> C
 def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
     """Start from every node that the rigid shift would overlap, with its overlap as pressure.
 
-    A force shifts the body to the depth at which one disc of as many nodes would carry it, with
-    2 E* a (d - mean separation).
+    A force shifts the body to the depth at which one disc of as many nodes would carry it,
+    its stiffness times (d - mean separation).
     """
-    separation, depth = np.asarray(problem.separation), load.depth
+    separation, depth, force = np.asarray(problem.separation), load.depth, load.force
     if depth is None:
-        assert load.force is not None
+        assert force is not None
         separations = np.sort(separation, axis=None)
-        count = np.arange(1, separations.size + 1)
-        stiffness = (
-            2 * problem.half_space.E_star * np.sqrt(count * problem.operator.cell_area / np.pi)
-        )
-        depths = load.force / stiffness + np.cumsum(separations) / count
-        reached = depths <= np.append(separations[1:], np.inf)
-        depth = float(depths[reached.argmax()])
+        sums, beyond = np.cumsum(separations), np.append(separations[1:], np.inf)
+
+        def depth_of(count: int) -> float:
+            radius = math.sqrt(count * problem.operator.cell_area / math.pi)
+            shift = force / problem.half_space.disc_stiffness(radius)
+            return shift + float(sums[count - 1]) / count
+
+        counts = range(1, separations.size + 1)
+        reached = bisect_left(counts, True, key=lambda count: depth_of(count) <= beyond[count - 1])
+        depth = depth_of(counts[reached])
         needed = min(problem.fewest_nodes(load), separations.size)
         depth = max(depth, float(separations[needed - 1]))
     nodes = np.flatnonzero(separation < depth)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
+from roughline.halfspace.operators.discretisation import on_grid
 
 _Grid = tuple[HalfSpace, tuple[int, int], tuple[float, float]]
 
@@ -31,12 +32,12 @@ def lent(
     half_space : HalfSpace
         The half-space.
     shape, spacing
-        As for :meth:`HalfSpace.operator`.
+        As for :func:`roughline.halfspace.operators.discretisation.on_grid`.
     """
     grid = half_space, shape, spacing
     inverse = _kept.pop(grid, None)
     if inverse is None:
-        inverse = ApproximateInverse.of(half_space.operator(shape, spacing))
+        inverse = ApproximateInverse.of(on_grid(half_space, shape, spacing))
     yield inverse
     _keep(grid, inverse)
 

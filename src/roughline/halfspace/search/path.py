@@ -150,7 +150,7 @@ class _Path:
         """
         beyond_full_contact = (
             load.depth is not None
-            and self._problem.operator.zero_mean
+            and self._problem.operator.mean_is_free
             and load.depth >= float(self._problem.separation.mean())
         )
         if (self._yields or beyond_full_contact) and self._furthest is None:

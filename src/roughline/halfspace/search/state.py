@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
-from roughline.halfspace.elasticity.homogeneous import HalfSpace
+from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.laws.conditions import ContactConditions, Residuals
 from roughline.halfspace.operators.operator import GridNodes, Operator, Precision

@@ -127,7 +127,7 @@ def tangent(
     nodes = contact.nodes[elastic]
     if not nodes.size:
         return Tangent(0.0, np.zeros(contact.nodes.size), 0, converged=True)
-    if operator.zero_mean and nodes.size == contact.gap.size:  # full contact is rigid
+    if operator.mean_is_free and nodes.size == contact.gap.size:  # full contact is rigid
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
     pressure = _unit_force(elastic, cell_area, start, contact.pressure)

@@ -1,0 +1,102 @@
+"""A half-space divided into cells: its operator on a grid, and the coarser grids of that."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.computing import fft
+from roughline.errors import InputError
+from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.operators.convolution import Convolution
+
+_TABLE_AT_A_TIME = 2**16  # points
+_LONG = 64  # points along a side, from which on it has as many periods to choose from
+
+
+def on_grid(
+    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+) -> Convolution:
+    """Return the map from pressures to displacements on a grid.
+
+    Parameters
+    ----------
+    half_space : HalfSpace
+        The half-space.
+    shape : tuple of int
+        Points of the grid, (nx, ny).
+    spacing : tuple of float
+        Sides of a cell, (dx, dy). [length]
+
+    Raises
+    ------
+    InputError
+        If waves are not displaced by a positive, finite length.
+    """
+    return (_periodic if half_space.periodic else _free)(half_space, shape, spacing)
+
+
+def coarser_grid(
+    shape: tuple[int, int], spacing: tuple[float, float], *, periodic: bool
+) -> tuple[tuple[int, int], tuple[float, float]]:
+    """Return shape and spacing of a grid with half as many points a side, rounded up.
+
+    A free grid takes cells of double size, of which the last may reach beyond an odd side. A
+    periodic grid keeps its sides, which are its periods.
+    """
+    (nx, ny), (dx, dy) = shape, spacing
+    mx, my = -(-nx // 2), -(-ny // 2)
+    if periodic:
+        return (mx, my), (dx * nx / mx, dy * ny / my)
+    return (mx, my), (dx * min(nx, 2), dy * min(ny, 2))
+
+
+def _free(
+    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+) -> Convolution:
+    """Load one rectangle, free around it: exactly so, as the period is twice the rectangle."""
+    mx, my = _padded(shape[0]), _padded(shape[1])
+    spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
+
+    def fill(first: int, last: int) -> None:
+        rows = spectrum[first:last]
+        half_space.kernel(first, spacing, rows)
+        rows /= mx * my
+
+    rows, columns = spectrum.shape
+    fft.share_out_blocks(fill, rows, max(1, _TABLE_AT_A_TIME // columns))
+    fft.cosine_spectrum(spectrum)
+    if not np.isfinite(spectrum[0, 0]):
+        raise InputError(
+            f"{type(half_space).__name__}.kernel gives numbers that are not finite; a finite "
+            "displacement under unit pressure on one cell is needed at all distances"
+        )
+    return Convolution(shape, spacing, (mx, my), spectrum, half_space)
+
+
+def _padded(n: int) -> int:
+    """Return a period of at least twice a side; a long one can be halved three times."""
+    return fft.good_size(2 * n, 8 if n >= _LONG else 2)
+
+
+def _periodic(
+    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+) -> Convolution:
+    """Load periodically; an even pressure that displaces without bound is dropped."""
+    qx, qy = (
+        2 * np.pi / (n * side) * np.arange(n // 2 + 1)
+        for n, side in zip(shape, spacing, strict=True)
+    )
+    q = np.hypot(qx[:, np.newaxis], qy)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        spectrum = half_space.spectrum(q) / (shape[0] * shape[1])
+    if np.isinf(spectrum[0, 0]):
+        spectrum[0, 0] = 0.0
+    wrong = ~((spectrum > 0) & np.isfinite(spectrum))
+    wrong[0, 0] = not spectrum[0, 0] >= 0
+    if wrong.any():
+        raise InputError(
+            f"{type(half_space).__name__}.spectrum gives {spectrum[wrong][0]:g} at q = "
+            f"{q[wrong][0]:g}; a positive, finite displacement over pressure is needed for each "
+            "wave, and may be infinite at q = 0 alone"
+        )
+    return Convolution(shape, spacing, shape, spectrum, half_space)
