@@ -34,11 +34,15 @@ class Room:
     imports: tuple[str, ...]
 
 
-def layers() -> list[list[str]]:
+def layers(container: str = "roughline") -> list[list[str]]:
     """Return the rooms of each layer, the highest first, as pyproject.toml allows their imports."""
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
-    rows = next(each["layers"] for each in contracts["contracts"] if each["type"] == "layers")
-    return [[name.strip().removeprefix("roughline.") for name in row.split("|")] for row in rows]
+    rows = next(
+        each["layers"]
+        for each in contracts["contracts"]
+        if each["type"] == "layers" and each["containers"] == [container]
+    )
+    return [[name.strip() for name in row.split("|")] for row in rows]
 
 
 def import_graph(*, for_types: bool = False) -> grimp.ImportGraph:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from architecture import arrows, circles, import_graph, large_functions, rooms
+from seams import SOLVER, arrows_of_the_solver, arrows_up
 
 ROOT = Path(__file__).parents[1]
 MOST_ROOMS = 25
@@ -31,6 +32,12 @@ def test_no_room_is_much_larger_than_the_others(graph):
 
 def test_no_files_import_each_other(graph):
     assert circles(graph) == []
+
+
+def test_the_rooms_of_the_solver_import_downwards_also_for_types():
+    graph = import_graph(for_types=True)
+    assert arrows_up(arrows_of_the_solver(graph)) == []
+    assert not [group for group in circles(graph) if any(f".{SOLVER}." in name for name in group)]
 
 
 def test_no_function_is_too_large():

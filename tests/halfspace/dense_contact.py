@@ -150,7 +150,7 @@ class DenseContact:
     def _pressures(self, aim, low, high) -> np.ndarray:
         """Solve low <= p <= high by principal pivots, from the sets of the last call."""
         low, high = (np.broadcast_to(np.asarray(each, float), aim.shape) for each in (low, high))
-        where = self.where
+        where = np.where((self.where == HIGH) & np.isinf(high), BETWEEN, self.where)
         rounding = _ROUNDING * np.abs(aim).max()
         fewest, patience = aim.size + 1, _PATIENCE
         while True:
