@@ -72,9 +72,10 @@ def forget():
             getattr(module, "_kept", {}).clear()
 
 
-def work():
+def work(threads):
     """Press the rows whose names come in, line by line."""
     every = rows()
+    rl.set_threads(threads)
     press(512, {"forces": [0.01, 0.3], "hardness": True})  # compiles
     press(512, {"forces": [0.01, 0.3], "periodic": True})
     for line in sys.stdin:
@@ -95,9 +96,8 @@ class State:
 
     def __init__(self, source, threads):
         environment = {**os.environ, "PYTHONPATH": str(source), "OPENBLAS_NUM_THREADS": "1"}
-        environment["OMP_NUM_THREADS"] = str(threads)
         self._process = subprocess.Popen(
-            [sys.executable, __file__, "--work"],
+            [sys.executable, __file__, "--work", "--threads", str(threads)],
             env=environment,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
@@ -149,7 +149,7 @@ def main():
     wanted = parser.parse_args()
     names = [name for name in rows() if any(re.search(each, name) for each in wanted.rows)]
     if wanted.work:
-        work()
+        work(wanted.threads)
     elif wanted.list:
         print("\n".join(names))
     elif len(wanted.sources) != 2:
