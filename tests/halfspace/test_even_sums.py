@@ -8,7 +8,6 @@ from roughline.computing.cores import available_cores
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.inverse.even_sums import Lags, even_sums
-from roughline.halfspace.inverse.lattices import kernels_on, lags_for, lattice_shapes
 from roughline.halfspace.operators.discretisation import on_grid
 
 ROUNDING = 1e-14
@@ -49,22 +48,6 @@ def test_sums_are_those_of_the_whole_transform(periods, sides):
     assert np.abs(found_inverse - expected).max() < ROUNDING * inverse.sum()
 
 
-@pytest.mark.parametrize("finest", [(200, 130), (33, 1), (5, 9)])
-def test_kernels_of_coarser_lattices_are_averaged_over_their_blocks(finest):
-    shapes = lattice_shapes(finest)
-    x, y = (np.arange(n) for n in lags_for(shapes))
-    kernels = kernels_on(shapes, np.exp(-x[:, np.newaxis] / 7 - y / 11))
-    assert [kernel.shape for kernel in kernels] == shapes
-    for level, kernel in enumerate(kernels):
-        side = 4**level
-        cells = np.arange(side)
-        for i, j in {(0, 0), (kernel.shape[0] - 1, kernel.shape[1] - 1), (0, kernel.shape[1] // 2)}:
-            along_x = abs(side * i + cells[:, np.newaxis] - cells)
-            along_y = abs(side * j + cells[:, np.newaxis] - cells)
-            expected = np.exp(-along_x / 7).mean() * np.exp(-along_y / 11).mean()
-            assert kernel[i, j] == pytest.approx(expected, rel=ROUNDING)
-
-
 def test_the_number_of_threads_changes_no_bit_of_the_approximate_inverse():
     count, found = fft.threads(), []
     try:
@@ -72,7 +55,7 @@ def test_the_number_of_threads_changes_no_bit_of_the_approximate_inverse():
             fft.set_threads(threads)
             operator = on_grid(Homogeneous(1.0), (200, 150), (1.0, 0.9))
             inverse = ApproximateInverse.of(operator)
-            found.append((operator.spectrum, inverse.taps, *inverse.block_kernels))
+            found.append((operator.spectrum, inverse.taps, inverse.block_kernel.values))
     finally:
         fft.set_threads(count)
     for one, other in zip(*found, strict=True):

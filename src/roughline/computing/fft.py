@@ -120,6 +120,11 @@ def analyse(values: Real) -> Complex:
     return ducc0.fft.c2c(values.astype(np.complex128), axes=(0, 1), forward=True, nthreads=1)
 
 
+def half_spectrum(values: Real) -> Complex:
+    """Return the spectrum of real values over a plane, for q >= 0 on the last axis."""
+    return ducc0.fft.r2c(values, axes=(0, 1), nthreads=1)
+
+
 def synthesise(half_spectrum: Complex, n: int) -> Real:
     """Return the real values of a Hermitian spectrum that is stored for q >= 0 on the last axis."""
     axes = tuple(range(half_spectrum.ndim))

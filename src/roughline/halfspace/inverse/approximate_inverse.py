@@ -1,10 +1,10 @@
 """An approximate inverse of the half-space on any set of contact nodes.
 
 Neighbours within two cells are inverted by a stencil, which is the inverse convolution cut short.
-What is smooth over blocks of 16 cells is inverted by small dense systems for the mean pressure of
-each block, on ever coarser lattices of blocks. The spaces are split by zero means, so each level
-adds only what the coarser ones cannot represent; the splitting is stable for operators of this
-order [1]_ [2]_.
+What is smooth over blocks of 16 cells is inverted by equations for the mean pressure of each block:
+dense ones of few blocks, and the inverse convolution of many. The two spaces are split by zero
+means, so each adds only what the other cannot represent; the splitting is stable for operators of
+this order [1]_ [2]_.
 
 References
 ----------
@@ -24,16 +24,13 @@ import numpy as np
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Integers, Real, Single
 from roughline.halfspace.inverse import block_loops as loops
-from roughline.halfspace.inverse.cholesky import Cholesky
+from roughline.halfspace.inverse.blocks import MOST_DENSE, BlockKernel, Dense, even_on_blocks
 from roughline.halfspace.inverse.even_sums import Lags, even_sums
-from roughline.halfspace.inverse.lattice_loops import fill_direct
-from roughline.halfspace.inverse.lattices import Lattices, kernels_on, lags_for, lattice_shapes
 from roughline.halfspace.operators.operator import GridNodes, Operator, unit_in_single
 from roughline.halfspace.operators.restricted import NEAR, RestrictedOperators
 
 _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
-_DIRECT = 300  # nodes or fewer, whose equations are solved directly
 _STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
 _NODES_AT_A_TIME = 2**15  # for fewer, starting a thread costs more than it saves
 
@@ -53,14 +50,12 @@ class ApproximateInverse:
         less than it, so the stencil cut to any set of nodes is positive definite.
         [pressure / length]
     block_sides : tuple of int
-        Cells along the sides of the smallest blocks.
+        Cells along the sides of the sides blocks.
     diagonal : float
         Diagonal of the operator: displacement of a node by the pressure on itself.
         [length / pressure]
-    block_kernels : tuple of ndarray
-        For each lattice, displacement of a node by the pressure on another, averaged over the
-        blocks of the two, by the distance of these blocks. A positive definite function, as the
-        kernel is. [length / pressure]
+    block_kernel : BlockKernel
+        The kernel averaged over blocks.
     restricted : RestrictedOperators
         Forms of the operator that cost what the contact costs.
     """
@@ -70,7 +65,7 @@ class ApproximateInverse:
     taps: Real
     block_sides: tuple[int, int]
     diagonal: float
-    block_kernels: tuple[Real, ...]
+    block_kernel: BlockKernel
     restricted: RestrictedOperators
 
     @classmethod
@@ -80,17 +75,17 @@ class ApproximateInverse:
         dx, dy = operator.spacing
         stretch = float(np.clip(np.sqrt(dy / dx), 1 / _STRETCH, _STRETCH))
         nx, ny = operator.shape
-        smallest = (
+        sides = (
             min(max(1, round(_BLOCK * stretch)), nx),
             min(max(1, round(_BLOCK / stretch)), ny),
         )
-        lattices = lattice_shapes((-(-nx // smallest[0]), -(-ny // smallest[1])))
+        lattice = -(-nx // sides[0]), -(-ny // sides[1])
         offsets = _stencil_cells(operator, stretch)
         margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
         kernel, inverse, near = even_sums(
             operator.spectrum,
             operator.periods,
-            Lags(lags_for(lattices), smallest),
+            Lags(lattice, sides),
             Lags((margins[0] + 1, margins[1] + 1)),
             Lags(NEAR),
         )
@@ -99,9 +94,9 @@ class ApproximateInverse:
             operator,
             offsets,
             _stencil_taps(offsets, inverse),
-            smallest,
+            sides,
             float(near[0, 0]) + raised,
-            kernels_on(lattices, kernel + raised),
+            BlockKernel(kernel + raised, operator.periods == operator.shape),
             RestrictedOperators(operator, near, (margins[0], margins[1] + loops.ROUNDING)),
         )
 
@@ -168,19 +163,23 @@ Preconditioner = Callable[[Real], Real]
 
 def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> Preconditioner:
     """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
-    if nodes.indices.size > _DIRECT:
-        return _Multilevel(inverse, nodes)
+    few = nodes.indices.size
+    if few > MOST_DENSE:
+        return _TwoLevels(inverse, nodes)
     rows = np.repeat(nodes.rows, np.diff(nodes.starts))
-    matrix = np.empty((rows.size, rows.size))
-    fill_direct(inverse.kernel, rows, nodes.columns, matrix)
-    return Cholesky(matrix).solve
+    energy = np.full(few, inverse.kernel[0, 0])
+    return Dense(inverse.kernel, rows, nodes.columns, np.ones(few), energy)
 
 
-class _Multilevel:
+class _TwoLevels:
     """The approximate inverse on many contact nodes."""
 
     def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
-        grid, sides, kernel = inverse.restricted.grid, inverse.block_sides, inverse.block_kernels[0]
+        grid, sides, kernel = (
+            inverse.restricted.grid,
+            inverse.block_sides,
+            inverse.block_kernel.values,
+        )
         width = grid.values.shape[1]
         bands = np.arange(kernel.shape[0] + 1) * sides[0]
         self._at = loops.Layout(
@@ -203,7 +202,7 @@ class _Multilevel:
         energy = count**2 * kernel[0, 0]
         # as if the nodes of a block lay at random in it
         energy += count * (1 - count / (sides[0] * sides[1])) * (inverse.diagonal - kernel[0, 0])
-        self._coarse = Lattices(inverse.block_kernels, count, energy)
+        self._even = even_on_blocks(inverse.block_kernel, count, energy)
 
     def _share_out(self, work: Callable[[int, int], None]) -> None:
         """Do some work on all bands."""
@@ -227,7 +226,7 @@ class _Multilevel:
             loops.apply_stencil(grid, at, self._stencil, even, first, last, result)
 
         self._share_out(scatter)
-        even = self._coarse(sums), per_node
+        even = self._even(sums), per_node
         self._share_out(apply)
         self._share_out(lambda first, last: loops.clear_nodes(at, first, last, grid))
         return result
