@@ -88,7 +88,8 @@ class RestrictedOperator:
         kx, ky = np.arange(coarse[0] // 2 + 1), np.arange(coarse[1] // 2 + 1)
         q = 2 * np.pi * np.hypot(kx[:, np.newaxis] / (px * dx), ky / (py * dy))
         spectrum = operator.spectrum[: kx.size, : ky.size]
-        smooth = spectrum * erfc(q * _WIDTH * side / 2)
+        share = erfc(q * _WIDTH * side / 2)
+        smooth = spectrum * share
         # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
         assert operator.half_space is not None
         q_small = np.array([_NEARLY_EVEN * 2 * np.pi / max(px * dx, py * dy)])
@@ -98,6 +99,12 @@ class RestrictedOperator:
         near = kernel[: lags[0].size, : lags[1].size] - at_cells(smooth, coarse, ratios, lags)
         inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _RADIUS * side
         near[~inside] = 0
+        # what the cut leaves out, far more where the body has a length of its own, is smooth
+        x, y = (
+            np.where(lag > 0, 2, 1) * np.cos(2 * np.pi / period * np.outer(k, lag))
+            for k, lag, period in zip((kx, ky), lags, operator.periods, strict=True)
+        )
+        smooth += (spectrum - smooth - x @ near @ y.T / (px * py)) * share
         near = np.concatenate([near[:0:-1], near])
         taps = np.concatenate([near[:, :0:-1], near, np.zeros((len(near), _ROUNDING - 1))], axis=1)
         reach = inside.sum(axis=1) - 1
