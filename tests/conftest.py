@@ -90,11 +90,11 @@ def judged(request):
 @pytest.fixture
 def nothing_kept():
     """Press without what presses before have kept, and keep nothing for those that follow."""
-    from roughline.halfspace.search import lending  # compiled loops load slowly, so only here
+    from roughline.halfspace.inverse import kept  # compiled loops load slowly, so only here
 
-    lending._kept.clear()
+    kept._kept.clear()
     yield
-    lending._kept.clear()
+    kept._kept.clear()
 
 
 @pytest.fixture

@@ -9,14 +9,16 @@ from scipy.linalg import eigh
 import roughline as rl
 from roughline.computing import fft
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.inverse import kept
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.operators import convolution
 from roughline.halfspace.operators.coarse_grid import CoarseGrid
 from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.operator import GridNodes, displacement_field
+from roughline.halfspace.operators.padded_grid import PaddedGrid
 from roughline.halfspace.operators.restricted import RestrictedOperator, RestrictedOperators
 from roughline.halfspace.operators.small_grid import SmallGrid
-from roughline.halfspace.search import correction, lending
+from roughline.halfspace.search import correction
 
 
 def contact_nodes(shape, seed, part):
@@ -30,7 +32,7 @@ def contact_nodes(shape, seed, part):
 def made(operator, ratios):
     """Split an operator."""
     restricted = ApproximateInverse.of(operator).restricted
-    return RestrictedOperator.of(operator, ratios, restricted._kernel, restricted.grid)
+    return RestrictedOperator.of(operator, ratios, restricted._kernel, restricted._margins)
 
 
 def on(operator, nodes):
@@ -77,7 +79,7 @@ def test_its_memory_is_clean_after_use():
     nodes = GridNodes.of(contact_nodes((64, 64), 1, 0.3), (64, 64))
     split = made(operator, (4, 4))
     first = split.displacement(np.ones(nodes.indices.size), nodes, nodes)
-    assert not split.grid.values.any()
+    assert not PaddedGrid.of(split.shape, split.margins, operator.workspace).values.any()
     again = split.displacement(np.ones(nodes.indices.size), nodes, nodes)
     np.testing.assert_array_equal(first, again)
 
@@ -187,7 +189,7 @@ def test_a_damaged_one_costs_time_and_never_a_wrong_result(monkeypatch, damage, 
     surface = heights()
     sound = rl.press(surface, E_star=1.0, forces=[0.02, 0.3, 2.0])
     loads = {control: getattr(sound, control.removesuffix("s"))}
-    lending._kept.clear()
+    kept._kept.clear()
     if damage == "stale coarse grid":
         monkeypatch.setattr(CoarseGrid, "_convolved", lambda self, pressure, out: out)
     else:
@@ -234,7 +236,7 @@ def test_later_searches_look_beside_the_contact_too(monkeypatch):
 @pytest.mark.parametrize("periodic", [False, True])
 def test_whole_fields_on_small_grids_are_displaced_as_others(shape, periodic):
     operator = on_grid(Homogeneous(2.0, periodic), shape, (1.0, 0.7))
-    small = SmallGrid.of(shape, operator.periods, operator.spectrum)
+    small = SmallGrid.of(shape, operator.periods, operator.spectrum, operator.workspace)
     rng = np.random.default_rng(3)
     for _ in range(2):  # its memory is used again
         pressure = rng.normal(size=shape).astype(np.float32)

@@ -20,12 +20,12 @@ from roughline.errors import Interrupted
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
+from roughline.halfspace.inverse.kept import inverse_on, working_memory
 from roughline.halfspace.laws.conditions import (
     ContactConditions,
     UnilateralContact,
     YieldingContact,
 )
-from roughline.halfspace.search.lending import lent
 from roughline.halfspace.search.path import solve_path
 from roughline.halfspace.search.state import Load, Method, Problem
 from roughline.topography.body import Surface
@@ -116,7 +116,8 @@ def _results(
     scaled = ScaledSurface.of(surface, half_space, loads)
     unit = scaled.force if loads.control == "forces" else scaled.height
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
-    with lent(scaled.half_space, surface.shape, scaled.spacing) as inverse:
+    with working_memory():
+        inverse = inverse_on(scaled.half_space, surface.shape, scaled.spacing)
         problem = _problem(inverse, scaled, hardness, method)
         solved = solve_path(problem, path, method)
         del problem  # the path knows when the untouched bodies need no memory

@@ -100,6 +100,11 @@ class ApproximateInverse:
             RestrictedOperators(operator, near, (margins[0], margins[1] + loops.ROUNDING)),
         )
 
+    @property
+    def nbytes(self) -> int:
+        """Memory of its tables and those of the operator, the kernel among them. [bytes]"""
+        return self.operator.spectrum.nbytes + 4 * self.operator.shape[0] * self.operator.shape[1]
+
     @cached_property
     def block_of_column(self) -> Integers:
         """Which block along a row of blocks each column of the grid belongs to."""

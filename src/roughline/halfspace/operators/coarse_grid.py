@@ -67,15 +67,10 @@ class CoarseGrid:
         nx, ny = (-(-n // ratio) + _BEYOND for n, ratio in zip(operator.shape, ratios, strict=True))
         dx, dy = (ratio * side for ratio, side in zip(ratios, operator.spacing, strict=True))
         shape = (px, py) if periodic else (nx, ny)
-        convolution = Convolution(shape, (dx, dy), (px, py), corrected)
+        convolution = Convolution(
+            shape, (dx, dy), (px, py), corrected, workspace=operator.workspace
+        )
         return cls(convolution, (_spline_weights(ratios[0]), _spline_weights(ratios[1])), periodic)
-
-    @cached_property
-    def _memory(self) -> tuple[Single, Single]:
-        """Pressures that splines have spread, and displacements between which they interpolate."""
-        (nx, ny), beyond = self.convolution.shape, _BEYOND if self.periodic else 0
-        shape = nx + beyond, ny + beyond
-        return np.empty(shape, dtype=np.float32), np.empty(shape, dtype=np.float32)
 
     @cached_property
     def _small(self) -> SmallGrid | None:
@@ -83,7 +78,7 @@ class CoarseGrid:
         its = self.convolution
         if its.periods[0] * its.periods[1] > _SMALL:
             return None
-        return SmallGrid.of(its.shape, its.periods, its.spectrum)
+        return SmallGrid.of(its.shape, its.periods, its.spectrum, its.workspace)
 
     @cached_property
     def _everywhere(self) -> GridNodes:
@@ -102,7 +97,11 @@ class CoarseGrid:
         grid : PaddedGrid
             Where the pressures are written.
         """
-        spread, moved = self._memory
+        (nx, ny), beyond = self.convolution.shape, _BEYOND if self.periodic else 0
+        spread, moved = (
+            self.convolution.workspace.empty(part, (nx + beyond, ny + beyond), np.float32)
+            for part in ("spread pressures", "coarse displacements")
+        )
         lines = np.empty((sources.rows.size, spread.shape[1]), dtype=np.float32)
         place = sources.place_of_rows
         along, across = self.weights[1], self.weights[0]

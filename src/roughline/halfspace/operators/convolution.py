@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators import loops
 from roughline.halfspace.operators.operator import GridNodes, Precision, unit_in_single
 from roughline.halfspace.operators.pair_sums import ROWS_AT_A_TIME, displaced_by_pairs
+from roughline.halfspace.operators.workspace import Workspace
 
 _MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
 _PAIRS_AT_A_TIME = 64  # pairs of rows
@@ -22,13 +22,6 @@ _MANY = 2**20  # ... where there are so many modes
 _SPARE = 8  # modes at the end of each row, as caches hold few rows a power of two apart
 _SMALL = 2**16  # modes, which a thread transforms before another has begun
 _LARGE = 2**22  # points of the padded rows, from which on memory counts
-
-
-MUCH = 2**26
-"""Bytes from which on memory that is not needed for a while is given back.
-
-Less is kept: to touch new memory for the first time can take longer than the work on it.
-"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +43,8 @@ class Convolution:
     half_space : HalfSpace or None
         Whose convolution it is; None for another kernel, of which the spectrum is all that there
         is.
+    workspace : Workspace
+        Memory to work in.
     """
 
     shape: tuple[int, int]
@@ -57,6 +52,7 @@ class Convolution:
     periods: tuple[int, int]
     spectrum: Real
     half_space: HalfSpace | None = None
+    workspace: Workspace = field(default_factory=Workspace, repr=False)
 
     @property
     def cell_area(self) -> float:
@@ -77,34 +73,13 @@ class Convolution:
         large = self.shape[0] * self.periods[1] > _LARGE
         return 2 if padded and large and precision == "float64" else 1
 
-    @cached_property
-    def _buffers(self) -> dict[Precision, tuple[Any, Any]]:
-        """Memory of the row transforms, allocated on first use and then kept."""
-        return {}
-
-    def _buffer(self, precision: Precision) -> tuple[Any, Any]:
-        """Complex rows, two rows of the grid in each, and the same memory as real numbers.
-
-        Single precision uses the memory of double precision once that is allocated.
-        """
-        if precision not in self._buffers:
-            shape = (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision) + _SPARE
-            if precision == "float64":
-                self._buffers.clear()  # single precision shares the memory from now on
-                modes: Any = np.empty(shape, dtype=np.complex128)
-            elif "float64" in self._buffers:
-                double = self._buffers["float64"][0].reshape(-1).view(np.complex64)
-                modes = double[: shape[0] * shape[1]].reshape(shape)
-            else:
-                modes = np.empty(shape, dtype=np.complex64)
-            real = modes.view(modes.real.dtype).reshape(*shape, 2)
-            self._buffers[precision] = modes, real
-        return self._buffers[precision]
-
-    def release_buffers(self) -> None:
-        """Give back the memory of the row transforms, if it is much, until it is needed again."""
-        if sum(modes.nbytes for modes, _ in self._buffers.values()) > MUCH:
-            self._buffers.clear()
+    def _rows(self, precision: Precision) -> tuple[Any, Any]:
+        """Complex rows, two rows of the grid in each, and the same memory as real numbers."""
+        shape = (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision) + _SPARE
+        modes = self.workspace.empty(
+            "rows", shape, np.complex128 if precision == "float64" else np.complex64
+        )
+        return modes, modes.view(modes.real.dtype).reshape(*shape, 2)
 
     def sums_are_cheap(self, sources: int, targets: int) -> bool:
         """Whether sums over pairs take less time than transforms, and no more memory than rows."""
@@ -160,7 +135,7 @@ class Convolution:
         transform of half the period. Odd ones are that of the row turned by one mode.
         """
         (nx, ny), (mx, my), parts = self.shape, self.periods, self._parts(precision)
-        modes, real_modes = self._buffer(precision)
+        modes, real_modes = self._rows(precision)
         period, spectrum = my // parts, self.spectrum[:, odd::parts]
         rows_out = np.arange(nx) if targets is None else targets.rows
         turns = np.exp(2j * np.pi / my * np.arange(ny if odd else 0))

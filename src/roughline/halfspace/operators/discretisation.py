@@ -8,13 +8,17 @@ from roughline.computing import fft
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.workspace import Workspace
 
 _TABLE_AT_A_TIME = 2**16  # points
 _LONG = 64  # points along a side, from which on it has as many periods to choose from
 
 
 def on_grid(
-    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+    half_space: HalfSpace,
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    workspace: Workspace | None = None,
 ) -> Convolution:
     """Return the map from pressures to displacements on a grid.
 
@@ -26,13 +30,16 @@ def on_grid(
         Points of the grid, (nx, ny).
     spacing : tuple of float
         Sides of a cell, (dx, dy). [length]
+    workspace : Workspace, optional
+        Memory to work in; default: of its own.
 
     Raises
     ------
     InputError
         If waves are not displaced by a positive, finite length.
     """
-    return (_periodic if half_space.periodic else _free)(half_space, shape, spacing)
+    make = _periodic if half_space.periodic else _free
+    return make(half_space, shape, spacing, workspace or Workspace())
 
 
 def coarser_grid(
@@ -51,7 +58,10 @@ def coarser_grid(
 
 
 def _free(
-    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+    half_space: HalfSpace,
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    workspace: Workspace,
 ) -> Convolution:
     """Load one rectangle, free around it: exactly so, as the period is twice the rectangle."""
     mx, my = _padded(shape[0]), _padded(shape[1])
@@ -70,7 +80,7 @@ def _free(
             f"{type(half_space).__name__}.kernel gives numbers that are not finite; a finite "
             "displacement under unit pressure on one cell is needed at all distances"
         )
-    return Convolution(shape, spacing, (mx, my), spectrum, half_space)
+    return Convolution(shape, spacing, (mx, my), spectrum, half_space, workspace)
 
 
 def _padded(n: int) -> int:
@@ -79,7 +89,10 @@ def _padded(n: int) -> int:
 
 
 def _periodic(
-    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+    half_space: HalfSpace,
+    shape: tuple[int, int],
+    spacing: tuple[float, float],
+    workspace: Workspace,
 ) -> Convolution:
     """Load periodically; an even pressure that displaces without bound is dropped."""
     qx, qy = (
@@ -99,4 +112,4 @@ def _periodic(
             f"{q[wrong][0]:g}; a positive, finite displacement over pressure is needed for each "
             "wave, and may be infinite at q = 0 alone"
         )
-    return Convolution(shape, spacing, shape, spectrum, half_space)
+    return Convolution(shape, spacing, shape, spectrum, half_space, workspace)

@@ -13,6 +13,7 @@ from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.loops import list_rows
 from roughline.halfspace.operators.restricted_loops import find_runs
+from roughline.halfspace.operators.workspace import Workspace
 
 Precision = Literal["float32", "float64"]
 
@@ -111,6 +112,10 @@ class Operator(Protocol):
         """Whose displacements they are; None for another kernel."""
 
     @property
+    def workspace(self) -> Workspace:
+        """Memory to work in."""
+
+    @property
     def periods(self) -> tuple[int, int]:
         """Points after which the convolution repeats itself along x and y."""
 
@@ -123,9 +128,6 @@ class Operator(Protocol):
 
     def sums_are_cheap(self, sources: int, targets: int) -> bool:
         """Whether to sum over pairs of so many nodes takes less time than to transform the grid."""
-
-    def release_buffers(self) -> None:
-        """Give back the memory in which displacements are computed, until it is needed again."""
 
     def displacement(
         self,

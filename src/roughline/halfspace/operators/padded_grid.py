@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Single
+from roughline.halfspace.operators.workspace import Workspace
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,10 +26,12 @@ class PaddedGrid:
     margins: tuple[int, int]
 
     @classmethod
-    def of(cls, shape: tuple[int, int], margins: tuple[int, int]) -> PaddedGrid:
+    def of(
+        cls, shape: tuple[int, int], margins: tuple[int, int], workspace: Workspace
+    ) -> PaddedGrid:
         """Put a margin around a grid."""
         padded = shape[0] + 2 * margins[0], shape[1] + 2 * margins[1]
-        return cls(np.zeros(padded, dtype=np.float32), margins)
+        return cls(workspace.zeros("padded grid", padded, np.float32), margins)
 
     @property
     def parts(self) -> tuple[Single, tuple[int, int]]:

@@ -17,7 +17,6 @@ References
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from scipy.special import erfc
@@ -55,18 +54,19 @@ class RestrictedOperator:
         The near part, by the distance in cells, followed by zeros. [length / pressure]
     reach : ndarray of int
         Columns to which each row of the near part reaches, to both sides.
-    grid : PaddedGrid
-        Memory for pressures.
+    shape, margins : tuple of int
+        Points of the grid, and cells of the margin around it on which pressures are laid out.
     """
 
     far: CoarseGrid
     taps: Single
     reach: Indices
-    grid: PaddedGrid
+    shape: tuple[int, int]
+    margins: tuple[int, int]
 
     @classmethod
     def of(
-        cls, operator: Operator, ratios: tuple[int, int], kernel: Real, grid: PaddedGrid
+        cls, operator: Operator, ratios: tuple[int, int], kernel: Real, margins: tuple[int, int]
     ) -> RestrictedOperator:
         """Split an operator.
 
@@ -79,8 +79,8 @@ class RestrictedOperator:
         kernel : ndarray, shape NEAR
             Displacement under unit pressure on one node, by the distance from it in cells.
             [length / pressure]
-        grid : PaddedGrid
-            Memory, as described above.
+        margins : tuple of int
+            As described above.
         """
         (px, py), (dx, dy), (rx, ry) = operator.periods, operator.spacing, ratios
         coarse = px // rx, py // ry
@@ -112,7 +112,8 @@ class RestrictedOperator:
             CoarseGrid.of(operator, ratios, smooth),
             taps.astype(np.float32),
             np.concatenate([reach[:0:-1], reach]),
-            grid,
+            operator.shape,
+            margins,
         )
 
     def displacement(
@@ -135,21 +136,20 @@ class RestrictedOperator:
         if unit == 0:
             out[:] = 0
             return out
-        moved = self.far.displacement((pressure / unit).astype(np.float32), sources, self.grid)
+        grid = PaddedGrid.of(self.shape, self.margins, self.far.convolution.workspace)
+        moved = self.far.displacement((pressure / unit).astype(np.float32), sources, grid)
         nodes = targets.rows, targets.columns, *targets.runs
         result = np.empty(targets.indices.size, dtype=np.float32)
 
         def add(first: int, last: int) -> None:
             near, rows = (self.taps, self.reach), (first, last)
-            loops.add_near_and_far(
-                *self.grid.parts, near, moved, self.far.weights, nodes, rows, result
-            )
+            loops.add_near_and_far(*grid.parts, near, moved, self.far.weights, nodes, rows, result)
 
         rows_at_a_time = targets.rows_of(_SUMS_AT_A_TIME // self.taps.size)
         fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
-        loops.clear_grid(sources.listed, *self.grid.parts)
+        loops.clear_grid(sources.listed, *grid.parts)
         if self.far.periodic:
-            self.grid.clear_margin()
+            grid.clear_margin()
         return np.multiply(result, unit, out=out)
 
 
@@ -170,17 +170,16 @@ class RestrictedOperators:
     def __init__(self, operator: Operator, kernel: Real, margins: tuple[int, int]) -> None:
         self._operator = operator
         self._kernel = kernel
-        self._margins = margins
         self._ratios = _ratios(operator)
-        self._made: dict[tuple[int, int], RestrictedOperator] = {}
-
-    @cached_property
-    def grid(self) -> PaddedGrid:
-        """Memory for values on the grid and on a margin; zero when not in use."""
-        margins = self._margins
         if self._ratios:
             margins = max(margins[0], _REACH), max(margins[1], _REACH + _ROUNDING)
-        return PaddedGrid.of(self._operator.shape, margins)
+        self._margins = margins
+        self._made: dict[tuple[int, int], RestrictedOperator] = {}
+
+    @property
+    def grid(self) -> PaddedGrid:
+        """Memory for values on the grid and on a margin; zero when not in use."""
+        return PaddedGrid.of(self._operator.shape, self._margins, self._operator.workspace)
 
     def on(self, nodes: GridNodes) -> RestrictedOperator | None:
         """Return the cheapest one for some nodes, or None where the exact operator is cheaper."""
@@ -192,7 +191,7 @@ class RestrictedOperators:
         if ratios is None:
             return None
         if ratios not in self._made:
-            made = RestrictedOperator.of(self._operator, ratios, self._kernel, self.grid)
+            made = RestrictedOperator.of(self._operator, ratios, self._kernel, self._margins)
             self._made[ratios] = made
         return self._made[ratios]
 

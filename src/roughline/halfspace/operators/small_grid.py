@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real, Single
+from roughline.halfspace.operators.workspace import Workspace
 
 _SPARE = 8  # values at the end of each row, as caches hold few rows a power of two apart
 
@@ -26,28 +25,33 @@ class SmallGrid:
         Points of the transform.
     spectrum : ndarray, shape (periods[0], periods[1] // 2 + 1)
         Eigenvalues over ``periods[0] * periods[1]``.
+    workspace : Workspace
+        Memory to work in.
     """
 
     shape: tuple[int, int]
     periods: tuple[int, int]
     spectrum: Single
+    workspace: Workspace
 
     @classmethod
-    def of(cls, shape: tuple[int, int], periods: tuple[int, int], quarter: Real) -> SmallGrid:
+    def of(
+        cls,
+        shape: tuple[int, int],
+        periods: tuple[int, int],
+        quarter: Real,
+        workspace: Workspace,
+    ) -> SmallGrid:
         """Take an even spectrum of which a quarter is given."""
         modes = np.arange(periods[0])
         half = quarter[np.minimum(modes, periods[0] - modes)]
-        return cls(shape, periods, half.astype(np.float32))
-
-    @cached_property
-    def _memory(self) -> tuple[Single, NDArray[np.complex64]]:
-        """Padded rows, zero where they are padded, and their modes."""
-        rows = np.zeros((self.shape[0], self.periods[1] + _SPARE), dtype=np.float32)
-        return rows[:, : self.periods[1]], np.empty(self.spectrum.shape, dtype=np.complex64)
+        return cls(shape, periods, half.astype(np.float32), workspace)
 
     def convolved(self, field: Single, out: Single) -> Single:
         """Write the convolution of a field on the whole grid to `out`, and return that."""
-        (nx, ny), (rows, modes) = self.shape, self._memory
+        (nx, ny), my = self.shape, self.periods[1]
+        rows = self.workspace.empty("small rows", (nx, my + _SPARE), np.float32)[:, :my]
+        modes = self.workspace.empty("small modes", self.spectrum.shape, np.complex64)
         rows[:, :ny] = field
         rows[:, ny:] = 0
         fft.real_rows(rows, modes[:nx])

@@ -10,10 +10,10 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
+from roughline.halfspace.inverse.kept import inverse_on
 from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.search.contact_set import ContactSet
 from roughline.halfspace.search.correction import guessed
-from roughline.halfspace.search.lending import lent
 from roughline.halfspace.search.separation import Separation
 from roughline.halfspace.search.state import Load, Method, Problem
 
@@ -51,9 +51,9 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     shape, spacing = coarser_grid(
         operator.shape, operator.spacing, periodic=problem.half_space.periodic
     )
-    with lent(problem.half_space, shape, spacing) as inverse:
-        coarse = replace(problem, inverse=inverse, separation=coarse_separation)
-        contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
+    inverse = inverse_on(problem.half_space, shape, spacing)
+    coarse = replace(problem, inverse=inverse, separation=coarse_separation)
+    contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
     del coarse, inverse
     largest = float(contact.pressure.max())
     # at the end of an odd side one node takes the force of two

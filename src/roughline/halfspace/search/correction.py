@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.halfspace.operators.convolution import MUCH
 from roughline.halfspace.operators.operator import Precision
 from roughline.halfspace.search.active_set import search
 from roughline.halfspace.search.contact_set import ContactSet
@@ -22,6 +21,7 @@ from roughline.halfspace.search.nearby import Nearby, nearby, within_reach
 from roughline.halfspace.search.state import Contact, Load, Method, Outcome, Problem
 from roughline.halfspace.search.trial import Trial
 
+_MUCH = 2**26  # bytes, which are given back where they are not needed for a while
 _GAIN = 2e-3  # of residuals by a search near the contact
 _DEFECT = 2e-3  # of residuals that a restricted operator leaves, about
 _REACH = 30.0  # of later searches, which leave a smaller error than they find
@@ -75,9 +75,8 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
         if near is None or left <= 1 or not worst < 0.5 * worst_before:
             break
         del trial, contact_set
-        if gap.nbytes > MUCH:
+        if gap.nbytes > _MUCH:
             gap = None
-        problem.operator.release_buffers()
         bounded = replace(method, max_iterations=left)
         contact_set = _refined(near, load, worst, bounded, spent)
         del near
@@ -159,7 +158,6 @@ def _correct(near: Nearby, load: Load, precision: Precision) -> float:
     It is infinite where the exact operator is cheaper than a restricted one.
     """
     exact = near.problem.recentred(near.contact_set, precision)
-    exact.operator.release_buffers()
     trial = exact.trial(load, near.contact_set)
     nearer = nearby(exact, trial, _REACH)
     if nearer is None:
@@ -179,7 +177,6 @@ def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> 
     trial = Trial.of(problem, load, contact_set, method.steps, gap, rescale=True)
     contact_set, near = trial.contact_set, nearby(problem, trial)
     del trial, gap
-    problem.operator.release_buffers()
     if near is None:
         contact = search(problem, load, contact_set, method)
         return ContactSet(contact.nodes, contact.pressure)

@@ -160,8 +160,6 @@ class _Solution:
         """
         operator, cell_area = problem.operator, problem.operator.cell_area
         restricted = problem.inverse.restricted.on(nodes)
-        if restricted is not None:
-            operator.release_buffers()  # the first turn needs the memory
         patch = Patch(restricted or operator, problem.inverse, nodes)
         pressure, gained, accuracy = start, np.nan, _ENERGY_MARGIN * method.rtol
         convolutions, converged, compliance = 0, False, np.nan

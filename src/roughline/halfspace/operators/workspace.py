@@ -1,0 +1,46 @@
+"""Working memory of operators."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Workspace:
+    """Memory that operators work in, which have none of their own.
+
+    It has parts, by name. An operator takes those that it needs for one product; after it, they are
+    free for other operators and other grids. To touch new memory for the first time can take longer
+    than the work on it, so parts stay until they are given up.
+    """
+
+    def __init__(self) -> None:
+        self._parts: dict[str, NDArray[np.uint8]] = {}
+
+    @property
+    def nbytes(self) -> int:
+        """What it holds. [bytes]"""
+        return sum(part.nbytes for part in self._parts.values())
+
+    def empty(self, part: str, shape: tuple[int, ...], dtype: Any) -> Any:
+        """Return a part as an array of any values."""
+        return self._taken(part, shape, dtype, np.empty)
+
+    def zeros(self, part: str, shape: tuple[int, ...], dtype: Any) -> Any:
+        """Return a part as an array of zeros, which is to be zero again after use."""
+        return self._taken(part, shape, dtype, np.zeros)
+
+    def give_up(self) -> None:
+        """Give the memory back."""
+        self._parts.clear()
+
+    def _taken(self, part: str, shape: tuple[int, ...], dtype: Any, make: Any) -> Any:
+        """Return the beginning of a part, made anew where it is too small."""
+        size = math.prod(shape) * np.dtype(dtype).itemsize
+        if part not in self._parts or self._parts[part].nbytes < size:
+            self._parts.pop(part, None)  # before there is a larger one
+            self._parts[part] = make(size, dtype=np.uint8)
+        return self._parts[part][:size].view(dtype).reshape(shape)
