@@ -46,6 +46,9 @@ if TYPE_CHECKING:
     from roughline.files.read import read as read
     from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
     from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
+    from roughline.halfspace.laws.law import ContactLaw as ContactLaw
+    from roughline.halfspace.laws.unilateral import Unilateral as Unilateral
+    from roughline.halfspace.laws.yielding import Yielding as Yielding
     from roughline.spectra.fit import fit_self_affine as fit_self_affine
     from roughline.spectra.isotropic import isotropic_spectrum as isotropic_spectrum
     from roughline.spectra.profile import profile_spectrum as profile_spectrum
@@ -110,6 +113,9 @@ _HOMES = {
     "fit_power_law": "statistics.power_law",
     "find_window": "statistics.window",
     "press": "contact.press",
+    "ContactLaw": "halfspace.laws.law",
+    "Unilateral": "halfspace.laws.unilateral",
+    "Yielding": "halfspace.laws.yielding",
     "EXACT_PUNCH": "contact.scaling",
     "PAPER_PUNCH": "contact.scaling",
     "SelfAffine": "spectra.self_affine",

@@ -117,11 +117,11 @@ def test_the_contact_that_loads_bring_about_is_foreseen(periodic, force_bar):
     curve = rl.press(surface, E_star=1.0, forces=[force_bar], periodic=periodic)
     loads = Loads("forces", np.array([force_bar]))
     share = partial(expected_area_fraction, surface, rl.Homogeneous(1.0, periodic))
-    expected = share(loads, None)
+    expected = share(loads, rl.Unilateral())
     assert abs(expected - curve.area_fraction[0]) < 0.12
     by_depth = Loads("depths", curve.depth)
-    assert share(by_depth, None) > 0.8 * curve.area_fraction[0]
-    assert share(loads, hardness=force_bar) == 1.0
+    assert share(by_depth, rl.Unilateral()) > 0.8 * curve.area_fraction[0]
+    assert share(loads, rl.Yielding(force_bar)) == 1.0
 
 
 def test_light_loads_are_pressed_where_heavy_ones_have_no_memory(monkeypatch):

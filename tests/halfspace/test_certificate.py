@@ -9,7 +9,7 @@ import roughline as rl
 from roughline.halfspace.elasticity.kernel import love
 from roughline.halfspace.operators import discretisation
 from roughline.halfspace.operators.convolution import Convolution
-from roughline.halfspace.search import exchange
+from roughline.halfspace.search import active_set
 
 pytestmark = pytest.mark.usefixtures("nothing_kept")  # a sound kernel, or a damaged one
 
@@ -92,20 +92,20 @@ def test_steps_that_are_all_wrong_are_refused(monkeypatch):
 
 
 def test_a_stale_contact_set_is_refused(monkeypatch):
-    monkeypatch.setattr(exchange, "exchanged", lambda problem, contact_set, *wrong: contact_set)
+    monkeypatch.setattr(active_set, "exchanged", lambda region, carriers, *wrong: carriers)
     curve = pressed()
     assert not curve.converged.any()
     assert (curve.residual > 1e-6).all()
 
 
 def test_a_contact_set_that_only_grows_is_refused(monkeypatch):
-    sound = exchange.exchanged
+    sound = active_set.exchanged
 
-    def growing(problem, contact_set, watched, wrong):
-        wrong = dataclasses.replace(wrong, pulling=np.zeros_like(wrong.pulling))
-        return sound(problem, contact_set, watched, wrong)
+    def growing(region, carriers, watched, wrong):
+        wrong = dataclasses.replace(wrong, below=np.zeros_like(wrong.below))
+        return sound(region, carriers, watched, wrong)
 
-    monkeypatch.setattr(exchange, "exchanged", growing)
+    monkeypatch.setattr(active_set, "exchanged", growing)
     curve = pressed()
     assert_true_where_certified(curve)
     assert not curve.converged.all()
@@ -125,7 +125,7 @@ def test_a_useless_preconditioner_costs_time_and_not_truth(monkeypatch):
 def test_nodes_exchanged_one_by_one_reach_the_same_contact(monkeypatch, load):
     surface = rl.SelfAffine(hurst=0.7, rms_height=1.0).surface(12, 3)
     together = rl.press(surface, E_star=1.0, **load)
-    monkeypatch.setattr(exchange, "_PATIENCE", -1)
+    monkeypatch.setattr(active_set, "_PATIENCE", -1)
     alone = rl.press(surface, E_star=1.0, **load)
     assert alone.converged.all()
     assert alone.convolutions[0] > together.convolutions[0]

@@ -18,7 +18,8 @@ from roughline.halfspace.operators.operator import GridNodes, displacement_field
 from roughline.halfspace.operators.padded_grid import PaddedGrid
 from roughline.halfspace.operators.restricted import RestrictedOperator, RestrictedOperators
 from roughline.halfspace.operators.small_grid import SmallGrid
-from roughline.halfspace.search import correction
+from roughline.halfspace.search import turns
+from roughline.halfspace.search.region import Region
 
 
 def contact_nodes(shape, seed, part):
@@ -204,7 +205,9 @@ def test_a_damaged_one_costs_time_and_never_a_wrong_result(monkeypatch, damage, 
 
 def test_a_turn_that_does_not_help_is_not_repeated(monkeypatch):
     """A search near the contact that finds nothing is left to the exact operator."""
-    monkeypatch.setattr(correction, "_refined", lambda near, *rest: near.on_grid)
+    monkeypatch.setattr(
+        turns, "_refined", lambda trial, *rest: trial.region.on_grid(trial.carriers, trial.depth)
+    )
     curve = rl.press(heights(), E_star=1.0, forces=[0.3])
     assert curve.converged.all()
 
@@ -216,14 +219,14 @@ def test_later_searches_look_beside_the_contact_too(monkeypatch):
     """
     looked_at = []
 
-    def recorded(problem, trial, *reach):
-        near = correction_nearby(problem, trial, *reach)
-        if problem.operator.shape == (256, 256):
-            looked_at.append((near.problem.sites.indices.size, near.contact_set.nodes.size))
-        return near
+    def recorded(region, trial, reach):
+        found = near(region, trial, reach)
+        if region.problem.operator.shape == (256, 256):
+            looked_at.append((found[0].separation.size, found[1].places.size))
+        return found
 
-    correction_nearby = correction.nearby
-    monkeypatch.setattr(correction, "nearby", recorded)
+    near = Region.near
+    monkeypatch.setattr(Region, "near", recorded)
     surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(256, 7)
     curve = rl.press(surface, E_star=1.0, forces=[1.2])
     (_, first), (sites, contact) = looked_at[:2]
@@ -259,14 +262,14 @@ def test_the_coarse_grid_is_chosen_by_what_is_in_contact():
 def test_searches_that_begin_where_bodies_can_touch_end_as_others(hardness, monkeypatch):
     """Under forces and depths that rise and fall, on bodies that are elastic and that yield."""
     begun = []
-    within_reach = correction.within_reach
+    possible = Region.possible.__func__
 
-    def recorded(*arguments):
-        found = within_reach(*arguments)
-        begun.append(found is not None)
+    def recorded(cls, *arguments):
+        found = possible(cls, *arguments)
+        begun.append(np.isfinite(found.reach))
         return found
 
-    monkeypatch.setattr(correction, "within_reach", recorded)
+    monkeypatch.setattr(Region, "possible", classmethod(recorded))
     rng = np.random.default_rng(16)
     for seed in range(8):
         n, hurst = int(rng.integers(96, 200)), rng.uniform(0.1, 0.9)
@@ -280,8 +283,8 @@ def test_searches_that_begin_where_bodies_can_touch_end_as_others(hardness, monk
             given = {"E_star": 1.0, "hardness": hardness, control: values}
             usual = rl.press(surface, **given)
             with pytest.MonkeyPatch.context() as patch:
-                patch.setattr(convolution, "_MANY", 0)
-                patch.setattr(convolution, "_PAIRS", np.inf)
+                whole_grid = lambda cls, problem, *others: cls.whole(problem)  # noqa: E731
+                patch.setattr(Region, "possible", classmethod(whole_grid))
                 near = rl.press(surface, **given)
             assert usual.converged.all()
             assert near.converged.all()
@@ -290,7 +293,7 @@ def test_searches_that_begin_where_bodies_can_touch_end_as_others(hardness, monk
     assert np.count_nonzero(begun) > 30
 
 
-def test_light_loads_transform_the_grid_once(monkeypatch):
+def test_light_loads_need_no_gap_on_the_whole_grid(monkeypatch):
     wholes = []
     displacement = convolution.Convolution.displacement
 
@@ -302,4 +305,4 @@ def test_light_loads_transform_the_grid_once(monkeypatch):
     monkeypatch.setattr(convolution.Convolution, "displacement", counted)
     surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7)
     assert rl.press(surface, E_star=1.0, forces=[0.03]).converged.all()
-    assert wholes == ["float64"]
+    assert wholes == []

@@ -36,7 +36,7 @@ from roughline.assessment.variants import (
     with_scatter_of_hardness,
 )
 from roughline.computing.memory import refuse_beyond_memory
-from roughline.contact.arguments import given_half_space
+from roughline.contact.arguments import given_half_space, law_of
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import (
     duration,
@@ -202,7 +202,7 @@ def _expected_share(body: Surface, case: LoadCase) -> float | None:
         return None
     loads = Loads("forces" if case.forces else "depths", np.array(case.forces or case.depths))
     return expected_area_fraction(
-        body, given_half_space(None, case.E_star, case.periodic), loads, case.hardness
+        body, given_half_space(None, case.E_star, case.periodic), loads, law_of(case.hardness)
     )
 
 

@@ -16,6 +16,7 @@ from roughline.assessment.loads import LoadCase
 from roughline.assessment.question import Question
 from roughline.assessment.uncertainty import Solution
 from roughline.computing.arrays import Mask, Real
+from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
 from roughline.contact.selection import among_loads, at_loads
 from roughline.engineering.answer import answer
@@ -64,7 +65,8 @@ class Variation:
         other = replace(_without_intervals(result), question=question, body=body)
         curve, same = result.curve, body is result.body and not _yields(result.curve)
         if same and hardness is not None and hardness >= (curve.hardness or 0):
-            curve = replace(curve, settings={**curve.settings, "hardness": hardness})
+            law, settings = law_of(hardness), {**curve.settings, "hardness": hardness}
+            curve = replace(curve, law=law, settings=settings)
             return with_answers(replace(other, curve=curve), self.larger, self.spectrum)
         loads = _borne(result, self.case, hardness)
         if not loads.any():

@@ -14,6 +14,9 @@ from roughline.errors import InputError
 from roughline.errors.checks import as_number, is_whole, refuse, several, shown
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.unilateral import Unilateral
+from roughline.halfspace.laws.yielding import Yielding
 
 LARGEST = 1e150
 """Beyond it, squares leave the range of double precision."""
@@ -78,6 +81,11 @@ def checked_flag(name: str, value: Any) -> bool:
     if not isinstance(plain, bool):
         refuse(name, value, "True or False is needed")
     return plain
+
+
+def law_of(hardness: float | None) -> ContactLaw:
+    """Return the law of bodies of a hardness; None: of elastic ones."""
+    return Unilateral() if hardness is None else Yielding(hardness)
 
 
 def refuse_other_progress(progress: Any) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing.arrays import Real
-from roughline.halfspace.search.state import Contact
+from roughline.halfspace.search.problem import Contact
 from roughline.topography.body import Surface
 from roughline.topography.repetition import border_jump
 
@@ -19,10 +19,11 @@ def border_share(contact: Contact) -> float:
     """Share of the force that the outer frame carries. [1]"""
     if not contact.nodes.size:
         return 0.0
-    nx, ny = contact.gap.shape
+    nx, ny = contact.separation.shape
     x, y = np.divmod(contact.nodes, ny)
     within = np.minimum(np.minimum(x, nx - 1 - x) / nx, np.minimum(y, ny - 1 - y) / ny)
-    return float(contact.pressure[within < BORDER_WIDTH].sum() / contact.pressure.sum())
+    borne = np.abs(contact.pressure)
+    return float(borne[within < BORDER_WIDTH].sum() / borne.sum())
 
 
 def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:

@@ -23,6 +23,8 @@ from roughline.contact.status import STATUS_FLAGS, Status
 from roughline.errors import InputError, StoreError
 from roughline.errors.checks import refuse
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.yielding import Yielding
 from roughline.topography.body import Surface, with_heights
 
 if TYPE_CHECKING:
@@ -101,6 +103,8 @@ class Curve:
     dents : sequence of Indentation
         Permanent indentations after each load, for :meth:`surface_after`; None where the surface
         is not indented. Empty without a hardness.
+    law : ContactLaw or None
+        What pressures and gaps obey; None for a line.
     """
 
     depth: Real
@@ -131,6 +135,7 @@ class Curve:
     fields: Sequence[Fields | None] = field(default=(), repr=False)
     surface: Surface | None = field(default=None, repr=False)
     dents: Sequence[Indentation | None] = field(default=(), repr=False)
+    law: ContactLaw | None = field(default=None, repr=False)
 
     __repr__ = described
     _repr_html_ = html_of_curve
@@ -143,8 +148,7 @@ class Curve:
     @property
     def hardness(self) -> float | None:
         """Largest pressure that a point of the surface bears; None if it is elastic. [pressure]"""
-        hardness = self.settings.get("hardness")
-        return None if hardness is None else float(hardness)
+        return self.law.hardness if isinstance(self.law, Yielding) else None
 
     @property
     def force_bar(self) -> Real:
@@ -243,7 +247,7 @@ class Curve:
 
     def _values(self, quantity: Quantity) -> NDArray[Any] | None:
         """Return a quantity as files hold it, or None if this curve does not have it."""
-        if quantity.of_yielding and self.hardness is None:
+        if quantity.of_yielding and (self.law is None or self.law.memory != "dents"):
             return None
         if quantity.dims == OVER_LOADS:
             values: NDArray[Any] | None = getattr(self, quantity.name)

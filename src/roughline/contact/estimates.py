@@ -20,6 +20,7 @@ from roughline.contact.loads import Loads
 from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
 # Most memory that a path of loads held at any time beside the surface, as measured
@@ -192,13 +193,13 @@ def bytes_at_a_point(
 
 
 def expected_area_fraction(
-    surface: Surface, half_space: HalfSpace, loads: Loads, hardness: float | None
+    surface: Surface, half_space: HalfSpace, loads: Loads, law: ContactLaw
 ) -> float:
     """Estimate the largest share of a surface that its loads bring into contact. [1]
 
     For forces, the share follows from Persson's theory, with a factor fitted to computed surfaces,
-    or from the hardness where that gives more. For depths, it is the share of the heights within
-    reach, doubled on a periodic half-space, as is found near full contact.
+    or from the pressures that nodes bear where that gives more. For depths, it is the share of the
+    heights within reach, doubled on a periodic half-space, as is found near full contact.
     """
     largest = float(loads.values.max())
     if loads.control == "depths":
@@ -208,7 +209,7 @@ def expected_area_fraction(
         )
     slope, pressure = surface.rms_slope, largest / surface.area
     share = math.erf(_SLOPE_FACTOR * pressure / (half_space.E_star * slope)) if slope else 1.0
-    return share if hardness is None else max(share, min(pressure / hardness, 1.0))
+    return max(share, min(largest / law.largest_force(surface.area), 1.0))
 
 
 def gigabytes(memory: int) -> str:

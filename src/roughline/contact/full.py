@@ -21,13 +21,11 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.inverse.kept import inverse_on, working_memory
-from roughline.halfspace.laws.conditions import (
-    ContactConditions,
-    UnilateralContact,
-    YieldingContact,
-)
+from roughline.halfspace.laws.law import ContactLaw
+from roughline.halfspace.laws.unilateral import Unilateral
+from roughline.halfspace.laws.yielding import Yielding
 from roughline.halfspace.search.path import solve_path
-from roughline.halfspace.search.state import Load, Method, Problem
+from roughline.halfspace.search.problem import Load, Method, Problem
 from roughline.topography.body import Surface
 from roughline.topography.borders import border_doubts
 from roughline.topography.effects import grave_effects
@@ -41,7 +39,7 @@ def press_surface(
     loads: Loads,
     method: Method,
     *,
-    hardness: float | None,
+    law: ContactLaw,
     kept: frozenset[int],
     progress: Callable[[int, int], None] | None,
 ) -> Curve:
@@ -59,7 +57,7 @@ def press_surface(
         Tolerance, bound on the convolutions and precision.
     kept : frozenset of int
         Numbers of the loads whose fields are kept.
-    hardness, progress
+    law, progress
         As for :func:`roughline.press`.
 
     Raises
@@ -67,9 +65,9 @@ def press_surface(
     Interrupted
         On Ctrl-C.
     """
-    # the order of loads does not matter for elastic bodies: each is solved once, as they rise
+    # where the order of loads does not matter, each is solved once, as they rise
     values, places = loads.values, np.arange(loads.values.size)
-    if hardness is None:
+    if law.memory == "none":
         values, places = np.unique(loads.values, return_inverse=True)
     results: list[LoadResult] = []
     interrupted = False
@@ -77,7 +75,7 @@ def press_surface(
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
         with linear_algebra.on_one_thread():
             path, kept_there = replace(loads, values=values), {int(places[i]) for i in kept}
-            for result in _results(surface, half_space, path, method, hardness, kept_there):
+            for result in _results(surface, half_space, path, method, law, kept_there):
                 results.append(result)
                 if progress is not None:
                     progress(len(results), values.size)
@@ -85,7 +83,7 @@ def press_surface(
         interrupted = True
     results += [LoadResult()] * (values.size - len(results))
     results = _in_order(results, places.tolist())
-    curve = _curve(surface, half_space, loads, method, results, hardness)
+    curve = _curve(surface, half_space, loads, method, results, law)
     if kept:
         fields = [each.fields if i in kept else None for i, each in enumerate(results)]
         curve = replace(curve, fields=tuple(fields))
@@ -109,7 +107,7 @@ def _results(
     half_space: HalfSpace,
     loads: Loads,
     method: Method,
-    hardness: float | None,
+    law: ContactLaw,
     with_fields: Set[int],
 ) -> Iterator[LoadResult]:
     """Solve the contact under each load in turn."""
@@ -118,15 +116,11 @@ def _results(
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
     with working_memory():
         inverse = inverse_on(scaled.half_space, surface.shape, scaled.spacing)
-        problem = _problem(inverse, scaled, hardness, method)
-        solved = solve_path(problem, path, method)
-        del problem  # the path knows when the untouched bodies need no memory
+        solved = solve_path(_problem(inverse, scaled, law, method), path, method)
         dents: Indentation | None = None
         for i in range(len(path)):  # enumerate() would hold a contact while the next is solved
             contact, response = next(solved)
-            result = LoadResult.of(
-                contact, response, scaled, hardness, with_fields=i in with_fields
-            )
+            result = LoadResult.of(contact, response, scaled, law, with_fields=i in with_fields)
             if dents is not None and result.dents is not None and result.dents.equals(dents):
                 result = replace(result, dents=dents)  # one memory for all loads that add none
             dents = result.dents
@@ -137,20 +131,17 @@ def _results(
 def _problem(
     inverse: ApproximateInverse,
     scaled: ScaledSurface,
-    hardness: float | None,
+    law: ContactLaw,
     method: Method,
 ) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
-    conditions: ContactConditions = UnilateralContact()
-    if hardness is not None:
-        conditions = YieldingContact(hardness / scaled.pressure)
     return Problem(
         scaled.half_space,
         inverse,
         scaled.separation(),
         scaled.surface.rms_height / scaled.height,
         method.resolution,
-        conditions,
+        law.scaled(scaled.pressure, scaled.height),
     )
 
 
@@ -160,7 +151,7 @@ def _curve(
     loads: Loads,
     method: Method,
     results: Sequence[LoadResult],
-    hardness: float | None,
+    law: ContactLaw,
 ) -> Curve:
     """Put the results of all loads together, without fields."""
     values = columns(results)
@@ -188,7 +179,7 @@ def _curve(
             "max_iterations": method.max_iterations,
             "precision": method.precision,
             **({} if isinstance(half_space, Homogeneous) else {"half_space": repr(half_space)}),
-            **({} if hardness is None else {"hardness": hardness}),
+            **_in_words(law),
             **as_body(surface.settings),
         },
         warnings=(
@@ -199,5 +190,13 @@ def _curve(
         ),
         residual_of=tuple(result.residual_of for result in results),
         surface=surface,
-        dents=() if hardness is None else tuple(result.dents for result in results),
+        dents=tuple(result.dents for result in results) if law.memory == "dents" else (),
+        law=law,
     )
+
+
+def _in_words(law: ContactLaw) -> dict[str, str | float]:
+    """Return what settings tell of a law; that of elastic bodies goes without saying."""
+    if isinstance(law, Unilateral):
+        return {}
+    return {"hardness": law.hardness} if isinstance(law, Yielding) else {"law": type(law).__name__}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from roughline.contact.curve import Curve
 from roughline.contact.loads import Loads
 from roughline.contact.selection import among_loads
 from roughline.errors import InputError
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
 
@@ -34,8 +36,12 @@ _FASTEST_OF_POINTS = 4 / 3
 _NEARLY_ALL = 0.9  # of a softer body at the hardness: as far as it is loaded at most
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
-Press = Callable[[Surface, Loads, float | None], Curve]
-"""Presses another surface under some loads, with a hardness or as elastic bodies."""
+Press = Callable[[Surface, Loads, ContactLaw], Curve]
+"""Presses another surface under some loads, by a contact law."""
+
+
+Coarsen = Callable[[Surface], Surface]
+"""Takes a surface to a coarser grid."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +73,11 @@ class _Grids:
     def coarser(self) -> tuple[Surface, Surface, Surface]:
         """The coarser ones, in the order of their weights."""
         return self.thinned, self.half, self.quarter
+
+    def laws(self, law: ContactLaw) -> list[ContactLaw]:
+        """Return a law of the surface on each of them."""
+        coarsened = _thinned, _halved, lambda surface: _halved(_halved(surface))
+        return [law.on(partial(_field_on, self.full, each)) for each in coarsened]
 
     @property
     def steepening(self) -> float:
@@ -113,10 +124,8 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) 
     ----------
     curve : Curve
         Curve of the surface.
-    surface : Surface
-        Its surface.
-    loads : Loads
-        Its loads.
+    surface, loads : Surface, Loads
+        Its surface and its loads.
     press : callable
         Presses another surface.
 
@@ -133,12 +142,15 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) 
        3840-3861 (2001).
     """
     k, k_u, area = curve.stiffness, curve.unloading_stiffness, curve.area_fraction_corrected
+    law = curve.law
     assert k_u is not None
     assert area is not None
+    assert law is not None
     grids = _Grids.of(surface)
-    coarser = [press(each, loads, curve.hardness) for each in grids.coarser]
+    laws = grids.laws(law)
+    coarser = [press(*each) for each in zip(grids.coarser, [loads] * 3, laws, strict=True)]
     steepening = grids.steepening
-    softer = _softer(grids, steepening, coarser[1], press)
+    softer = _softer(grids, steepening, coarser[1], laws[1], press)
     with np.errstate(invalid="ignore", divide="ignore"):  # bodies apart, or in full contact
         of_k_u = np.hypot(
             steepening * _of_compliance("unloading_stiffness", coarser, curve),
@@ -146,7 +158,7 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) 
         )
         taken = np.where((k > 0) & (k < k_u), _SHARE_OF_YIELD * np.log(k_u / k), 0.0)
         of_k = np.maximum(steepening * _of_compliance("stiffness", coarser, curve), of_k_u + taken)
-        of_area = _of_area(curve, coarser, steepening, surface.heights.size)
+        of_area = _of_area(curve, law, coarser, steepening, surface.heights.size)
         return replace(
             curve,
             stiffness_error=_times(k, of_k),
@@ -197,15 +209,18 @@ def _of_yield(alike: Curve, softer: Curve) -> Real:
     return np.where(before == after, 0.0, share * np.sqrt(np.maximum(1 - area, 0.0)))
 
 
-def _of_area(curve: Curve, coarser: Sequence[Curve], steepening: float, points: int) -> Real:
+def _of_area(
+    curve: Curve, law: ContactLaw, coarser: Sequence[Curve], steepening: float, points: int
+) -> Real:
     """Logarithm of the factor by which the contact area may differ."""
     area = curve.area_fraction_corrected
     assert area is not None
     values = np.array([each.area_fraction_corrected for each in coarser])
     between = _between(np.log(np.where(values == area, 1.0, values / area)), 0.0)
     opened = np.hypot(_steeper(steepening**_OF_STEEPENING, area), _OF_AREA * between)
-    if curve.hardness is not None:
-        least = curve.force / (curve.hardness * curve.length**2)
+    most = law.largest_force(curve.length**2)
+    if np.isfinite(most):
+        least = curve.force / most
         opened = np.minimum(opened, np.maximum(np.log(area / least), 0.0))
     counted = 1 / np.sqrt(points * area)
     found = np.where(opened == 0, 0.0, np.hypot(opened, counted))
@@ -221,28 +236,30 @@ def _excess(squares: Sequence[float], acceleration: float) -> float:
     return 1 - (second / first) ** acceleration * second / last if first > 0 else 0.0
 
 
-def _softer(grids: _Grids, steepening: float, curve: Curve, press: Press) -> tuple[Curve, Curve]:
+def _softer(
+    grids: _Grids, steepening: float, curve: Curve, law: ContactLaw, press: Press
+) -> tuple[Curve, Curve]:
     """Return curves of n / 2 points that yield as the surface does, and as a finer grid will.
 
-    Contact depends on hardness and slope as H / (E* slope) does. Without yield, or where no slope
-    is added, both are the curve of n / 2 points.
+    Where all surfaces of one shape answer alike, or where no slope is added, both are the curve of
+    n / 2 points.
     """
-    if curve.hardness is None or steepening == 1:
+    laws = [law.for_steeper(times) for times in (grids.step, grids.step * steepening)]
+    if steepening == 1:
         return curve, curve
     alike, softer = (
-        _pressed_softer(curve, grids.half, curve.hardness / times, press)
-        for times in (grids.step, grids.step * steepening)
+        curve if each is None else _pressed_softer(curve, grids.half, each, press) for each in laws
     )
     return alike, softer
 
 
-def _pressed_softer(curve: Curve, surface: Surface, hardness: float, press: Press) -> Curve:
+def _pressed_softer(curve: Curve, surface: Surface, law: ContactLaw, press: Press) -> Curve:
     """Press a surface softer under the forces of its curve, as far as it bears them."""
     known = np.isfinite(curve.force) & (np.maximum.accumulate(np.nan_to_num(curve.force)) > 0)
     if not known.any():
         return curve
-    forces = np.minimum(curve.force[known], _NEARLY_ALL * hardness * surface.area)
-    return among_loads(press(surface, Loads("forces", forces), hardness), known)
+    forces = np.minimum(curve.force[known], _NEARLY_ALL * law.largest_force(surface.area))
+    return among_loads(press(surface, Loads("forces", forces), law), known)
 
 
 def _steeper(steepening: float, area: Real) -> Real:
@@ -257,6 +274,11 @@ def _steeper(steepening: float, area: Real) -> Real:
 def _times(value: Real, error: Real) -> Real:
     """Return the error of a value from that of its logarithm; none where that is none."""
     return np.where(error == 0, 0.0, value * np.expm1(error))
+
+
+def _field_on(surface: Surface, coarsen: Coarsen, field: Real) -> Real:
+    """Take a field over a surface to a coarser grid."""
+    return coarsen(with_heights(surface, field)).heights
 
 
 def _halved(surface: Surface) -> Surface:

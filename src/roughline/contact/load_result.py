@@ -17,8 +17,9 @@ from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
 from roughline.contact.quantity import OVER_LOADS
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.search.outline import overstated_cells
-from roughline.halfspace.search.state import Contact, Outcome
+from roughline.halfspace.search.problem import Contact, Outcome
 from roughline.halfspace.search.tangent import Response
 
 
@@ -66,7 +67,7 @@ class LoadResult:
         contact: Contact,
         response: Response | None,
         scaled: ScaledSurface,
-        hardness: float | None,
+        law: ContactLaw,
         *,
         with_fields: bool,
     ) -> LoadResult:
@@ -78,8 +79,8 @@ class LoadResult:
             The contact under the load, in the units of `scaled`.
         response : Response or None
             Its stiffness and its change with the load; None if the contact was not certified.
-        scaled, hardness : ScaledSurface, float or None
-            The untouched surface, and the largest pressure that a node bears. [pressure]
+        scaled, law : ScaledSurface, ContactLaw
+            The untouched surface, and what its pressures and gaps obey.
         with_fields : bool
             Whether the fields are kept.
         """
@@ -91,11 +92,13 @@ class LoadResult:
         convolutions = contact.convolutions + response.convolutions
         if not response.converged:
             return cls(Status.NO_TANGENT, worst, of, convolutions)
-        cells, nodes = contact.nodes.size, contact.gap.size
-        most, overstated = _overstated(contact, scaled, hardness)
-        dents = None if hardness is None else _dents(contact, scaled)
-        indented = np.zeros(1) if dents is None else dents.depth
-        dissipated = (hardness or 0.0) * scaled.cell_area * float(indented.sum())
+        cells, nodes = int(np.count_nonzero(~contact.pulling)), contact.separation.size
+        most, overstated = _overstated(contact, scaled, law)
+        dents = _dents(contact, scaled) if law.memory == "dents" else None
+        dissipated = indented = 0.0
+        if dents is not None:
+            work = law.bounds(dents.nodes)[1] * dents.depth
+            dissipated, indented = scaled.cell_area * float(work.sum()), float(dents.depth.max())
         k = scaled.force / scaled.height
         return cls(
             status=Status.CONVERGED,
@@ -110,8 +113,8 @@ class LoadResult:
             area_fraction=cells / nodes,
             area_fraction_corrected=cells / nodes - overstated / nodes,
             area_fraction_most=(cells + most - overstated) / nodes,
-            plastic_fraction=float(contact.plastic.mean()) if cells else 0.0,
-            indentation=float(indented.max()),
+            plastic_fraction=float(contact.plastic.sum()) / cells if cells else 0.0,
+            indentation=indented,
             work=_elastic_energy(contact) * scaled.force * scaled.height + dissipated,
             dissipated_work=dissipated,
             border_share=border_share(contact),
@@ -131,13 +134,12 @@ def columns(results: Sequence[LoadResult]) -> dict[str, Any]:
     }
 
 
-def _overstated(
-    contact: Contact, scaled: ScaledSurface, hardness: float | None
-) -> tuple[float, float]:
+def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tuple[float, float]:
     """Return by how many cells the outline overstates the area, at most and as estimated."""
     most, overstated = overstated_cells(contact, scaled.spacing, scaled.half_space.periodic)
-    if hardness is not None:
-        borne = contact.force * scaled.force / (hardness * scaled.cell_area)
+    most_of_cell = float(np.max(law.bounds(None)[1])) * scaled.cell_area
+    if math.isfinite(most_of_cell):
+        borne = contact.force * scaled.force / most_of_cell
         overstated = _of_yielding(overstated, max(contact.nodes.size - borne, 0.0), contact)
     return most, overstated
 
@@ -157,16 +159,14 @@ def _of_yielding(overstated: float, possible: float, contact: Contact) -> float:
 def _elastic_energy(contact: Contact) -> float:
     """Work that the half-space gives back on unloading, in the units of the contact."""
     separation = contact.separation.flat[contact.nodes]
-    displacement = contact.gap.flat[contact.nodes] - separation + contact.depth
-    total = float(contact.pressure.sum())
-    cell_area = contact.force / total if total > 0 else 0.0
+    displacement = contact.gap_at(contact.nodes) - separation + contact.depth
+    cell_area = contact.problem.operator.cell_area
     return 0.5 * cell_area * float(contact.pressure @ displacement)
 
 
 def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:
     """Return where the surface is lower than it was untouched."""
-    lower = np.asarray(scaled.separation())
-    np.subtract(contact.separation, lower, out=lower)
+    lower = contact.separation - scaled.separation()
     nodes = np.flatnonzero(lower)
     return Indentation(nodes, lower.flat[nodes] * scaled.height) if nodes.size else None
 
@@ -176,7 +176,7 @@ def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) 
     pressure = np.zeros(shape)
     touching, plastic = np.zeros((2, *shape), dtype=bool)
     pressure.flat[contact.nodes] = contact.pressure * scaled.pressure
-    touching.flat[contact.nodes] = True
+    touching.flat[contact.nodes] = ~contact.pulling
     plastic.flat[contact.nodes] = contact.plastic
     displacement = contact.gap - contact.separation
     displacement += contact.depth

@@ -14,6 +14,7 @@ from roughline.contact.arguments import LARGEST, checked_count, checked_values
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
+from roughline.halfspace.laws.law import ContactLaw, refuse_pulls
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
 
@@ -67,6 +68,7 @@ def line_loads(line: Line, springs: Springs, given: GivenLoads) -> Loads:
     """Return the loads of a line; spaced ones run from ten springs in contact to all of them."""
     if given.n_loads is None:
         loads = _checked_loads(given)
+        refuse_pulls(loads.control, loads.values)
         largest = int(loads.values.argmax())
         if loads.values[largest] > LARGEST:
             raise InputError(
@@ -88,12 +90,12 @@ def surface_loads(
     rtol: float,
     *,
     single: bool,
-    hardness: float | None,
+    law: ContactLaw,
 ) -> Loads:
     """Return the loads of a surface; spaced ones run from about ten cells to saturation.
 
     Loads are refused if gaps cannot be resolved to `rtol` under them, in `single` precision or in
-    double, or if a body of this `hardness` cannot bear them.
+    double, or if the law does not allow them.
     """
     if single and rtol < _GAP_ROUNDING_SINGLE:
         raise InputError(
@@ -102,10 +104,8 @@ def surface_loads(
         )
     if given.n_loads is None:
         loads = _checked_loads(given)
-        if hardness is not None and loads.control == "forces":
-            _refuse_beyond_hardness(surface, loads, hardness)
-        elif hardness is None and half_space.mean_is_free and loads.control == "depths":
-            _refuse_beyond_full_contact(surface, float(loads.values.max()))
+        free = half_space.mean_is_free
+        law.refuse(loads.control, loads.values, surface.heights, surface.area, free)
         _refuse_beyond_precision(surface, half_space.E_star, loads, rtol, single)
         return loads
     _refuse_constant(surface, given)
@@ -115,8 +115,7 @@ def surface_loads(
         highest = E_star * surface.rms_slope * surface.area
     else:
         highest = _SATURATED_FORCE_BAR * E_star * surface.rms_height * surface.length
-    if hardness is not None:
-        highest = min(highest, _LARGEST_YIELDING * hardness * surface.area)
+    highest = min(highest, _LARGEST_YIELDING * law.largest_force(surface.area))
     separation = np.sort(surface.heights.max() - surface.heights, axis=None)
     few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
     lowest = highest
@@ -138,17 +137,12 @@ def _checked_loads(given: GivenLoads) -> Loads:
     values = checked_values(control, forces if depths is None else depths)
     if values.ndim != 1 or values.size == 0:
         raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")
-    before_touch = np.maximum.accumulate(np.nan_to_num(values)) <= 0
-    for wrong, what in (
-        (~np.isfinite(values), "not finite"),
-        (values < 0, "negative: compression counts positive"),
-        ((values == 0) & before_touch, "zero, at which nothing touches"),
-    ):
-        if wrong.any():
-            raise InputError(
-                f"{control}[{wrong.argmax()}] is {values[wrong][0]}, {what}; give positive "
-                "numbers, and zero only to unload"
-            )
+    wrong = ~np.isfinite(values)
+    if wrong.any():
+        raise InputError(
+            f"{control}[{wrong.argmax()}] is {values[wrong][0]}, not finite; give positive "
+            "numbers, and zero only to unload"
+        )
     return Loads(control, values)
 
 
@@ -169,25 +163,6 @@ def _refuse_constant(body: Body, given: GivenLoads) -> None:
         )
 
 
-def _refuse_beyond_full_contact(surface: Surface, depth: float) -> None:
-    full_contact = float(np.mean(surface.heights.max() - surface.heights))
-    if not depth < full_contact:
-        raise InputError(
-            f"depth {depth:g} is beyond reach: the periodic half-space is in full contact at "
-            f"{full_contact:g}, whatever the force; give smaller depths, or forces"
-        )
-
-
-def _refuse_beyond_hardness(surface: Surface, loads: Loads, hardness: float) -> None:
-    most, largest = hardness * surface.area, int(loads.values.argmax())
-    if not loads.values[largest] < most:
-        raise InputError(
-            f"forces[{largest}] is {loads.values[largest]:g}; a body of hardness {hardness:g} and "
-            f"nominal area {surface.area:g} bears less than H A_0 = {most:g}: give smaller forces, "
-            "or a larger hardness"
-        )
-
-
 def _refuse_beyond_precision(
     surface: Surface, E_star: float, loads: Loads, rtol: float, single: bool
 ) -> None:
@@ -196,12 +171,12 @@ def _refuse_beyond_precision(
     A flat body has no heights to compare its loads with: they are compared with each other.
     """
     if surface.rms_height == 0:
-        unit, name = float(loads.values.max()), "of the largest load"
+        unit, name = float(np.abs(loads.values).max()), "of the largest load"
     elif loads.control == "forces":
         unit, name = surface.rms_height * E_star * surface.length, "E* h L"
     else:
         unit, name = surface.rms_height, "rms heights"
-    reach = loads.values / unit
+    reach = np.abs(loads.values) / unit
     most, least = int(reach.argmax()), int(np.where(reach > 0, reach, np.inf).argmin())
     rounding = _GAP_ROUNDING_SINGLE if single else _GAP_ROUNDING
     if reach[most] * rounding > rtol:

@@ -16,6 +16,7 @@ from roughline.contact.arguments import (
     checked_number,
     given_half_space,
     kept_loads,
+    law_of,
     refuse_other_progress,
 )
 from roughline.contact.curve import Curve
@@ -25,10 +26,11 @@ from roughline.contact.loads import GivenLoads, Loads, surface_loads
 from roughline.contact.reduced import press_line
 from roughline.contact.status import Status
 from roughline.errors import ConvergenceError, InputError, Interrupted
-from roughline.errors.checks import one_of, shown
+from roughline.errors.checks import one_of, refuse, shown
 from roughline.errors.public import public_names
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Body, Line, Surface
 
 
@@ -39,6 +41,7 @@ def press(
     E_star: float | None = None,
     half_space: HalfSpace | None = None,
     hardness: float | None = None,
+    law: ContactLaw | None = None,
     depths: ArrayLike | None = None,
     forces: ArrayLike | None = None,
     n_loads: int | None = None,
@@ -69,7 +72,10 @@ def press(
     hardness : float, optional
         Largest pressure that a point bears, the indentation hardness of the softer body; where it
         is reached, the surface is permanently indented. Default, or infinite: both bodies are
-        elastic. [pressure]
+        elastic. Short for ``law=rl.Yielding(hardness)``. [pressure]
+    law : ContactLaw, optional
+        What pressure and gap obey at a point. Default: :class:`~roughline.Unilateral`, bodies that
+        neither stick nor overlap.
     depths, forces : array_like, shape (loads,), optional
         Depths since first touch of the untouched surface [length] or total forces [force]. They may
         rise and fall: each load finds the surface as the last one left it. The order of loads does
@@ -145,7 +151,7 @@ def press(
     [0.308]
     """
     half_space = given_half_space(half_space, E_star, periodic)
-    hardness = _checked_hardness(hardness, body)
+    law = _checked_law(law, _checked_hardness(hardness, body), body)
     rtol = checked_number("rtol", rtol, "a tolerance from 1e-12 to 0.1", 1e-12, 0.1)
     max_iterations = checked_count("max_iterations", max_iterations, 1)
     grid_error = checked_flag("grid_error", grid_error)
@@ -176,27 +182,27 @@ def press(
         GivenLoads(depths, forces, n_loads),
         rtol,
         single=precision == "float32",
-        hardness=hardness,
+        law=law,
     )
     kept = kept_loads(fields, loads.values.size)
-    _refuse_beyond_memory(body, half_space, loads, hardness, len(kept))
+    _refuse_beyond_memory(body, half_space, loads, law, len(kept))
     if grid_error:
         refuse_few_points(body)
     # imported here because compiled loops load slowly
     from roughline.contact.full import press_surface
-    from roughline.halfspace.search.state import Method
+    from roughline.halfspace.search.problem import Method
 
     method = Method(rtol, max_iterations, precision)
     pressed = partial(press_surface, half_space=half_space, method=method)
-    curve = pressed(body, loads=loads, hardness=hardness, kept=kept, progress=progress)
+    curve = pressed(body, loads=loads, law=law, kept=kept, progress=progress)
     if grid_error:
         try:
             curve = with_grid_error(
                 curve,
                 body,
                 loads,
-                lambda other, loads, hardness: pressed(
-                    other, loads=loads, hardness=hardness, kept=frozenset(), progress=None
+                lambda other, loads, law: pressed(
+                    other, loads=loads, law=law, kept=frozenset(), progress=None
                 ),
             )
         except KeyboardInterrupt:
@@ -210,7 +216,7 @@ def _refuse_beyond_memory(
     surface: Surface,
     half_space: HalfSpace,
     loads: Loads,
-    hardness: float | None,
+    law: ContactLaw,
     kept: int,
 ) -> None:
     """Refuse loads that memory cannot hold; full contact is supposed where that fits."""
@@ -219,12 +225,12 @@ def _refuse_beyond_memory(
         surface.shape,
         half_space.periodic,
         kept,
-        yielding=hardness is not None,
+        yielding=law.memory == "dents",
         several=loads.values.size > 1,
     )
     if fits_into_memory(memory(area_fraction=1.0)):
         return
-    share = expected_area_fraction(surface, half_space, loads, hardness)
+    share = expected_area_fraction(surface, half_space, loads, law)
     refuse_beyond_memory(
         memory(area_fraction=share),
         f"pressing {surface.shape[0]} x {surface.shape[1]} points"
@@ -248,6 +254,30 @@ def _checked_hardness(hardness: float | None, body: Body) -> float | None:
             "of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
         )
     return hardness
+
+
+def _checked_law(law: ContactLaw | None, hardness: float | None, body: Body) -> ContactLaw:
+    """Return the law that bodies obey; a hardness is short for one."""
+    if law is None:
+        return law_of(hardness)
+    if not isinstance(law, ContactLaw):
+        refuse(
+            "law",
+            law,
+            "a contact law is needed, such as rl.Unilateral(), rl.Yielding(hardness) or another "
+            "rl.ContactLaw",
+        )
+    if hardness is not None:
+        raise InputError(
+            "law and hardness given together: hardness is short for law=rl.Yielding(hardness); "
+            "give one of the two"
+        )
+    if isinstance(body, Line):
+        raise InputError(
+            "law belongs to the full model; the springs of a Line only push: leave it out, or "
+            "press a Surface"
+        )
+    return law
 
 
 def _failure_message(curve: Curve) -> str:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.contact.loads import Loads
 from roughline.halfspace.elasticity.half_space import HalfSpace
-from roughline.halfspace.search.separation import Separation
 from roughline.topography.body import Surface
 
 
@@ -44,7 +44,7 @@ class ScaledSurface:
         """Choose the units."""
         height = surface.rms_height
         if height == 0:  # a flat punch has no heights: its depth, at least roughly, gives the unit
-            height = float(loads.values.max())
+            height = float(np.abs(loads.values).max())
             if loads.control == "forces":
                 height /= half_space.E_star * surface.length
         dx, dy = surface.spacing
@@ -52,10 +52,12 @@ class ScaledSurface:
         scaled = half_space.in_units(half_space.E_star, length)
         return cls(surface, height, length, half_space.E_star, (dx / length, dy / length), scaled)
 
-    def separation(self) -> Separation:
+    def separation(self) -> Real:
         """Return the distance of the bodies at first touch over `height`. [1]"""
         heights = self.surface.heights
-        return Separation(heights, heights.max(), self.height)
+        distances = np.subtract(heights.max(), heights, order="C")
+        distances /= self.height
+        return distances
 
     @property
     def force(self) -> float:

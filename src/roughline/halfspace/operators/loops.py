@@ -174,21 +174,19 @@ def add_turned_rows(
 
 @compiled
 def leave_gaps(field: Floats, separation: Floats, touch: float, approach: float) -> None:
-    """Turn displacements into the gaps that are left of a separation.
+    """Turn displacements into the gaps that are left of a separation, node by node.
 
     Parameters
     ----------
-    field : ndarray, shape (nx, ny)
+    field : ndarray, shape (nodes,)
         Displacements, overwritten with gaps. [length]
-    separation : ndarray, shape (nx, ny)
+    separation : ndarray, shape (nodes,)
         Distance of the bodies before. [length]
     touch, approach : float
         Least separation, and approach beyond it. [length]
     """
-    for row in range(field.shape[0]):
-        for column in range(field.shape[1]):
-            above = separation[row, column] - touch
-            field[row, column] = field[row, column] + above - approach
+    for i in range(field.size):
+        field[i] = field[i] + (separation[i] - touch) - approach
 
 
 @compiled

@@ -126,6 +126,10 @@ class Operator(Protocol):
         The shape is (periods[0] // 2 + 1, periods[1] // 2 + 1). [length / pressure]
         """
 
+    @property
+    def least(self) -> float:
+        """Least displacement anywhere under unit pressure on one cell. [length / pressure]"""
+
     def sums_are_cheap(self, sources: int, targets: int) -> bool:
         """Whether to sum over pairs of so many nodes takes less time than to transform the grid."""
 

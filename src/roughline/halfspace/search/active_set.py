@@ -1,19 +1,17 @@
-"""The contact problem under one load, solved by a primal-dual active set.
+"""The contact among the nodes of a region, by a primal-dual active set.
 
 Each round has four steps.
 
-1. The gap under the trial pressures is computed, on the whole grid or near the contact only, and
-   with it the residuals.
+1. The gap under the trial pressures is computed, and with it the residuals.
 2. The search ends if the residuals are within the tolerance, or no longer fall.
-3. Conjugate gradients lead the pressures towards those that close the gap on the trial nodes,
-   until the error of the set of nodes outweighs the error of the pressures [3]_.
-4. Nodes that pull are dropped and nodes that overlap are added, all chosen from the same
-   pressures [1]_. Where the bodies yield, nodes above the hardness are set to it, and nodes at it
-   that come apart are elastic again.
+3. Conjugate gradients lead the pressures of touching nodes towards those that close the gap there,
+   until the error of the sets of nodes outweighs the error of the pressures [3]_.
+4. Nodes beyond a bound of the pressure are set to it, nodes at a bound touch where the gap has the
+   wrong sign, and nodes without pressure join where bodies overlap. All are chosen from the same
+   pressures [1]_.
 
 Polonsky and Keer's method [2]_ corrects the set after every step of conjugate gradients; here it
-is corrected only after as many steps as are worth their cost. The residuals of what is returned are
-recomputed from it, in double precision unless single precision is asked for throughout.
+is corrected only after as many steps as are worth their cost.
 
 References
 ----------
@@ -24,76 +22,436 @@ References
 .. [3] Z. Dostál and J. Schöberl, "Minimizing quadratic functions subject to bound constraints with
    the rate of convergence and finite termination", Comput. Optim. Appl. 30, 23-43 (2005): there,
    too, a set is changed when the violations outweigh the residual (proportioning).
+.. [4] J. J. Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale strictly
+   monotone linear complementarity problems", Comput. Oper. Res. 21, 587-596 (1994).
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from roughline.halfspace.search.contact_set import ContactSet
-from roughline.halfspace.search.exchange import ExchangeRule, able_to_carry, watched_nodes
-from roughline.halfspace.search.relaxation import relaxed
-from roughline.halfspace.search.state import Contact, Load, Method, Outcome, Problem
-from roughline.halfspace.search.stopping import StoppingRule
-from roughline.halfspace.search.trial import Trial
+from roughline.computing.arrays import Indices, Mask, Real
+from roughline.halfspace.laws.bounds import Bounds
+from roughline.halfspace.operators.operator import Precision
+from roughline.halfspace.search.carriers import Carriers, merged
+from roughline.halfspace.search.patch import ConjugateGradients, Patch
+from roughline.halfspace.search.problem import Load, Method, Outcome
+from roughline.halfspace.search.region import Region, Trial
+
+AIM = 0.3
+"""Of the tolerance, at which conjugate gradients aim so that a certificate is not just missed."""
+SINGLE_ABOVE = 1e-4
+"""Single precision serves while errors are above this part of what moves; its own are 1e-7."""
+_STEPS = 200  # on one set of nodes before it is looked at again
+# After more rounds than this without a new minimum of wrong nodes, the equations are solved to the
+# tolerance before nodes are exchanged. After twice as many, nodes are exchanged one by one.
+_PATIENCE = 8
+_RELIEF = 1e-3  # part of a bound by which a node that leaves it is relieved at most
 
 
-def search(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
-    """Find the contact set and the pressures under one load, with the operator of the problem.
+def search(
+    region: Region, load: Load, start: Carriers, method: Method
+) -> tuple[Trial, Outcome, int]:
+    """Find the sets of nodes and the pressures under one load.
 
     Parameters
     ----------
-    problem : Problem
-        The body and the half-space.
+    region : Region
+        The nodes among which they are sought, and the operator.
     load : Load
         What is prescribed.
-    start : ContactSet
-        Where to start from, with pressures of which none is negative.
+    start : Carriers
+        Where to start from, with pressures within their bounds.
     method : Method
-        Tolerance, bound on the convolutions and precision.
+        Tolerance, bound on the products and precision.
+
+    Returns
+    -------
+    tuple of Trial, Outcome and int
+        What was found, how the search ended, and how many products with the operator it took.
     """
-    contact_set, gap = start, np.empty(problem.separation.shape)
-    exchange, stopping = ExchangeRule(gap.size), StoppingRule(method)
-    convolutions = 0
+    carriers, gap, products = start, region.separation, 0
+    rule, stopping = _ExchangeRule(region.separation.size), _StoppingRule(method)
+    total = load.total(region.problem.operator.cell_area)
     while True:
         # 1. The gap that the pressures leave, and the residuals.
-        near = gap if convolutions and contact_set.nodes.size else problem.separation
-        contact_set = able_to_carry(contact_set, problem.fewest_nodes(load), near)
-        trial = Trial.of(
-            problem, load, contact_set, stopping.residuals, gap, rescale=not convolutions
-        )
-        contact_set = trial.contact_set
-        convolutions += 1
-        spent = convolutions >= method.max_iterations
+        nearest = gap if carriers.places.size else region.separation
+        carriers = carriers.able_to_carry(total, region.bounds, nearest)
+        trial = region.trial(load, carriers, stopping.residuals, rescale=not products)
+        carriers, gap, products = trial.carriers, trial.gap, products + 1
+        spent = products >= method.max_iterations
         if spent and stopping.residuals != method.certificate:
             stopping.residuals = method.certificate
-            trial = Trial.of(problem, load, contact_set, stopping.residuals, gap)
-            convolutions += 1
+            trial = region.trial(load, carriers, stopping.residuals)
+            products += 1
+        outcome = stopping.outcome(trial, rule, spent=spent)
         # 2. The end of the search.
-        outcome = stopping.outcome(trial, exchange, spent=spent)
-        pulling = contact_set.pressure < 0
-        if outcome is Outcome.CONVERGED and pulling.any():  # by less than the tolerance
-            contact_set = contact_set.without(pulling)
+        if outcome is Outcome.CONVERGED and trial.residuals.tension:  # less than the tolerance
+            carriers = _within_bounds(carriers, region.bounds.at(carriers.places))
             continue
         if outcome is not None:
-            return trial.contact(problem, outcome, convolutions)
-        # 3. Conjugate gradients on the trial nodes.
-        watched = watched_nodes(gap, contact_set.nodes, every=exchange.one_by_one)
+            return trial, outcome, products
+        # 3. Conjugate gradients on the touching nodes.
+        watched = trial.close(np.inf, gap.size) if rule.one_by_one else trial.watched
         try:
-            relaxation = relaxed(
-                problem,
-                load,
+            relaxation = _relaxed(
                 trial,
+                load,
                 watched,
                 method.rtol,
                 stopping.steps,
-                most_steps=method.max_iterations - convolutions,
-                to_tolerance=exchange.to_tolerance,
+                most_steps=method.max_iterations - products,
+                to_tolerance=rule.to_tolerance,
             )
         except np.linalg.LinAlgError:  # an elastic half-space is positive definite
-            return trial.contact(problem, Outcome.STALLED, convolutions)
-        convolutions += relaxation.steps
+            return trial, Outcome.STALLED, products
+        products += relaxation.steps
         stopping.choose_precision(relaxation, trial.length_scale)
         # 4. The exchange of wrong nodes.
-        contact_set = exchange.applied(problem, contact_set, watched, relaxation.violations)
-        del trial, relaxation, watched  # the next gap needs their memory
+        carriers = rule.applied(region, relaxation, watched)
+
+
+def _within_bounds(carriers: Carriers, bounds: Bounds) -> Carriers:
+    """Set pressures below their bounds to these; a node without pressure is no carrier."""
+    below = carriers.pressure < bounds.low
+    pressure = np.where(below, bounds.low, carriers.pressure)
+    return Carriers(carriers.places, pressure).without(below & (pressure == 0))
+
+
+@dataclass(frozen=True, eq=False)
+class Wrong:
+    """Nodes on the wrong side of a set.
+
+    Attributes
+    ----------
+    below, above : ndarray of bool, shape (carriers,)
+        Touching nodes whose pressure is beyond its lower bound, or its upper one.
+    leaving : ndarray of bool, shape (carriers,)
+        Nodes at a bound at which the gap has the wrong sign: above zero at the upper bound, below
+        it at a lower one.
+    overlapping : ndarray of bool, shape (watched,)
+        Nodes without pressure at which the bodies overlap.
+    off : ndarray, shape (leaving nodes,)
+        The gap there. [length]
+    """
+
+    below: Mask
+    above: Mask
+    leaving: Mask
+    overlapping: Mask
+    off: Real
+
+    @property
+    def count(self) -> int:
+        """Number of wrong nodes."""
+        each = (self.below, self.above, self.leaving, self.overlapping)
+        return sum(int(np.count_nonzero(wrong)) for wrong in each)
+
+    def last_alone(self, places: Indices, watched: Indices) -> Wrong:
+        """Leave only the wrong node of highest place."""
+        among = places[self.below | self.above | self.leaving]
+        last = max(among.max(initial=-1), watched[self.overlapping].max(initial=-1))
+        alone = places == last
+        return Wrong(
+            self.below & alone,
+            self.above & alone,
+            self.leaving & alone,
+            self.overlapping & (watched == last),
+            self.off[alone[self.leaving]],
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Relaxation:
+    """Where conjugate gradients on the touching nodes of a trial ended.
+
+    Attributes
+    ----------
+    carriers : Carriers
+        The carriers of the trial, with the pressures after the steps.
+    wrong : Wrong
+        Nodes on the wrong side.
+    level : float
+        Approach since touch that goes with the pressures. [length]
+    largest_error : float
+        Largest displacement that is missing on the touching nodes; a pressure out of its bounds
+        counts as the displacement that it causes at its own node. [length]
+    steps : int
+        Steps done; each takes one product with the operator.
+    """
+
+    carriers: Carriers
+    wrong: Wrong
+    level: float
+    largest_error: float
+    steps: int
+
+
+def _relaxed(
+    trial: Trial,
+    load: Load,
+    watched: Indices,
+    rtol: float,
+    precision: Precision,
+    *,
+    most_steps: int,
+    to_tolerance: bool,
+) -> _Relaxation:
+    """Lead the pressures of a trial towards those that close the gap where bodies touch.
+
+    Parameters
+    ----------
+    trial, load : Trial, Load
+        The trial, and what is prescribed.
+    watched : ndarray of int
+        Nodes without pressure at which overlap is looked for.
+    rtol : float
+        Bound on the residuals.
+    precision : {"float64", "float32"}
+        Precision of the products.
+    most_steps : int
+        Bound on the steps.
+    to_tolerance : bool
+        Whether to go on to the tolerance, whatever is wrong with the sets of nodes.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If the operator is not positive definite.
+    """
+    diagonal = trial.region.problem.inverse.diagonal
+    tolerance, most_steps = AIM * rtol * trial.length_scale, min(most_steps, _STEPS)
+    sides = Sides.of(trial, watched)
+    if not trial.touching.any():  # under a given depth, all may be at a bound
+        wrong = sides.wrong(trial.carriers.pressure[:0], sides.gap, tolerance)
+        return _Relaxation(trial.carriers, wrong, trial.approach, 0.0, 0)
+    gradients = sides.gradients(trial, precision, fixed_total=load.force is not None)
+    while True:
+        level = trial.approach if load.force is None else gradients.level
+        error = float(np.abs(gradients.error).max())
+        if error <= tolerance or gradients.steps >= most_steps:
+            break
+        if gradients.steps and not to_tolerance:
+            squared = sides.squared(gradients.pressure, gradients.watched - level, diagonal)
+            if squared > gradients.error @ gradients.error:
+                break
+        if not gradients.advance():
+            break
+    wrong = sides.wrong(gradients.pressure, gradients.watched - level, tolerance)
+    pressure = trial.carriers.pressure.copy()
+    pressure[trial.touching] = gradients.pressure
+    largest = max(error, max(sides.bounds.missed(gradients.pressure)) * diagonal)
+    carriers = Carriers(trial.carriers.places, pressure)
+    return _Relaxation(carriers, wrong, level, largest, gradients.steps)
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """The nodes of a trial beside its touching ones, and on which side each belongs.
+
+    Attributes
+    ----------
+    touching, plastic : ndarray of bool, shape (carriers,)
+        Which carriers are between their bounds, and at the upper one; the others are at a lower.
+    bounds : Bounds
+        Of the touching nodes.
+    places : ndarray of int
+        The nodes without pressure that are watched, and the carriers at a bound.
+    is_watched, is_plastic : ndarray of bool, shape (places,)
+        Which of them are watched, and which are at the upper bound.
+    gap : ndarray, shape (places,)
+        Gaps there, negative where bodies overlap. [length]
+    """
+
+    touching: Mask
+    plastic: Mask
+    bounds: Bounds
+    places: Indices
+    is_watched: Mask
+    is_plastic: Mask
+    gap: Real
+
+    @classmethod
+    def of(cls, trial: Trial, watched: Indices) -> Sides:
+        """Tell the nodes of a trial apart."""
+        carriers, touching, plastic = trial.carriers, trial.touching, trial.plastic
+        bounds = trial.region.bounds.at(carriers.places[touching])
+        if touching.all():
+            every = np.ones(watched.size, dtype=bool)
+            return cls(touching, plastic, bounds, watched, every, ~every, trial.gap[watched])
+        places, order = merged(watched, carriers.places[~touching])
+        is_watched = order < watched.size
+        is_plastic = np.zeros(places.size, dtype=bool)
+        is_plastic[~is_watched] = plastic[~touching]
+        gap = trial.gap[places]
+        gap[is_plastic] -= trial.overlap
+        return cls(touching, plastic, bounds, places, is_watched, is_plastic, gap)
+
+    def gradients(
+        self, trial: Trial, precision: Precision, *, fixed_total: bool
+    ) -> ConjugateGradients:
+        """Return the equations of the touching nodes, with the displacement of the others."""
+        operator, carriers = trial.region.operator, trial.carriers
+        touching = carriers.places[self.touching]
+        return ConjugateGradients(
+            Patch(
+                operator.linear,
+                trial.region.problem.inverse,
+                operator.grid_nodes(touching),
+                operator.grid_nodes(self.places),
+            ),
+            carriers.pressure[self.touching],
+            -trial.gap[touching] - (trial.approach if fixed_total else 0.0),
+            self.gap + trial.approach,
+            fixed_total=fixed_total,
+            precision=precision,
+        )
+
+    def squared(self, pressure: Real, gap: Real, diagonal: float) -> float:
+        """Return the sum of the squared violations. [length²]
+
+        A pressure out of its bounds counts as the displacement that it causes at its own node, by
+        the diagonal of the operator. [length / pressure]
+        """
+        outside = diagonal * (pressure - self.bounds.nearest(pressure))
+        wrong = np.where(self.is_plastic, np.maximum(gap, 0.0), np.minimum(gap, 0.0))
+        return float(outside @ outside + wrong @ wrong)
+
+    def wrong(self, pressure: Real, gap: Real, slack: float) -> Wrong:
+        """Return the nodes on the wrong side of a set.
+
+        Parameters
+        ----------
+        pressure, gap : ndarray
+            Pressures on the touching nodes, and gaps of the others. [pressure] and [length]
+        slack : float
+            Gap up to which a node stays at its bound. [length]
+        """
+        below, above, leaving = np.zeros((3, self.touching.size), dtype=bool)
+        below[self.touching] = pressure < self.bounds.low
+        above[self.touching] = pressure > self.bounds.high
+        held = gap[~self.is_watched]
+        off = np.where(self.is_plastic[~self.is_watched], held, -held) > slack
+        leaving[~self.touching] = off
+        return Wrong(below, above, leaving, gap[self.is_watched] < 0, held[off])
+
+
+class _ExchangeRule:
+    """How many of the wrong nodes change sides at a time.
+
+    As long as their number falls, all of them do. Where it has not fallen for many rounds, only
+    the wrong node of highest place does, which cannot cycle [4]_.
+
+    Parameters
+    ----------
+    points : int
+        Nodes of the region.
+
+    Attributes
+    ----------
+    wrong : int
+        Number of wrong nodes in the last round.
+    """
+
+    def __init__(self, points: int) -> None:
+        self.wrong = points
+        self._fewest = points + 1
+        self._rounds = 0  # since the last new minimum of wrong nodes
+
+    @property
+    def to_tolerance(self) -> bool:
+        """Whether the equations are solved to the tolerance before nodes change sides."""
+        return self._rounds > _PATIENCE
+
+    @property
+    def one_by_one(self) -> bool:
+        """Whether only one node changes sides at a time."""
+        return self._rounds > 2 * _PATIENCE
+
+    def applied(self, region: Region, relaxation: _Relaxation, watched: Indices) -> Carriers:
+        """Return the carriers after wrong nodes have changed sides."""
+        wrong, carriers = relaxation.wrong, relaxation.carriers
+        self.wrong = wrong.count
+        if self.one_by_one:
+            wrong = wrong.last_alone(carriers.places, watched)
+        self._rounds = 0 if self.wrong < self._fewest else self._rounds + 1
+        self._fewest = min(self.wrong, self._fewest)
+        return exchanged(region, carriers, watched, wrong)
+
+
+def exchanged(region: Region, carriers: Carriers, watched: Indices, wrong: Wrong) -> Carriers:
+    """Return carriers after wrong nodes have changed sides; see :class:`_ExchangeRule`."""
+    bounds = region.bounds.at(carriers.places)
+    pressure = carriers.pressure.copy()
+    pressure[wrong.above] = bounds.at(wrong.above).high
+    pressure[wrong.below] = bounds.at(wrong.below).low
+    # a node that leaves its bound is relieved of what its own gap takes to close, but of little,
+    # for its neighbours change sides as well
+    bound = pressure[wrong.leaving]
+    most = _RELIEF * np.abs(bound)
+    pressure[wrong.leaving] -= np.clip(wrong.off / region.problem.inverse.diagonal, -most, most)
+    free = wrong.below & (pressure == 0)
+    return Carriers(carriers.places, pressure).without(free).joined_by(watched[wrong.overlapping])
+
+
+class _StoppingRule:
+    """When a search is over, and the precisions of its products.
+
+    Parameters
+    ----------
+    method : Method
+        Tolerance and precision.
+
+    Attributes
+    ----------
+    residuals, steps : {"float64", "float32"}
+        Precision of the next residuals and of the next steps. Both may rise to the precision of
+        the certificate.
+    """
+
+    def __init__(self, method: Method) -> None:
+        self.residuals: Precision = method.steps
+        self.steps: Precision = method.steps
+        self._method = method
+        self._error_before = np.inf
+
+    def choose_precision(self, relaxation: _Relaxation, length_scale: float) -> None:
+        """Compute the next residuals in single precision only while errors are large."""
+        large = max(SINGLE_ABOVE * abs(relaxation.level), self._method.rtol * length_scale)
+        rough = relaxation.largest_error > large
+        self.residuals = self._method.steps if rough else self._method.certificate
+
+    def outcome(self, trial: Trial, rule: _ExchangeRule, *, spent: bool) -> Outcome | None:
+        """Say how the search ends with a trial, or None where it goes on.
+
+        Parameters
+        ----------
+        trial : Trial
+            With residuals in the precision of this rule.
+        rule : _ExchangeRule
+            How the exchange of nodes goes on.
+        spent : bool
+            Whether no more products are allowed.
+        """
+        if self.residuals != self._method.certificate:
+            return None
+        worst = trial.residuals.violation
+        if not np.isfinite(worst):
+            return Outcome.STALLED
+        certified = worst <= self._method.rtol
+        if certified and trial.residuals.rounding > self._method.rtol:
+            return Outcome.STALLED
+        # the stiffness depends on single nodes: go on while one overlaps more than those in contact
+        if certified and (trial.residuals.penetration == 0 or rule.to_tolerance):
+            return Outcome.CONVERGED
+        if spent:
+            return Outcome.CONVERGED if certified else Outcome.MAX_ITERATIONS
+        error = worst * trial.length_scale  # which falls itself where pressures become even
+        if not rule.wrong and error > 0.5 * self._error_before:
+            if self.steps == self._method.certificate:
+                return Outcome.CONVERGED if certified else Outcome.STALLED
+            self.steps = self._method.certificate
+        self._error_before = error
+        return None

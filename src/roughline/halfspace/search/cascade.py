@@ -11,18 +11,18 @@ import numpy as np
 from roughline.computing import fft
 from roughline.computing.arrays import Real
 from roughline.halfspace.inverse.kept import inverse_on
+from roughline.halfspace.laws.bounds import Bounds
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.operators.discretisation import coarser_grid
-from roughline.halfspace.search.contact_set import ContactSet
-from roughline.halfspace.search.correction import guessed
-from roughline.halfspace.search.separation import Separation
-from roughline.halfspace.search.state import Load, Method, Problem
+from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
+from roughline.halfspace.search.turns import guessed
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
 _NODES_AT_A_TIME = 2**15  # whose means a thread computes, so many fit into a cache
 _ROUGH = Method(rtol=1e-2, max_iterations=200, precision="float32")
 
 
-def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
+def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, ContactLaw]:
     """Guess which nodes come into contact, and the pressures on them.
 
     The coarse grid sees the mean separation of two by two nodes, and its pressures are the same on
@@ -31,7 +31,7 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     Parameters
     ----------
     problem : Problem
-        The body and the half-space.
+        The bodies.
     load : Load
         What is prescribed.
 
@@ -39,40 +39,40 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, float]:
     -------
     start : ContactSet
         The nodes, and pressures on them up to a factor.
-    pressure : float
-        Largest pressure on the next coarser grid; zero if none was solved. [pressure]
+    law : ContactLaw
+        The law to start with, as pressures on the next coarser grid foresee it.
     """
-    operator, separation = problem.operator, problem.separation
+    operator, separation, law = problem.operator, problem.separation, problem.law
     if max(separation.shape) <= _COARSEST:
-        return _rigid_guess(problem, load), 0.0
+        return _rigid_guess(problem, load), law
     coarse_separation = _halved(separation)
     if load.depth is not None and load.depth <= coarse_separation.min():
-        return _rigid_guess(problem, load), 0.0
+        return _rigid_guess(problem, load), law
     shape, spacing = coarser_grid(
         operator.shape, operator.spacing, periodic=problem.half_space.periodic
     )
     inverse = inverse_on(problem.half_space, shape, spacing)
-    coarse = replace(problem, inverse=inverse, separation=coarse_separation)
-    contact = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
-    del coarse, inverse
-    largest = float(contact.pressure.max())
+    coarse = replace(problem, inverse=inverse, separation=coarse_separation, law=law.on(_halved))
+    found = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
     # at the end of an odd side one node takes the force of two
     shares = [
         spacing[axis] / operator.spacing[axis] / _widths(n) for axis, n in enumerate(operator.shape)
     ]
-    start = _spread(contact, operator.shape, shares)
-    pressure = problem.conditions.projected(start.pressure)
-    start = ContactSet(start.nodes, pressure).without(pressure <= 0)
-    return start if start.nodes.size else _rigid_guess(problem, load), largest
+    start = _spread(found, operator.shape, shares)
+    law = law.foreseen(start.nodes, start.pressure)
+    pressure = Bounds.of(law, start.nodes).nearest(start.pressure)
+    loaded = pressure > 0
+    start = ContactSet(start.nodes[loaded], pressure[loaded], found.depth)
+    return (start if loaded.any() else _rigid_guess(problem, load)), law
 
 
-def _halved(field: Real | Separation) -> Real:
+def _halved(field: Real) -> Real:
     """Means over two by two nodes; fewer at the end of an odd side."""
     nx, ny = field.shape
     result = np.empty((-(-nx // 2), -(-ny // 2)))
 
     def halve(first: int, last: int) -> None:
-        part = np.asarray(field[2 * first : 2 * last])
+        part = field[2 * first : 2 * last]
         for axis, n in enumerate(part.shape):
             along = np.moveaxis(part, axis, 0)
             halves = along[::2].copy()
@@ -109,7 +109,7 @@ def _spread(coarse: ContactSet, shape: tuple[int, int], shares: list[Real]) -> C
     inside = (x < shape[0]) & (y < shape[1])
     nodes = (x * shape[1] + y)[inside]
     order = np.argsort(nodes)
-    return ContactSet(nodes[order], np.repeat(pressure, inside.sum(axis=1))[order])
+    return ContactSet(nodes[order], np.repeat(pressure, inside.sum(axis=1))[order], coarse.depth)
 
 
 def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
@@ -118,7 +118,7 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
     A force shifts the body to the depth at which one disc of as many nodes would carry it,
     its stiffness times (d - mean separation).
     """
-    separation, depth, force = np.asarray(problem.separation), load.depth, load.force
+    separation, depth, force = problem.separation, load.depth, load.force
     if depth is None:
         assert force is not None
         separations = np.sort(separation, axis=None)
@@ -132,7 +132,7 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
         counts = range(1, separations.size + 1)
         reached = bisect_left(counts, True, key=lambda count: depth_of(count) <= beyond[count - 1])
         depth = depth_of(counts[reached])
-        needed = min(problem.fewest_nodes(load), separations.size)
-        depth = max(depth, float(separations[needed - 1]))
+        fewest = int(force / problem.law.largest_force(problem.operator.cell_area))
+        depth = max(depth, float(separations[min(fewest, separations.size - 1)]))
     nodes = np.flatnonzero(separation < depth)
-    return ContactSet(nodes, depth - separation.flat[nodes])
+    return ContactSet(nodes, depth - separation.flat[nodes], load.depth)

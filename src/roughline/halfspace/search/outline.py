@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from roughline.computing.arrays import Indices, Mask
-from roughline.halfspace.search.state import Contact
+from roughline.halfspace.search.problem import Contact
 
 # Cells by which the area is overstated, for each pair of neighbours of which one is in contact.
 _PER_PAIR = (math.pi - 1 + math.log(2)) / 24
@@ -50,16 +50,18 @@ def overstated_cells(
        contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
        (2017).
     """
-    nodes, pressure, plastic = contact.nodes, contact.pressure, contact.plastic
-    touching = np.zeros(contact.gap.size, dtype=bool)
+    bears = ~contact.pulling
+    nodes, pressure, plastic = contact.nodes[bears], contact.pressure[bears], contact.plastic[bears]
+    shape = contact.separation.shape
+    touching = np.zeros(contact.separation.size, dtype=bool)
     touching[nodes] = True
     pairs, summits = 0, 0.0
     for axis in (0, 1):
         for step in (1, -1):
-            beyond, exist = _neighbours(nodes, contact.gap.shape, axis, step, periodic)
+            beyond, exist = _neighbours(nodes, shape, axis, step, periodic)
             outer = exist & ~touching[beyond]
-            edge, gap = pressure[outer], contact.gap.flat[beyond[outer]]
-            within, loaded_too = _neighbours(nodes[outer], contact.gap.shape, axis, -step, periodic)
+            edge, gap = pressure[outer], contact.gap_at(beyond[outer])
+            within, loaded_too = _neighbours(nodes[outer], shape, axis, -step, periodic)
             loaded_too &= touching[within]
             rising = np.zeros(edge.size, dtype=bool)
             inner = np.searchsorted(nodes, within[loaded_too])

@@ -8,7 +8,7 @@ from roughline.computing.arrays import Real
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
 from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
 from roughline.halfspace.operators.restricted import RestrictedOperator
-from roughline.halfspace.search.contact_set import merged
+from roughline.halfspace.search.carriers import merged
 
 
 class Patch:

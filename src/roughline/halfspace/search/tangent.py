@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
+from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.operators.operator import GridNodes
 from roughline.halfspace.search.patch import ConjugateGradients, Patch
-from roughline.halfspace.search.state import Contact, Method, Problem
+from roughline.halfspace.search.problem import Contact, Method, Problem
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
 # error, and the bound on it is this part of the tolerance on residuals.
@@ -75,65 +76,45 @@ class Response:
         return self.loading.converged and self.unloading.converged
 
 
-def response(
-    problem: Problem, contact: Contact, start: tuple[Real, Real] | None, method: Method
-) -> Response:
+def response(contact: Contact, start: tuple[Real, Real] | None, method: Method) -> Response:
     """Solve for the exact stiffness of a contact, on further loading and on unloading.
+
+    Nodes at a bound bear no more on loading. On unloading, those at the upper one follow, too, as
+    their overlap stays in the surface.
 
     Parameters
     ----------
-    problem, contact, method
-        As for :func:`tangent`.
+    contact : Contact
+        The contact, whose set of nodes is held fixed.
     start : tuple of ndarray, shape (nodes,), or None
         Guesses of dp/dF on loading and on unloading, such as those of the load before; None: the
         pressures themselves. [1 / area]
-    """
-    loading, unloading = start or (None, None)
-    elastic, every = ~contact.plastic, np.ones_like(contact.plastic)
-    back = tangent(problem, contact, every, unloading, method)
-    if elastic.all():
-        return Response(back, back)
-    return Response(tangent(problem, contact, elastic, loading, method), back)
-
-
-def tangent(
-    problem: Problem,
-    contact: Contact,
-    elastic: Mask,
-    start: Real | None,
-    method: Method,
-) -> Tangent:
-    """Solve for the exact stiffness of a contact of which some nodes follow a change of the load.
-
-    The stiffness is the energy form 1 / (w K w), so it errs upwards, by the square of the
-    residual.
-
-    Parameters
-    ----------
-    problem : Problem
-        The body and the half-space.
-    contact : Contact
-        The contact, whose set of nodes is held fixed.
-    elastic : ndarray of bool, shape (nodes,)
-        Which of its nodes follow; if none does, the stiffness is zero.
-    start : ndarray, shape (nodes,), or None
-        Guess of dp/dF, such as that of the load before; None: the pressures themselves.
-        [1 / area]
     method : Method
         The stiffness is sought to a hundredth of its tolerance.
     """
-    operator = problem.operator
-    cell_area = operator.cell_area
-    nodes = contact.nodes[elastic]
+    loading, unloading = start or (None, None)
+    back = _tangent(contact, ~contact.pulling, unloading, method)
+    if not contact.plastic.any():
+        return Response(back, back)
+    return Response(_tangent(contact, contact.touching, loading, method), back)
+
+
+def _tangent(contact: Contact, follow: Mask, start: Real | None, method: Method) -> Tangent:
+    """Solve for the exact stiffness of a contact of which some nodes follow a change of the load.
+
+    The stiffness is the energy form 1 / (w K w), so it errs upwards, by the square of the residual.
+    """
+    operator = contact.problem.operator
+    cell_area, nodes = operator.cell_area, contact.nodes[follow]
     if not nodes.size:
         return Tangent(0.0, np.zeros(contact.nodes.size), 0, converged=True)
-    if operator.mean_is_free and nodes.size == contact.gap.size:  # full contact is rigid
+    if operator.mean_is_free and nodes.size == contact.separation.size:  # full contact is rigid
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
-    pressure = _unit_force(elastic, cell_area, start, contact.pressure)
-    solved = _Solution.of(problem, problem.grid_nodes(nodes), pressure, method)
+    pressure = _unit_force(follow, cell_area, start, contact.pressure)
+    solved = _Solution.of(contact.problem, GridNodes.of(nodes, operator.shape), pressure, method)
     pressure_per_force = np.zeros(contact.nodes.size)
-    pressure_per_force[elastic] = solved.pressure
+    pressure_per_force[follow] = solved.pressure
     positive = solved.compliance > 0
     stiffness = 1 / solved.compliance if positive else np.nan
     return Tangent(
@@ -154,22 +135,22 @@ class _Solution:
     def of(cls, problem: Problem, nodes: GridNodes, start: Real, method: Method) -> _Solution:
         """Solve for the pressures in turns, the first with a restricted operator where it serves.
 
-        In each turn, steps lessen the compliance from what the pressures so far have, as the exact
-        operator tells. Steps of a restricted operator err by a part of what they gain, which shows
-        in the gain of the next turn.
+        In each turn, steps lessen the compliance from what the pressures so far have. Steps of a
+        restricted operator err by a part of what they gain, which shows in the gain of the next
+        turn.
         """
-        operator, cell_area = problem.operator, problem.operator.cell_area
+        cell_area, every = problem.operator.cell_area, np.arange(start.size)
         restricted = problem.inverse.restricted.on(nodes)
-        patch = Patch(restricted or operator, problem.inverse, nodes)
+        operator = CorrectedOperator(problem.operator, restricted, nodes)
         pressure, gained, accuracy = start, np.nan, _ENERGY_MARGIN * method.rtol
         convolutions, converged, compliance = 0, False, np.nan
+        patch = Patch(operator.linear, problem.inverse, nodes)
         for turn in range(_TURNS):
-            # 1. The compliance of the pressures so far.
-            if turn == 0 and restricted is not None:
-                exact, displacement = False, restricted.displacement(pressure, nodes, nodes)
-            else:
-                exact = True
-                displacement = operator.displacement(pressure, nodes, nodes, method.certificate)
+            # 1. The compliance of the pressures so far; exact but for a first restricted operator.
+            exact = turn > 0 or operator.restricted is None
+            if exact and operator.restricted is not None:
+                operator = operator.recentred(pressure, every, method.certificate)
+            displacement = operator.displacement(pressure, every, method.certificate)
             compliance = float(pressure @ displacement) * cell_area
             # 2. Steps that lessen it; it counts forces, energies of errors count pressures.
             gradients = ConjugateGradients(
@@ -186,28 +167,29 @@ class _Solution:
             ):
                 pass
             pressure = gradients.pressure
-            convolutions += exact + (gradients.steps if restricted is None else 0)
+            convolutions += exact + (gradients.steps if operator.restricted is None else 0)
             # 3. By how much they have, and the part of that by which they err.
             gained_before, gained = gained, gradients.gained * cell_area
             compliance -= gained
             part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
             energy = gradients.energy * cell_area
-            del gradients  # the exact convolution needs the memory
             error = max(energy, np.sqrt(part) * gained)
             converged = bool(exact and error <= accuracy * compliance)
             if converged:
                 break
-            if exact and restricted is not None and not (part <= _SLOW and energy <= aim):
-                restricted, patch = None, Patch(operator, problem.inverse, nodes)
+            slow = not (part <= _SLOW and energy <= aim)
+            if exact and operator.restricted is not None and slow:
+                operator = CorrectedOperator(problem.operator, None, nodes)
+                patch = Patch(operator.linear, problem.inverse, nodes)
                 pressure, gained = start, np.nan
         return cls(pressure, compliance, convolutions, converged)
 
 
-def _unit_force(elastic: Mask, cell_area: float, start: Real | None, pressure: Real) -> Real:
-    """Scale a guess on the elastic nodes to unit force: the first that is not zero there.
+def _unit_force(follow: Mask, cell_area: float, start: Real | None, pressure: Real) -> Real:
+    """Scale a guess on the nodes that follow to unit force: the first that is not zero there.
 
     On nodes that have just come into contact there is no pressure yet.
     """
     guesses = [pressure] if start is None else [start, pressure]
-    guess = next((each for each in guesses if each[elastic].sum() > 0), np.ones(elastic.size))
-    return guess[elastic] / (guess[elastic].sum() * cell_area)
+    guess = next((each for each in guesses if each[follow].sum() > 0), np.ones(follow.size))
+    return guess[follow] / (guess[follow].sum() * cell_area)

@@ -1,8 +1,9 @@
-"""The prescribed load, and the state of the contact under it."""
+"""The contact problem under a load, and its solution."""
 
 from __future__ import annotations
 
 import enum
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
@@ -12,10 +13,9 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
-from roughline.halfspace.laws.conditions import ContactConditions, Residuals
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
-from roughline.halfspace.operators.restricted import RestrictedOperator
-from roughline.halfspace.search.separation import Separation
+from roughline.halfspace.search.residuals import Residuals
 
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
 # epsilons of F / (E* sqrt(A_0)) on grids of 8 to 10^6 points.
@@ -41,7 +41,7 @@ class Problem:
         The half-space.
     inverse : ApproximateInverse
         Approximate inverse of its operator on the grid.
-    separation : ndarray or Separation, shape (nx, ny)
+    separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
         until that is indented. [length]
     rms_height : float
@@ -50,16 +50,16 @@ class Problem:
     resolution : float
         Gaps are compared with no less than this part of F / (E* sqrt(A_0)); see
         :attr:`Method.resolution`. [1]
-    conditions : ContactConditions
+    law : ContactLaw
         What pressures and gaps obey.
     """
 
     half_space: HalfSpace
     inverse: ApproximateInverse
-    separation: Real | Separation
+    separation: Real
     rms_height: float
     resolution: float
-    conditions: ContactConditions
+    law: ContactLaw
 
     @property
     def operator(self) -> Operator:
@@ -71,25 +71,32 @@ class Problem:
         """Depth at which the surfaces touch, as they are now. [length]"""
         return float(self.separation.min())
 
-    @property
-    def steps(self) -> Operator | RestrictedOperator:
-        """What the steps of conjugate gradients take for the operator."""
-        return self.operator
+    def reach(self, depth: float, total: float) -> float:
+        """Return how near, beyond the least separation, bodies are that can touch. [length]
 
-    def grid_nodes(self, nodes: Indices) -> GridNodes:
-        """Return nodes of the problem as nodes of the grid."""
-        return GridNodes.of(nodes, self.operator.shape)
+        Where a law only pushes, a node is displaced by the least displacement under unit pressure
+        times the sum of all pressures, or more. Where the bodies are farther apart than the depth
+        and that, they cannot touch.
 
-    def displacement(self, pressure: Real, nodes: Indices, precision: Precision, out: Real) -> Real:
-        """Return the displacement wherever there is a separation, under the pressure on nodes."""
-        return self.operator.displacement(pressure, self.grid_nodes(nodes), None, precision, out)
+        Parameters
+        ----------
+        depth : float
+            Approach of the bodies. [length]
+        total : float
+            Sum of all pressures. [pressure]
+        """
+        if not self.law.only_pushes or math.isinf(self.operator.least):
+            return math.inf
+        return max(0.0, depth - self.touch - total * min(0.0, self.operator.least))
 
-    def fewest_nodes(self, load: Load) -> int:
-        """Return how many nodes a load needs, so that one of them is below the hardness."""
-        if load.force is None:
-            return 1
-        most = self.conditions.largest_pressure * self.operator.cell_area
-        return 1 + int(load.force / most)
+    def is_beyond_full_contact(self, load: Load) -> bool:
+        """Whether a load is deeper than full contact, where that is rigid."""
+        free = self.operator.mean_is_free and load.depth is not None
+        return free and load.value >= float(self.separation.mean())
+
+    def obeying(self, law: ContactLaw) -> Problem:
+        """Return the same bodies under another law."""
+        return self if law is self.law else replace(self, law=law)
 
 
 @dataclass(frozen=True)
@@ -122,7 +129,7 @@ class Method:
 
     @property
     def resolution(self) -> float:
-        """Rounding of displacements over F / (E* sqrt(A_0)), over the tolerance."""
+        """Part of F / (E* sqrt(A_0)) with which gaps are compared at least: rounding over rtol."""
         return _ROUNDINGS * float(np.finfo(self.certificate).eps) / self.rtol
 
 
@@ -148,14 +155,33 @@ class Load:
         assert value is not None
         return value
 
+    def total(self, cell_area: float) -> float | None:
+        """Return the sum of all pressures under a given force; None under a given depth."""
+        return None if self.force is None else self.force / cell_area
+
     @classmethod
     def of(cls, control: Literal["depths", "forces"], value: float) -> Load:
         """Prescribe one value of the quantity under control."""
         return cls(force=value) if control == "forces" else cls(depth=value)
 
-    def error(self, force: float) -> float:
-        """Return how far a force is from the prescribed one, over it; zero under depth control."""
-        return 0.0 if self.force is None else abs(force - self.force) / self.force
+
+@dataclass(frozen=True, eq=False)
+class ContactSet:
+    """Nodes in contact and the pressures on them.
+
+    Attributes
+    ----------
+    nodes : ndarray of int
+        Ascending flat indices in the grid.
+    pressure : ndarray, shape (nodes,)
+        Pressures on them. [pressure]
+    depth : float or None
+        Approach that goes with them, about; None where it is not known. [length]
+    """
+
+    nodes: Indices
+    pressure: Real
+    depth: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,19 +190,21 @@ class Contact:
 
     Attributes
     ----------
+    problem : Problem
+        The bodies, as this load leaves them: with the same separation if it leaves that as it was.
     depth, force : float
         Approach since first touch [length] and total force [force].
     nodes : ndarray of int
-        Nodes in contact, ascending flat indices: after a search, those under pressure.
+        Nodes under pressure, ascending flat indices.
     pressure : ndarray, shape (nodes,)
         Pressures on them. [pressure]
-    plastic : ndarray of bool, shape (nodes,)
-        Which of them are at the hardness.
-    gap : ndarray, shape (nx, ny)
-        Gap on the whole grid. [length]
-    separation : ndarray or Separation, shape (nx, ny)
-        Distance of the bodies at first touch, as this load leaves their surfaces: the problem's
-        own array if it leaves them as they were. [length]
+    plastic, pulling : ndarray of bool, shape (nodes,)
+        Which of them are at the upper bound, and at a lower bound that is not zero. At the other
+        ones the bodies touch, and the pressure follows the load.
+    looked_at : GridNodes or None
+        The nodes that can touch, and the neighbours of the contact; None: all of the grid.
+    gaps : ndarray, shape (nodes looked at,)
+        Gaps there. [length]
     residuals : Residuals
         Violations of the contact conditions by the fields above.
     outcome : Outcome
@@ -185,21 +213,47 @@ class Contact:
         Convolutions spent on this load.
     """
 
+    problem: Problem
     depth: float
     force: float
     nodes: Indices
     pressure: Real
     plastic: Mask
-    gap: Real
-    separation: Real | Separation
+    pulling: Mask
+    looked_at: GridNodes | None
+    gaps: Real
     residuals: Residuals
     outcome: Outcome
     convolutions: int
 
-    def of_loaded_nodes(self) -> Contact:
-        """Return the contact without nodes that touch, within the tolerance, but bear nothing."""
-        loaded = self.pressure > 0
-        if loaded.all():
-            return self
-        nodes, pressure = self.nodes[loaded], self.pressure[loaded]
-        return replace(self, nodes=nodes, pressure=pressure, plastic=self.plastic[loaded])
+    @property
+    def touching(self) -> Mask:
+        """Which nodes' pressures follow a larger load."""
+        return ~(self.plastic | self.pulling)
+
+    @property
+    def separation(self) -> Real:
+        """Distance of the bodies at first touch, as this load leaves them, shape (nx, ny)."""
+        return self.problem.separation
+
+    @cached_property
+    def gap(self) -> Real:
+        """Gap on the whole grid, shape (nx, ny). [length]"""
+        if self.looked_at is None:
+            return self.gaps.reshape(self.separation.shape)
+        nodes = GridNodes.of(self.nodes, self.separation.shape)
+        gap = self.problem.operator.displacement(self.pressure, nodes)
+        gap += self.separation
+        gap -= self.depth
+        gap.flat[self.looked_at.indices] = self.gaps
+        return gap
+
+    def gap_at(self, nodes: Indices) -> Real:
+        """Return the gap at nodes that were looked at: those in contact and their neighbours."""
+        places = nodes
+        if self.looked_at is not None:
+            places = np.searchsorted(self.looked_at.indices, nodes)
+            places[places == self.gaps.size] = 0
+            if not np.array_equal(self.looked_at.indices[places], nodes):
+                return self.gap.ravel()[nodes]
+        return self.gaps[places]

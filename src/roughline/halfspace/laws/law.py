@@ -1,0 +1,191 @@
+"""What pressure and gap obey at a node: all that the search for a contact knows of it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from typing import ClassVar, Literal, Protocol
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Real
+from roughline.errors import InputError
+
+
+class Solved(Protocol):
+    """What a law is shown of a contact that obeys it."""
+
+    @property
+    def nodes(self) -> Indices:
+        """Nodes with a pressure, ascending flat indices."""
+
+    @property
+    def pressure(self) -> Real:
+        """Pressures on them. [pressure]"""
+
+    @property
+    def gap(self) -> Real:
+        """Gap on the whole grid, shape (nx, ny). [length]"""
+
+
+class ContactLaw(ABC):
+    """What pressure and gap obey at a node.
+
+    Under a load the pressure of each node has a lower and an upper bound. Between them the bodies
+    touch, so the gap is zero. At the lower bound they may be apart, at the upper bound they may
+    overlap. Pressures with these properties are unique. All else that a law knows, such as what
+    happened before, it tells by the law that follows it: under the next load (:meth:`start`), or
+    under the same load where a contact does not settle it yet (:meth:`then`).
+
+    Laws are values: none of their methods changes them.
+
+    Attributes
+    ----------
+    memory : {"none", "dents", "path"}
+        What a contact leaves. "none": the order of loads does not matter. "dents": overlaps stay
+        in the surface, and loads below the largest so far retrace their states. "path": each load
+        starts from the one before.
+    only_pushes : bool
+        Whether no pressure is negative, so that nodes that lie too far apart cannot touch.
+    """
+
+    memory: ClassVar[Literal["none", "dents", "path"]] = "none"
+    only_pushes: ClassVar[bool] = True
+
+    @abstractmethod
+    def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
+        """Return the least and the largest pressure of nodes.
+
+        Parameters
+        ----------
+        nodes : ndarray of int, or None
+            Flat indices in the grid; None for all of it.
+
+        Returns
+        -------
+        low, high : float, or ndarray, shape (nodes,)
+            The bounds. The lower one is zero or negative. [pressure]
+        """
+
+    @abstractmethod
+    def scaled(self, pressure: float, length: float) -> ContactLaw:
+        """Return the law in other units of pressures and gaps, given in the old ones."""
+
+    def on(self, take: Callable[[Real], Real]) -> ContactLaw:
+        """Return the law on another grid.
+
+        Parameters
+        ----------
+        take : callable
+            Takes a field over this grid, shape (nx, ny), to one over the other. Only a law that
+            differs from node to node needs it.
+        """
+        return self
+
+    def refuse(
+        self, control: str, values: Real, heights: Real, area: float, mean_is_free: bool
+    ) -> None:
+        """Refuse loads that the law does not allow.
+
+        Parameters
+        ----------
+        control : {"depths", "forces"}
+            What is prescribed.
+        values : ndarray, shape (loads,)
+            Finite loads, in their order. [length] or [force]
+        heights : ndarray, shape (nx, ny)
+            Heights of the surface. [length]
+        area : float
+            Nominal area. [length²]
+        mean_is_free : bool
+            Whether displacements count from their mean, as on a periodic half-space.
+
+        Raises
+        ------
+        InputError
+            If a load is not allowed.
+        """
+        if self.only_pushes:
+            refuse_pulls(control, values)
+
+    def start(self, value: float, last: float | None, largest: float | None) -> ContactLaw:
+        """Return the law with which the search under a load starts.
+
+        Parameters
+        ----------
+        value : float
+            The load. [length] or [force]
+        last, largest : float or None
+            The load before it, and the largest so far; None before the first.
+        """
+        return self
+
+    def foreseen(self, nodes: Indices, pressure: Real) -> ContactLaw:
+        """Return the law to start with where a rough guess has these pressures.
+
+        Parameters
+        ----------
+        nodes : ndarray of int
+            Flat indices in the grid.
+        pressure : ndarray, shape (nodes,)
+            Pressures on them, from a coarser grid. [pressure]
+        """
+        return self
+
+    def then(self, contact: Solved) -> ContactLaw | None:
+        """Return the law that follows under the same load; None if the contact settles it.
+
+        Parameters
+        ----------
+        contact : Solved
+            The contact that obeys this law, in the law's units.
+        """
+        return None
+
+    def bounded(self) -> ContactLaw:
+        """The law to start with where no finite pressures are deep enough for unbounded ones."""
+        return self
+
+    def attainable(self, force: float, cell_area: float) -> float:
+        """Return the force to solve for: one that leaves a node between its bounds. [force]"""
+        return force
+
+    def for_steeper(self, times: float) -> ContactLaw | None:
+        """Return the law under which this surface answers as one so many times steeper would.
+
+        None if all surfaces of one shape answer alike.
+        """
+        return None
+
+    def scales(self, pressure: Real, displacement: Real) -> tuple[float, float]:
+        """Return with what pressures and gaps are compared in the residuals.
+
+        Parameters
+        ----------
+        pressure, displacement : ndarray, shape (nodes,)
+            Pressures and displacements of the nodes in contact. [pressure] and [length]
+
+        Returns
+        -------
+        pressure, length : float
+            The mean magnitude of the pressures, and the largest displacement.
+        """
+        return float(np.abs(pressure).mean()), float(displacement.max())
+
+    def largest_force(self, area: float) -> float:
+        """Return the force under which the mean pressure on an area is the upper bound. [force]"""
+        return float(np.mean(self.bounds(None)[1])) * area
+
+
+def refuse_pulls(control: str, values: Real) -> None:
+    """Refuse loads under which bodies that only push do not touch, unless they unload."""
+    before_touch = np.maximum.accumulate(values) <= 0
+    for wrong, what in (
+        (values < 0, "negative: compression counts positive"),
+        ((values == 0) & before_touch, "zero, at which nothing touches"),
+    ):
+        if wrong.any():
+            raise InputError(
+                f"{control}[{wrong.argmax()}] is {values[wrong][0]}, {what}; give positive "
+                "numbers, and zero only to unload"
+            )

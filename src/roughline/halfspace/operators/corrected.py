@@ -1,0 +1,72 @@
+"""The operator of a search: approximate, and exact for the pressures around which it is centred."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Real
+from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
+from roughline.halfspace.operators.restricted import RestrictedOperator
+
+
+@dataclass(frozen=True, eq=False)
+class CorrectedOperator:
+    """The displacements u = u_0 + R (p - p_0) of some nodes of a grid under pressures on them.
+
+    The exact operator gives u_0 under p_0. What further changes of pressure add comes from a
+    restricted operator R, or from the exact one itself, which then needs no p_0. A node is given
+    by its place among these nodes.
+
+    Attributes
+    ----------
+    exact : Operator
+        Displacement under pressures on the whole grid.
+    restricted : RestrictedOperator or None
+        R; None: the exact operator.
+    nodes : GridNodes or None
+        The nodes; None: all of the grid.
+    before, moved : ndarray, shape (nodes,), or None
+        p_0 and u_0; None: zero. [pressure] and [length]
+    """
+
+    exact: Operator
+    restricted: RestrictedOperator | None = None
+    nodes: GridNodes | None = None
+    before: Real | None = None
+    moved: Real | None = None
+
+    @property
+    def linear(self) -> Operator | RestrictedOperator:
+        """R, which gives what changes of pressure add."""
+        return self.restricted or self.exact
+
+    def on_grid(self, places: Indices) -> Indices:
+        """Return nodes as flat indices in the grid."""
+        return places if self.nodes is None else self.nodes.indices[places]
+
+    def grid_nodes(self, places: Indices) -> GridNodes:
+        """Return nodes listed row by row."""
+        return GridNodes.of(self.on_grid(places), self.exact.shape)
+
+    def displacement(self, pressure: Real, places: Indices, precision: Precision) -> Real:
+        """Return the displacement of all nodes under the pressure on some, shape (nodes,)."""
+        if self.restricted is None:
+            return self._exactly(pressure, places, precision)
+        assert self.nodes is not None
+        change = np.zeros(self.nodes.indices.size) if self.before is None else -self.before
+        change[places] += pressure
+        moved = self.restricted.displacement(change, self.nodes, self.nodes, precision)
+        return moved if self.moved is None else np.add(moved, self.moved, out=moved)
+
+    def recentred(self, pressure: Real, places: Indices, precision: Precision) -> CorrectedOperator:
+        """Return the operator that is exact for the pressure on some nodes."""
+        moved = self._exactly(pressure, places, precision)
+        before = np.zeros_like(moved)
+        before[places] = pressure
+        return replace(self, before=before, moved=moved)
+
+    def _exactly(self, pressure: Real, places: Indices, precision: Precision) -> Real:
+        sources = self.grid_nodes(places)
+        return self.exact.displacement(pressure, sources, self.nodes, precision).ravel()

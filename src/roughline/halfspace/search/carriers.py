@@ -1,0 +1,82 @@
+"""The nodes of a region that carry pressure, by their places in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Mask, Real
+from roughline.halfspace.laws.bounds import Bounds
+
+
+@dataclass(frozen=True, eq=False)
+class Carriers:
+    """Nodes that carry pressure.
+
+    Attributes
+    ----------
+    places : ndarray of int
+        Their places in a region, ascending.
+    pressure : ndarray, shape (carriers,)
+        Pressures on them. [pressure]
+    """
+
+    places: Indices
+    pressure: Real
+
+    def without(self, leaving: Mask) -> Carriers:
+        """Return the carriers without some of them."""
+        if not leaving.any():
+            return self
+        return Carriers(self.places[~leaving], self.pressure[~leaving])
+
+    def joined_by(self, others: Indices, pressure: Real | float = 0.0) -> Carriers:
+        """Return the carriers with other nodes as well, on which there is a pressure."""
+        if not others.size:
+            return self
+        places, order = merged(self.places, others)
+        joining = np.broadcast_to(pressure, others.shape)
+        return Carriers(places, np.append(self.pressure, joining)[order])
+
+    def can_carry(self, total: float | None, bounds: Bounds) -> bool:
+        """Whether there are carriers, and the pressures on them can sum to more than a total."""
+        if total is None or not self.places.size:
+            return self.places.size > 0
+        most = np.broadcast_to(np.asarray(bounds.at(self.places).high), self.places.shape)
+        return float(most.sum()) > total
+
+    def able_to_carry(self, total: float | None, bounds: Bounds, gap: Real) -> Carriers:
+        """Return the carriers, joined by nodes of smallest gap if they cannot bear the load.
+
+        Parameters
+        ----------
+        total : float or None
+            What the pressures of all carriers have to sum to; None: anything. [pressure]
+        bounds : Bounds
+            Of the pressures of all nodes of the region.
+        gap : ndarray, shape (nodes,)
+            Gap at all of them, from any datum. [length]
+        """
+        if self.can_carry(total, bounds) or self.places.size == gap.size:
+            return self
+        high = np.broadcast_to(np.asarray(bounds.high), gap.shape)
+        lacking = (total or 0.0) - float(high[self.places].sum())
+        gaps = gap.copy()
+        gaps[self.places] = np.inf
+        nearest = np.argsort(gaps, kind="stable")[: gap.size - self.places.size]
+        more = 1 + int(np.searchsorted(np.cumsum(high[nearest]), lacking, side="right"))
+        return self.joined_by(np.sort(nearest[:more]))
+
+
+def merged(places: Indices, others: Indices) -> tuple[Indices, Indices]:
+    """Merge two ascending lists without common entries.
+
+    Returns
+    -------
+    merged, order : ndarray of int
+        The ascending list, and where each of its entries stood in the chain of the two lists.
+    """
+    chain = np.concatenate([places, others])
+    order = np.argsort(chain, kind="stable")
+    return chain[order], order

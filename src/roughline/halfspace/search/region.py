@@ -1,0 +1,340 @@
+"""The nodes of a grid among which a contact is sought, and what pressures on them leave."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Mask, Real
+from roughline.halfspace.laws.bounds import Bounds
+from roughline.halfspace.operators import loops
+from roughline.halfspace.operators.corrected import CorrectedOperator
+from roughline.halfspace.operators.operator import GridNodes, Precision
+from roughline.halfspace.search.carriers import Carriers, merged
+from roughline.halfspace.search.problem import Contact, ContactSet, Load, Outcome, Problem
+from roughline.halfspace.search.residuals import Residuals
+
+# Nodes of a gap below so many times the error on contact may come into contact.
+REACH = 2.0
+_LARGEST = 0.4  # part of the grid that is a region by itself
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """Nodes among which a contact is sought; each is given by its place among them.
+
+    Attributes
+    ----------
+    problem : Problem
+        The bodies.
+    operator : CorrectedOperator
+        The displacements of the nodes.
+    separation : ndarray, shape (nodes,)
+        Distance of the bodies there. [length]
+    bounds : Bounds
+        Of the pressures there.
+    reach : float
+        All nodes are here where the bodies, as they are now, are nearer than this at first touch.
+        [length]
+    """
+
+    problem: Problem
+    operator: CorrectedOperator
+    separation: Real
+    bounds: Bounds
+    reach: float
+
+    @classmethod
+    def whole(cls, problem: Problem) -> Region:
+        """All nodes of the grid, with the exact operator."""
+        bounds = Bounds.of(problem.law, None)
+        operator, separation = CorrectedOperator(problem.operator), problem.separation.ravel()
+        return cls(problem, operator, separation, bounds, math.inf)
+
+    @classmethod
+    def possible(cls, problem: Problem, contact: Indices, reach: float) -> Region:
+        """All nodes that lie nearer than a reach, with the exact operator.
+
+        The nodes of a contact and their neighbours are among them, too.
+        """
+        if math.isinf(reach):
+            return cls.whole(problem)
+        shown = problem.separation <= problem.touch + reach
+        x, y = np.divmod(contact, shown.shape[1])
+        for step in (-1, 0, 1):
+            shown[(x + step) % shown.shape[0], y] = True
+            shown[x, (y + step) % shown.shape[1]] = True
+        places = np.flatnonzero(shown)
+        if places.size > _LARGEST * shown.size:
+            return cls.whole(problem)
+        nodes = GridNodes.of(places, shown.shape)
+        bounds, separation = Bounds.of(problem.law, places), problem.separation.flat[places]
+        return cls(
+            problem, CorrectedOperator(problem.operator, nodes=nodes), separation, bounds, reach
+        )
+
+    def on_grid(self, carriers: Carriers, depth: float) -> ContactSet:
+        """Return carriers as a contact set of the grid, at a depth."""
+        return ContactSet(self.operator.on_grid(carriers.places), carriers.pressure, depth)
+
+    def carriers(self, contact_set: ContactSet) -> Carriers:
+        """Return the nodes of a contact set as carriers, within their bounds.
+
+        Nodes whose bounds allow no zero pressure are among them.
+        """
+        nodes = contact_set.nodes
+        if self.operator.nodes is not None:
+            nodes = np.searchsorted(self.operator.nodes.indices, nodes)
+        found = Carriers(nodes, self.bounds.at(nodes).nearest(contact_set.pressure))
+        pulled = np.setdiff1d(self.bounds.pulled, nodes, assume_unique=True)
+        return found.joined_by(pulled, self.bounds.at(pulled).low)
+
+    def near(self, trial: Trial, reach: float) -> tuple[Region, Carriers] | None:
+        """Return the nodes near the contact of a trial as a region; None if that costs more.
+
+        Parameters
+        ----------
+        trial : Trial
+            A trial in this region, with the exact operator.
+        reach : float
+            Nodes off the contact are in it whose gap is below so many times the error on contact.
+        """
+        problem, carriers, grid = self.problem, trial.carriers, self.problem.operator.shape
+        most = max(0, int(_LARGEST * math.prod(grid)) - carriers.places.size)
+        places, order = merged(carriers.places, trial.close(reach, most))
+        nodes = self.operator.grid_nodes(places)
+        restricted = problem.inverse.restricted.on(nodes)
+        if restricted is None:
+            return None
+        found = Carriers(np.flatnonzero(order < carriers.places.size), carriers.pressure)
+        before = np.zeros(places.size)
+        before[found.places] = found.pressure
+        separation = self.separation[places]
+        moved = trial.gap[places]
+        moved[found.places[trial.plastic]] -= trial.overlap
+        moved += trial.approach
+        moved -= separation - problem.touch
+        operator = CorrectedOperator(problem.operator, restricted, nodes, before, moved)
+        return Region(problem, operator, separation, self.bounds.at(places), 0.0), found
+
+    def recentred(self, carriers: Carriers, precision: Precision) -> Region:
+        """Return the region with the operator that is exact for the pressures of carriers."""
+        operator = self.operator.recentred(carriers.pressure, carriers.places, precision)
+        return replace(self, operator=operator)
+
+    def trial(
+        self,
+        load: Load,
+        carriers: Carriers,
+        precision: Precision,
+        *,
+        rescale: bool = False,
+    ) -> Trial:
+        """Compute the gaps that pressures leave, and their residuals.
+
+        Parameters
+        ----------
+        load : Load
+            What is prescribed. Under a given force the pressures are scaled to it.
+        carriers : Carriers
+            The nodes under pressure.
+        precision : {"float64", "float32"}
+            Precision of the convolution.
+        rescale : bool
+            Whether to scale the pressures under a given depth, too, to those of least energy.
+        """
+        places, pressure = carriers.places, carriers.pressure
+        bounds, touch = self.bounds.at(places), self.problem.touch
+        cell_area = self.problem.operator.cell_area
+        if load.force is None:
+            pressure = np.minimum(pressure, bounds.high)
+        else:
+            pressure = bounds.with_total(pressure, load.force / cell_area)
+        touching = bounds.touching(pressure)
+        moved = self.operator.displacement(pressure, places, precision)
+        # dents put touch deep: from there on, differences of lengths lose least to rounding
+        above = self.separation[places] - touch
+        approach = None if load.depth is None else load.depth - touch
+        if approach is not None and rescale and touching.all() and places.size:
+            factor = _best_factor(approach - above, pressure, moved[places])
+            below = np.nextafter(bounds.high, 0.0)  # so that none reaches its bound
+            with np.errstate(divide="ignore", over="ignore"):
+                factor = min(factor, float((below / pressure).min()))
+            pressure = np.minimum(factor * pressure, below)  # the product may be rounded up
+            moved *= factor
+        if approach is None:
+            approach = _level(moved[places] + above, pressure, touching)
+        loops.leave_gaps(moved, self.separation, touch, approach)
+        return Trial.of(self, load, Carriers(places, pressure), approach, moved)
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """Pressures in a region under a load, and what follows from them.
+
+    Attributes
+    ----------
+    region : Region
+        The region.
+    carriers : Carriers
+        The nodes under pressure.
+    touching, plastic : ndarray of bool, shape (carriers,)
+        Which of them are between their bounds, and at the upper one.
+    approach, force : float
+        Approach since the surfaces, as they are now, touch [length] and total force [force].
+    gap : ndarray, shape (nodes,)
+        Gap on the surface as the load indents it. [length]
+    overlap : ndarray, shape (plastic carriers,)
+        By how much it indents these. [length]
+    length_scale : float
+        Gaps are compared with this. [length]
+    residuals : Residuals
+        Violations of the contact conditions.
+    """
+
+    region: Region
+    carriers: Carriers
+    touching: Mask
+    plastic: Mask
+    approach: float
+    force: float
+    gap: Real
+    overlap: Real
+    length_scale: float
+    residuals: Residuals
+
+    @classmethod
+    def of(
+        cls,
+        region: Region,
+        load: Load,
+        carriers: Carriers,
+        approach: float,
+        gap: Real,
+    ) -> Trial:
+        """Compute the residuals of pressures with the gap that they leave."""
+        problem, places, pressure = region.problem, carriers.places, carriers.pressure
+        bounds, cell_area = region.bounds.at(places), problem.operator.cell_area
+        touching, plastic = bounds.touching(pressure), bounds.yielding(pressure)
+        force, borne = (cell_area * float(each.sum()) for each in (pressure, np.abs(pressure)))
+        # 1. The scales. Where a flat body bears evenly hardly anything moves: there a gap is
+        # compared with what rounding leaves of displacements, over the tolerance.
+        pressure_scale, length_scale = 1.0, abs(approach)
+        if borne > 0:
+            displacement = gap[places] + approach - (region.separation[places] - problem.touch)
+            pressure_scale, length_scale = problem.law.scales(pressure, displacement)
+        side = math.sqrt(math.prod(problem.operator.shape)) * math.sqrt(cell_area)
+        least = problem.resolution * borne / (problem.half_space.E_star * side)
+        length_scale = max(length_scale, least)
+        if problem.rms_height:
+            length_scale = min(problem.rms_height, length_scale)
+        # 2. Overlaps of plastic nodes are dents, and pulling nodes may be apart. Gaps of carriers
+        # count whatever their sign, so they may stay in the minimum.
+        overlap = np.maximum(-gap[places[plastic]], 0.0)
+        gap[places[plastic]] += overlap
+        on_carriers = gap[places]
+        on_contact = np.where(touching | plastic, on_carriers, np.minimum(on_carriers, 0.0))
+        least_on_contact = float(on_contact.min(initial=0.0))
+        least_gap = float(gap.min(initial=0.0))
+        below, above = bounds.missed(pressure)
+        residuals = Residuals(
+            gap=float(np.abs(on_contact).max(initial=0.0)) / length_scale,
+            penetration=-least_gap / length_scale if least_gap < least_on_contact else 0.0,
+            tension=below / pressure_scale if below else 0.0,
+            excess=above / pressure_scale if above else 0.0,
+            load=0.0 if load.force is None else abs(force - load.force) / borne,
+            rounding=float(np.spacing(abs(approach))) / length_scale,
+        )
+        return cls(
+            region,
+            carriers,
+            touching,
+            plastic,
+            approach,
+            force,
+            gap,
+            overlap,
+            length_scale,
+            residuals,
+        )
+
+    @property
+    def depth(self) -> float:
+        """Approach since the untouched surfaces touch. [length]"""
+        return self.region.problem.touch + self.approach
+
+    def certified(self, rtol: float) -> bool:
+        """Whether the residuals are within a tolerance, and no node overlaps that was left out."""
+        return self.residuals.worst <= rtol and not self.residuals.penetration
+
+    @property
+    def watched(self) -> Indices:
+        """The nodes without pressure that may come into contact, about as many as carriers."""
+        others, most = self.close(REACH, self.gap.size), self.carriers.places.size
+        if others.size <= most:
+            return others
+        gaps = self.gap[others]
+        return others[gaps <= np.partition(gaps, most)[most]]
+
+    def close(self, reach: float, most: int) -> Indices:
+        """Return the nodes without pressure whose gap is small, at most so many.
+
+        Parameters
+        ----------
+        reach : float
+            Small is less than so many times the error where the bodies touch.
+        most : int
+            How many nodes there may be.
+        """
+        places = self.carriers.places
+        on_contact = self.gap[places[self.touching | self.plastic]]
+        error = float(np.sqrt(np.mean(on_contact**2))) if on_contact.size else 0.0
+        close = self.gap < (reach if math.isinf(reach) else reach * error)
+        close[places] = False
+        others = np.flatnonzero(close)
+        if others.size <= most:
+            return others
+        return others[np.sort(np.argpartition(self.gap[others], most)[:most])]
+
+    def contact(self, outcome: Outcome, convolutions: int) -> Contact:
+        """Return the trial as the contact with which a search ended."""
+        problem, operator = self.region.problem, self.region.operator
+        nodes, pressure = operator.on_grid(self.carriers.places), self.carriers.pressure
+        separation = problem.separation
+        if self.overlap.any():
+            separation = separation.copy()
+            separation.flat[nodes[self.plastic]] += self.overlap
+        # a node that touches but bears nothing counts neither in the area nor in the stiffness
+        loaded = pressure != 0
+        return Contact(
+            problem=replace(problem, separation=separation),
+            depth=self.depth,
+            force=self.force,
+            nodes=nodes[loaded],
+            pressure=pressure[loaded],
+            plastic=self.plastic[loaded],
+            pulling=~(self.touching | self.plastic)[loaded],
+            looked_at=operator.nodes,
+            gaps=self.gap,
+            residuals=self.residuals,
+            outcome=outcome,
+            convolutions=convolutions,
+        )
+
+
+def _level(displaced: Real, pressure: Real, touching: Mask) -> float:
+    """Return the depth that goes with pressures, from where they put the nodes under them."""
+    weights = pressure[touching]
+    total = float(weights.sum())
+    if total > 0 and not (weights < 0).any():  # the work of the pressures
+        return float(weights @ displaced[touching]) / total
+    # nodes that have just come into contact, or else all of them overlap
+    return float(displaced[touching].mean() if touching.any() else displaced.max())
+
+
+def _best_factor(target: Real, pressure: Real, displacement: Real) -> float:
+    """Return the factor by which the pressures come closest to the target, in energy."""
+    energy = float(pressure @ displacement)
+    return max(float(pressure @ target) / energy, 0.0) if energy > 0 else 1.0
