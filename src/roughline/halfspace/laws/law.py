@@ -168,9 +168,11 @@ class ContactLaw(ABC):
         Returns
         -------
         pressure, length : float
-            The mean magnitude of the pressures, and the largest displacement.
+            The mean magnitude of the pressures, and the largest displacement; that of largest
+            magnitude where bodies pull.
         """
-        return float(np.abs(pressure).mean()), float(displacement.max())
+        moved = displacement if self.only_pushes else np.abs(displacement)
+        return float(np.abs(pressure).mean()), float(moved.max())
 
     def largest_force(self, area: float) -> float:
         """Return the force under which the mean pressure on an area is the upper bound. [force]"""

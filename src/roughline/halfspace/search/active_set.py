@@ -449,7 +449,9 @@ class _StoppingRule:
         if spent:
             return Outcome.CONVERGED if certified else Outcome.MAX_ITERATIONS
         error = worst * trial.length_scale  # which falls itself where pressures become even
-        if not rule.wrong and error > 0.5 * self._error_before:
+        # nodes that overlap are about to join, and more may follow them
+        wrong = rule.wrong or trial.residuals.penetration
+        if not wrong and error > 0.5 * self._error_before:
             if self.steps == self._method.certificate:
                 return Outcome.CONVERGED if certified else Outcome.STALLED
             self.steps = self._method.certificate

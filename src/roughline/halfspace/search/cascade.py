@@ -72,7 +72,7 @@ def _halved(field: Real) -> Real:
     result = np.empty((-(-nx // 2), -(-ny // 2)))
 
     def halve(first: int, last: int) -> None:
-        part = field[2 * first : 2 * last]
+        part = np.asarray(field[2 * first : 2 * last], dtype=np.float64)
         for axis, n in enumerate(part.shape):
             along = np.moveaxis(part, axis, 0)
             halves = along[::2].copy()
@@ -132,7 +132,7 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
         counts = range(1, separations.size + 1)
         reached = bisect_left(counts, True, key=lambda count: depth_of(count) <= beyond[count - 1])
         depth = depth_of(counts[reached])
-        fewest = int(force / problem.law.largest_force(problem.operator.cell_area))
-        depth = max(depth, float(separations[min(fewest, separations.size - 1)]))
+        fewest = np.nan_to_num(force / problem.law.largest_force(problem.operator.cell_area))
+        depth = max(depth, float(separations[min(int(fewest), separations.size - 1)]))
     nodes = np.flatnonzero(separation < depth)
     return ContactSet(nodes, depth - separation.flat[nodes], load.depth)

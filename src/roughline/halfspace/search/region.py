@@ -157,7 +157,7 @@ class Region:
         # dents put touch deep: from there on, differences of lengths lose least to rounding
         above = self.separation[places] - touch
         approach = None if load.depth is None else load.depth - touch
-        if approach is not None and rescale and touching.all() and places.size:
+        if approach is not None and rescale and touching.all() and self.problem.law.only_pushes:
             factor = _best_factor(approach - above, pressure, moved[places])
             below = np.nextafter(bounds.high, 0.0)  # so that none reaches its bound
             with np.errstate(divide="ignore", over="ignore"):
@@ -227,9 +227,9 @@ class Trial:
             pressure_scale, length_scale = problem.law.scales(pressure, displacement)
         side = math.sqrt(math.prod(problem.operator.shape)) * math.sqrt(cell_area)
         least = problem.resolution * borne / (problem.half_space.E_star * side)
-        length_scale = max(length_scale, least)
+        length_scale = float(np.maximum(length_scale, least))  # which keep what is no number
         if problem.rms_height:
-            length_scale = min(problem.rms_height, length_scale)
+            length_scale = float(np.minimum(problem.rms_height, length_scale))
         # 2. Overlaps of plastic nodes are dents, and pulling nodes may be apart. Gaps of carriers
         # count whatever their sign, so they may stay in the minimum.
         overlap = np.maximum(-gap[places[plastic]], 0.0)
@@ -242,8 +242,8 @@ class Trial:
         residuals = Residuals(
             gap=float(np.abs(on_contact).max(initial=0.0)) / length_scale,
             penetration=-least_gap / length_scale if least_gap < least_on_contact else 0.0,
-            tension=below / pressure_scale if below else 0.0,
-            excess=above / pressure_scale if above else 0.0,
+            tension=below / pressure_scale,
+            excess=above / pressure_scale,
             load=0.0 if load.force is None else abs(force - load.force) / borne,
             rounding=float(np.spacing(abs(approach))) / length_scale,
         )
