@@ -22,7 +22,7 @@ import roughline as rl
 from roughline.computing.cores import available_cores
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators.discretisation import on_grid
-from roughline.halfspace.operators.operator import GridNodes
+from roughline.halfspace.operators.grid_nodes import GridNodes
 
 CORES = available_cores()
 

@@ -8,7 +8,7 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse import approximate_inverse as room
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
 from roughline.halfspace.operators.discretisation import on_grid
-from roughline.halfspace.operators.operator import GridNodes
+from roughline.halfspace.operators.grid_nodes import GridNodes
 
 SHAPE = 310, 600  # so that there are more blocks than are solved directly, and some are cut
 

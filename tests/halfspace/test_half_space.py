@@ -8,8 +8,9 @@ import pytest
 import roughline as rl
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import coarser_grid, on_grid
-from roughline.halfspace.operators.operator import GridNodes, displacement_field
+from roughline.halfspace.operators.grid_nodes import GridNodes
 
 ROUNDING = 1e-13
 

@@ -12,8 +12,8 @@ import random_surfaces
 import roughline as rl
 from random_surfaces import surfaces
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
-from roughline.halfspace.operators.operator import displacement_field
 
 laws = settings(random_surfaces.laws, max_examples=15)
 

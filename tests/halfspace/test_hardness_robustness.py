@@ -8,8 +8,8 @@ import pytest
 import roughline as rl
 from random_problems import E_STAR, random_history
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
-from roughline.halfspace.operators.operator import displacement_field
 
 PROBLEMS = 2000 if "ROUGHLINE_FUZZ" in os.environ else 100  # `make fuzz` takes all
 RTOL = {"mixed": 1e-6, "float64": 1e-6, "float32": 1e-3}

@@ -8,8 +8,9 @@ import pytest
 
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.elasticity.kernel import love, love_rows
+from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
-from roughline.halfspace.operators.operator import GridNodes, displacement_field
+from roughline.halfspace.operators.grid_nodes import GridNodes
 
 KERNEL = 4e-15  # relative
 

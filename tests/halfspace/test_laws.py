@@ -9,8 +9,8 @@ import roughline as rl
 from random_surfaces import laws, surfaces
 from roughline.exact.punch import square_stiffness
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
+from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
-from roughline.halfspace.operators.operator import displacement_field
 
 RTOL = 1e-6  # the certified tolerance
 NEUTRAL = 1e-9  # the problem is solved without units: only their rounding is left

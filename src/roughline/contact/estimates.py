@@ -138,8 +138,8 @@ def estimate(
 def _convolution_seconds(shape: tuple[int, int], periodic: bool) -> float:
     """Return how long a convolution of whole fields takes, from the time of a small one. [s]"""
     # compiled loops load slowly, so only here
+    from roughline.halfspace.operators.convolution import displacement_field
     from roughline.halfspace.operators.discretisation import on_grid
-    from roughline.halfspace.operators.operator import displacement_field
 
     operator = on_grid(Homogeneous(1.0, periodic), (_PROBE, _PROBE), (1.0, 1.0))
     pressure = np.ones(operator.shape)

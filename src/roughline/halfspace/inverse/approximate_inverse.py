@@ -26,7 +26,8 @@ from roughline.computing.arrays import Indices, Integers, Real, Single
 from roughline.halfspace.inverse import block_loops as loops
 from roughline.halfspace.inverse.blocks import MOST_DENSE, BlockKernel, Dense, even_on_blocks
 from roughline.halfspace.inverse.even_sums import Lags, even_sums
-from roughline.halfspace.operators.operator import GridNodes, Operator, unit_in_single
+from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.grid_nodes import GridNodes, unit_in_single
 from roughline.halfspace.operators.restricted import NEAR, RestrictedOperators
 
 _RADIUS = 2  # of the stencil in cells, where these are square
@@ -41,7 +42,7 @@ class ApproximateInverse:
 
     Attributes
     ----------
-    operator : Operator
+    operator : Convolution
         Displacement under pressures on the whole grid.
     offsets : ndarray of int, shape (taps, 2)
         Cells from the centre of the stencil.
@@ -60,7 +61,7 @@ class ApproximateInverse:
         Forms of the operator that cost what the contact costs.
     """
 
-    operator: Operator
+    operator: Convolution
     offsets: Indices
     taps: Real
     block_sides: tuple[int, int]
@@ -69,7 +70,7 @@ class ApproximateInverse:
     restricted: RestrictedOperators
 
     @classmethod
-    def of(cls, operator: Operator) -> ApproximateInverse:
+    def of(cls, operator: Convolution) -> ApproximateInverse:
         """Derive it from the operator's spectrum."""
         raised = _raised(operator)
         dx, dy = operator.spacing
@@ -133,7 +134,7 @@ class ApproximateInverse:
         return kernel.astype(np.float32)
 
 
-def _raised(operator: Operator) -> float:
+def _raised(operator: Convolution) -> float:
     """Return what is added to the kernel, so that even pressure displaces as other pressures do.
 
     Nothing, unless even pressure displaces nothing.
@@ -141,7 +142,7 @@ def _raised(operator: Operator) -> float:
     return float(operator.spectrum.max()) if operator.mean_is_free else 0.0
 
 
-def _stencil_cells(operator: Operator, stretch: float) -> Indices:
+def _stencil_cells(operator: Convolution, stretch: float) -> Indices:
     """Return the cells of the stencil, counted from its centre."""
     radii = _RADIUS * stretch, _RADIUS / stretch
     reach = [

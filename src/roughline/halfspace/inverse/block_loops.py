@@ -23,7 +23,7 @@ class Layout(NamedTuple):
     blocks : ndarray of int
         The block of its band to which each column belongs.
     rows, starts, columns : ndarray of int
-        As those of :class:`roughline.halfspace.operators.operator.GridNodes`.
+        As those of :class:`roughline.halfspace.operators.grid_nodes.GridNodes`.
     first_run, runs : ndarray of int
         Its runs.
     corner, width : int
@@ -57,20 +57,7 @@ def scatter_details(
 ) -> None:
     """Write the values of some bands, without their means over blocks, to a flat grid.
 
-    Parameters
-    ----------
-    values : ndarray, shape (nodes,)
-        Values of all nodes.
-    at : Layout
-        Where the nodes lie.
-    per_node : ndarray, shape of the lattice of blocks
-        One over the nodes of each block.
-    first, last : int
-        The bands to do.
-    sums : ndarray, shape of the lattice of blocks
-        Overwritten in these bands with the sums of the values.
-    grid : ndarray
-        Overwritten at the nodes.
+    The sums over blocks, of the shape of the lattice, are written, too, in these bands.
     """
     for band in range(first, last):
         total = sums[band]
@@ -96,20 +83,9 @@ def apply_stencil(
 ) -> None:
     """Apply a stencil at the nodes of some bands, and set the means over blocks.
 
-    Parameters
-    ----------
-    grid : ndarray
-        Flat, zero but at the nodes, with margins wider than the stencil by ROUNDING.
-    at : Layout
-        Where the nodes lie.
-    stencil : tuple of ndarray, shape (1 + 6 n,)
-        Flat offsets and coefficients, the central one first.
-    even : tuple of ndarray, shape of the lattice of blocks
-        The means over blocks, and one over the nodes of each block.
-    first, last : int
-        The bands to do.
-    result : ndarray, shape (nodes,)
-        Overwritten where the nodes of these bands are.
+    The grid is flat, and zero but at the nodes, with margins wider than the stencil by ROUNDING. Of
+    the stencil, flat offsets and 1 + 6 n coefficients are given, the central one first; of what is
+    even, the means over blocks, and one over the nodes of each block.
     """
     (offsets, taps), (means, per_node) = stencil, even
     sums = np.empty(at.width, dtype=grid.dtype)

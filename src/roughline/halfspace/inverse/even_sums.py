@@ -36,21 +36,8 @@ def even_sums(
 ) -> tuple[Real, Real, Real]:
     """Transform a spectrum and its inverse back, in one pass and only at the lags that are wanted.
 
-    Parameters
-    ----------
-    spectrum : ndarray, shape (periods[0] // 2 + 1, periods[1] // 2 + 1)
-        A quarter of a spectrum that is even and not negative.
-    periods : tuple of int
-        Its whole size.
-    lags, near_lags : Lags
-        Where the sums of the spectrum are wanted.
-    inverse_lags : Lags
-        Where those of its inverse are wanted; that is taken to be zero where the spectrum is.
-
-    Returns
-    -------
-    tuple of ndarray
-        The sums at the three, of the shapes of their counts.
+    The spectrum is even and not negative, and a quarter is given. Its sums are returned at `lags`,
+    those of its inverse, which is zero where it is, at `inverse_lags`, and its own at `near_lags`.
     """
     wanted = (lags, inverse_lags, near_lags)
     axes = [_axes(periods, each) for each in wanted]

@@ -18,7 +18,7 @@ from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real, Single
 from roughline.halfspace.operators import restricted_loops as loops
 from roughline.halfspace.operators.convolution import Convolution
-from roughline.halfspace.operators.operator import GridNodes, Operator
+from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.padded_grid import PaddedGrid
 from roughline.halfspace.operators.small_grid import SmallGrid
 
@@ -47,17 +47,11 @@ class CoarseGrid:
     periodic: bool
 
     @classmethod
-    def of(cls, operator: Operator, ratios: tuple[int, int], spectrum: Real) -> CoarseGrid:
-        """Put a smooth kernel on a coarse grid.
+    def of(cls, operator: Convolution, ratios: tuple[int, int], spectrum: Real) -> CoarseGrid:
+        """Put a smooth kernel, given by a quarter of its spectrum, on a coarse grid.
 
-        Parameters
-        ----------
-        operator : Operator
-            The operator on the fine grid.
-        ratios : tuple of int
-            Cells along the sides of a coarse cell; they divide the periods.
-        spectrum : ndarray, shape (coarse periods // 2 + 1)
-            A quarter of the spectrum of the kernel, as in :class:`Operator`.
+        The ratios are cells of the operator along the sides of a coarse cell, and divide its
+        periods.
         """
         px, py = (period // ratio for period, ratio in zip(operator.periods, ratios, strict=True))
         # the spectrum of a B-spline's values on the grid, there and back
@@ -86,17 +80,7 @@ class CoarseGrid:
         return GridNodes.of(np.arange(nx * ny), (nx, ny))
 
     def displacement(self, pressure: Single, sources: GridNodes, grid: PaddedGrid) -> Single:
-        """Return the displacement of the coarse nodes, and leave the pressures on a fine grid.
-
-        Parameters
-        ----------
-        pressure : ndarray
-            Pressures on the sources. [pressure]
-        sources : GridNodes
-            Nodes of the fine grid.
-        grid : PaddedGrid
-            Where the pressures are written.
-        """
+        """Return the displacement of the coarse nodes, and leave the pressures on a fine grid."""
         (nx, ny), beyond = self.convolution.shape, _BEYOND if self.periodic else 0
         spread, moved = (
             self.convolution.workspace.empty(part, (nx + beyond, ny + beyond), np.float32)
@@ -135,19 +119,7 @@ class CoarseGrid:
 def at_cells(
     spectrum: Real, periods: tuple[int, int], ratios: tuple[int, int], lags: list[Indices]
 ) -> Real:
-    """Transform an even spectrum back, given by its quarter, to some cells of a finer grid.
-
-    Parameters
-    ----------
-    spectrum : ndarray, shape (periods // 2 + 1)
-        The quarter.
-    periods : tuple of int
-        Of the coarse grid.
-    ratios : tuple of int
-        Cells along the sides of a coarse cell.
-    lags : list of ndarray
-        The cells, along x and y.
-    """
+    """Transform the quarter of an even spectrum back, to cells of a finer grid along x and y."""
     result = spectrum
     for axis, period in enumerate(periods):
         modes = np.arange(period // 2 + 1)

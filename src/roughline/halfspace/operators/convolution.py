@@ -12,7 +12,7 @@ from roughline.computing import fft
 from roughline.computing.arrays import Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators import loops
-from roughline.halfspace.operators.operator import GridNodes, Precision, unit_in_single
+from roughline.halfspace.operators.grid_nodes import GridNodes, Precision, unit_in_single
 from roughline.halfspace.operators.pair_sums import ROWS_AT_A_TIME, displaced_by_pairs
 from roughline.halfspace.operators.workspace import Workspace
 
@@ -106,8 +106,22 @@ class Convolution:
 
         Pairs of few nodes are summed over; other displacements are transformed.
 
-        Parameters and result are those of
-        :meth:`roughline.halfspace.operators.operator.Operator.displacement`.
+        Parameters
+        ----------
+        pressure : ndarray
+            Pressures on the sources. [pressure]
+        sources, targets : GridNodes
+            Where the pressure acts, and where the displacement is wanted; None: everywhere.
+        precision : {"float64", "float32"}
+            Precision of the computation. Single precision errs by some 1e-7 of the largest
+            displacement.
+        out : ndarray, optional
+            Where to write the result.
+
+        Returns
+        -------
+        ndarray, shape of targets or (nx, ny)
+            Displacement. [length]
         """
         if precision == "float32" and (unit := unit_in_single(pressure)) != 1:
             result = self.displacement(pressure / unit, sources, targets, precision, out)
@@ -183,3 +197,9 @@ class Convolution:
         fft.share_out_blocks(transform_rows, pairs, pairs_at_a_time)
         fft.share_out_blocks(convolve_columns, spectrum.shape[1], modes_at_a_time)
         fft.share_out_blocks(transform_rows_back, pairs_out, pairs_at_a_time)
+
+
+def displacement_field(operator: Convolution, pressure: Real) -> Real:
+    """Return the displacement everywhere under the pressure on each cell, shape (nx, ny)."""
+    nodes = np.flatnonzero(pressure)
+    return operator.displacement(pressure.flat[nodes], GridNodes.of(nodes, operator.shape))

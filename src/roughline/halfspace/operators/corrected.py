@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
+from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.operators.restricted import RestrictedOperator
 
 
@@ -21,7 +22,7 @@ class CorrectedOperator:
 
     Attributes
     ----------
-    exact : Operator
+    exact : Convolution
         Displacement under pressures on the whole grid.
     restricted : RestrictedOperator or None
         R; None: the exact operator.
@@ -31,14 +32,14 @@ class CorrectedOperator:
         p_0 and u_0; None: zero. [pressure] and [length]
     """
 
-    exact: Operator
+    exact: Convolution
     restricted: RestrictedOperator | None = None
     nodes: GridNodes | None = None
     before: Real | None = None
     moved: Real | None = None
 
     @property
-    def linear(self) -> Operator | RestrictedOperator:
+    def linear(self) -> Convolution | RestrictedOperator:
         """R, which gives what changes of pressure add."""
         return self.restricted or self.exact
 

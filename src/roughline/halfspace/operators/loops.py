@@ -12,24 +12,10 @@ from roughline.computing.compiled import compiled
 def list_rows(
     indices: Integers, width: int, rows: Integers, starts: Integers, columns: Integers
 ) -> int:
-    """List nodes of a grid row by row.
+    """List nodes, given by ascending flat indices in a grid so many columns wide, row by row.
 
-    Parameters
-    ----------
-    indices : ndarray of int
-        Flat indices of the nodes, ascending.
-    width : int
-        Columns of the grid.
-    rows, starts : ndarray of int
-        Overwritten, as far as there are rows with nodes, with these rows and where they begin; one
-        more start follows.
-    columns : ndarray of int
-        Overwritten with the column of each node.
-
-    Returns
-    -------
-    int
-        The rows with nodes.
+    Return how many rows hold any. These rows, where they begin, and the column of each node are
+    written; one more start follows.
     """
     found, begin, end = 0, 0, 0
     for i in range(indices.size):
@@ -55,18 +41,9 @@ def scatter_pairs(
 ) -> None:
     """Write the values of two rows each into the real and imaginary parts of one complex row.
 
-    Parameters
-    ----------
-    values : ndarray
-        Values of all rows, one row after the other.
-    starts, columns : ndarray of int
-        Where each row begins in `values`; column of each value, below twice the period.
-    first, last : int
-        The pairs to fill.
-    pairs : ndarray, shape (pairs, period or more, 2)
-        Overwritten, zero where there are no values. Values a period apart are added.
-    period : int
-        Columns in use.
+    The real rows begin at `starts` in `values`, with a column for each value, below twice the
+    period. The complex rows from first to last, of shape (period or more, 2), are zero where there
+    are no values; values a period apart are added.
     """
     for pair in range(first, last):
         pairs[pair] = 0
@@ -89,15 +66,7 @@ def scatter_turned(
     pairs: Floats,
     period: int,
 ) -> None:
-    """Write as scatter_pairs does, each value times the conjugate of its column's complex turn.
-
-    Parameters
-    ----------
-    turns : ndarray, shape (columns, 2)
-        Real and imaginary part.
-    values, starts, columns, first, last, pairs, period
-        As for scatter_pairs.
-    """
+    """Write as scatter_pairs does, each value times the conjugate of its column's complex turn."""
     for pair in range(first, last):
         z = pairs[pair]
         z[:] = 0
@@ -196,23 +165,9 @@ def load_columns(
     """Separate two real rows from each complex one, for a block of modes, and pad with zeros.
 
     A = (Z(k) + Z(-k)*) / 2 and B = (Z(k) - Z(-k)*) / 2i are the spectra of the real and imaginary
-    parts of z. All complex numbers come as two real ones.
-
-    Parameters
-    ----------
-    pairs : ndarray, shape (pairs, period or more, 2)
-        Transformed rows.
-    period : int
-        Columns in use.
-    rows : ndarray of int
-        Where in the columns each of the real rows belongs.
-    first : int
-        The mode of the block's first column.
-    odd : int
-        One if mode j stands for the wavenumber 2 j + 1, so that period - 1 - j is its opposite;
-        zero if that is period - j.
-    columns : ndarray, shape (padded rows, modes, 2)
-        Overwritten.
+    parts of z. All complex numbers come as two real ones. The real rows go to `rows` of the
+    columns, which are modes from `first` on. With `odd` one, mode j stands for the wavenumber
+    2 j + 1, so that period - 1 - j is its opposite; with zero that is period - j.
     """
     half = pairs.dtype.type(0.5)
     columns[:] = 0

@@ -8,7 +8,7 @@ from roughline.computing import fft
 from roughline.computing.arrays import Floats, Integers, Real
 from roughline.computing.compiled import compiled
 from roughline.halfspace.elasticity.half_space import HalfSpace
-from roughline.halfspace.operators.operator import GridNodes
+from roughline.halfspace.operators.grid_nodes import GridNodes
 
 ROWS_AT_A_TIME = 32
 """Rows of the table whose sums are added up before those of others."""
@@ -25,17 +25,6 @@ def displaced_by_pairs(
 
     The table of the kernel is made row by row, and forgotten. Each row serves all pairs of nodes
     whose rows are so far apart.
-
-    Parameters
-    ----------
-    half_space : HalfSpace
-        Whose kernel it is.
-    spacing : tuple of float
-        Sides of a cell, (dx, dy). [length]
-    pressure : ndarray
-        Pressures on the sources. [pressure]
-    sources, targets : GridNodes
-        Where the pressure acts, and where the displacement is wanted.
     """
     nx, ny = sources.shape
     loaded = sources.starts, sources.columns, sources.place_of_rows

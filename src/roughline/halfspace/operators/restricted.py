@@ -25,7 +25,8 @@ from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real, Single
 from roughline.halfspace.operators import restricted_loops as loops
 from roughline.halfspace.operators.coarse_grid import CoarseGrid, at_cells
-from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
+from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.operators.padded_grid import PaddedGrid
 
 _WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
@@ -66,21 +67,12 @@ class RestrictedOperator:
 
     @classmethod
     def of(
-        cls, operator: Operator, ratios: tuple[int, int], kernel: Real, margins: tuple[int, int]
+        cls, operator: Convolution, ratios: tuple[int, int], kernel: Real, margins: tuple[int, int]
     ) -> RestrictedOperator:
-        """Split an operator.
+        """Split an operator, with so many cells along the sides of a coarse cell.
 
-        Parameters
-        ----------
-        operator : Operator
-            The operator.
-        ratios : tuple of int
-            Cells along the sides of a coarse cell; they divide the periods.
-        kernel : ndarray, shape NEAR
-            Displacement under unit pressure on one node, by the distance from it in cells.
-            [length / pressure]
-        margins : tuple of int
-            As described above.
+        The kernel, of shape NEAR, is the displacement under unit pressure on one node, by the
+        distance in cells. [length / pressure]
         """
         (px, py), (dx, dy), (rx, ry) = operator.periods, operator.spacing, ratios
         coarse = px // rx, py // ry
@@ -124,12 +116,7 @@ class RestrictedOperator:
         precision: Precision = "float32",
         out: Real | None = None,
     ) -> Real:
-        """Return the displacement of some nodes under the pressure on some nodes.
-
-        Parameters and result are those of
-        :meth:`roughline.halfspace.operators.operator.Operator.displacement`, but targets are given,
-        and all is computed in single precision.
-        """
+        """Return the displacement of some nodes under the pressure on some, in single precision."""
         if out is None:
             out = np.empty(targets.indices.size)
         unit = np.abs(pressure).max(initial=0.0)
@@ -156,18 +143,11 @@ class RestrictedOperator:
 class RestrictedOperators:
     """The restricted forms of an operator, made as they are needed.
 
-    Parameters
-    ----------
-    operator : Operator
-        The operator.
-    kernel : ndarray, shape NEAR
-        Displacement under unit pressure on one node, by the distance from it in cells.
-        [length / pressure]
-    margins : tuple of int
-        Cells of the margin that others need, who use the same memory.
+    The kernel is that of :meth:`RestrictedOperator.of`; the margins are cells that others need, who
+    use the same padded grid.
     """
 
-    def __init__(self, operator: Operator, kernel: Real, margins: tuple[int, int]) -> None:
+    def __init__(self, operator: Convolution, kernel: Real, margins: tuple[int, int]) -> None:
         self._operator = operator
         self._kernel = kernel
         self._ratios = _ratios(operator)
@@ -196,7 +176,7 @@ class RestrictedOperators:
         return self._made[ratios]
 
 
-def _ratios(operator: Operator) -> list[tuple[float, tuple[int, int]]]:
+def _ratios(operator: Convolution) -> list[tuple[float, tuple[int, int]]]:
     """List possible coarse cells, about square, and up to which part of the grid they serve."""
     possible: list[tuple[float, tuple[int, int]]] = []
     if min(operator.shape) < _FEWEST_POINTS:

@@ -14,17 +14,8 @@ def find_runs(
 ) -> None:
     """List runs of nodes in a row of which neighbours are no further apart.
 
-    Parameters
-    ----------
-    starts, columns : ndarray of int
-        Where each row begins in `columns`; column of each node.
-    apart : int
-        Columns from one node to the next, at most.
-    runs : ndarray of int, shape (nodes, 3)
-        Overwritten, as far as there are runs, with the first node, the node after the last one,
-        and the columns from the first node to the last, rounded up to eight.
-    first_run : ndarray of int, shape (rows + 1,)
-        Overwritten: where the runs of each row begin.
+    For each run its first node, the node after the last one, and the columns from the first node to
+    the last, rounded up to eight, are written, and where the runs of each row begin.
     """
     count = 0
     for row in range(starts.size - 1):
@@ -56,24 +47,10 @@ def spread_along_rows(
     margins: Margins,
     lines: Floats,
 ) -> None:
-    """Write the values of some rows to the grid, and spread them over the coarse columns.
+    """Write the values of a block of rows to the grid, and spread them over the coarse columns.
 
-    Parameters
-    ----------
-    values : ndarray
-        Values of all nodes, one row after the other.
-    nodes : tuple
-        The nodes.
-    weights : ndarray, shape (ratio, 4)
-        Weights of the four coarse columns around a column, by its place between two of them.
-    block : tuple of int
-        The first of the rows to do, and the row after the last one.
-    grid : ndarray
-        With a margin, and zero elsewhere.
-    margins : tuple of int
-        Its margins.
-    lines : ndarray, shape (rows, coarse columns)
-        Overwritten with the spread rows.
+    Each of the lines gets a row, spread by the weights of the four coarse columns around a column,
+    which go by its place between two of them. The grid has margins, and is zero elsewhere.
     """
     starts, columns, rows = nodes
     ratio = weights.shape[0]
@@ -101,20 +78,10 @@ def clear_grid(nodes: Nodes, grid: Floats, margins: Margins) -> None:
 def spread_across_rows(
     lines: Floats, place: Integers, weights: Floats, first: int, last: int, coarse: Floats
 ) -> None:
-    """Spread rows over the coarse rows.
+    """Spread lines, one for each row with values, over the coarse rows from first to last.
 
-    Parameters
-    ----------
-    lines : ndarray, shape (rows with values, coarse columns)
-        Rows of the grid, spread along themselves.
-    place : ndarray of int, shape (nx,)
-        Where in `lines` each row of the grid is; -1 where it holds no value.
-    weights : ndarray, shape (ratio, 4)
-        Weights of the four coarse rows around a row, by its place between two of them.
-    first, last : int
-        The coarse rows to fill.
-    coarse : ndarray, shape (coarse rows, coarse columns)
-        Overwritten.
+    The place of each row of the grid among the lines is -1 where it holds no value. Weights are
+    those of the four coarse rows around a row, by its place between two of them.
     """
     ratio = weights.shape[0]
     for row in range(first, last):
@@ -139,28 +106,12 @@ def add_near_and_far(
     block: tuple[int, int],
     result: Floats,
 ) -> None:
-    """Add what near values and what the coarse grid displace, at each node of some rows.
+    """Add what near values and what the coarse grid displace, at each node of a block of rows.
 
-    Parameters
-    ----------
-    grid : ndarray
-        Values on the grid with its margins, zero elsewhere.
-    margins : tuple of int
-        Of the grid.
-    near : tuple of ndarray
-        The near part of the kernel by the distance in cells, each row followed by seven zeros; and
-        columns to which each row of it reaches, to both sides.
-    coarse : ndarray, shape (coarse rows, coarse columns)
-        The far part.
-    weights : tuple of ndarray, shape (ratio, 4)
-        Weights of the four coarse rows around a row, and of the columns around a column.
-    nodes : tuple of ndarray
-        Rows that hold nodes, the column of each node, where the runs of each row begin, and the
-        runs as :func:`find_runs` lists them.
-    block : tuple of int
-        The first of the rows to do, and the row after the last one.
-    result : ndarray, shape (nodes,)
-        Overwritten where the nodes of these rows are.
+    The near part is the kernel by the distance in cells, each row followed by seven zeros, and the
+    columns to which each row of it reaches, to both sides. Weights are those of the coarse rows and
+    columns. Nodes are rows that hold any, the column of each, where the runs of each row begin, and
+    the runs of :func:`find_runs`.
     """
     rows, columns, first_run, runs = nodes
     ratio, radius = weights[1].shape[0], near[0].shape[0] // 2

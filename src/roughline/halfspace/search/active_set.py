@@ -34,7 +34,7 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.laws.bounds import Bounds
-from roughline.halfspace.operators.operator import Precision
+from roughline.halfspace.operators.grid_nodes import Precision
 from roughline.halfspace.search.carriers import Carriers, merged
 from roughline.halfspace.search.patch import ConjugateGradients, Patch
 from roughline.halfspace.search.problem import Load, Method, Outcome

@@ -6,7 +6,8 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
-from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
+from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.operators.restricted import RestrictedOperator
 from roughline.halfspace.search.carriers import merged
 
@@ -16,7 +17,7 @@ class Patch:
 
     Parameters
     ----------
-    operator : Operator
+    operator : Convolution
         Displacement under pressures on the whole grid.
     inverse : ApproximateInverse
         Approximate inverse of the operator, for the preconditioner.
@@ -28,7 +29,7 @@ class Patch:
 
     def __init__(
         self,
-        operator: Operator | RestrictedOperator,
+        operator: Convolution | RestrictedOperator,
         inverse: ApproximateInverse,
         nodes: GridNodes,
         watched: GridNodes | None = None,

@@ -14,7 +14,8 @@ from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.laws.law import ContactLaw
-from roughline.halfspace.operators.operator import GridNodes, Operator, Precision
+from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.search.residuals import Residuals
 
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
@@ -62,7 +63,7 @@ class Problem:
     law: ContactLaw
 
     @property
-    def operator(self) -> Operator:
+    def operator(self) -> Convolution:
         """The half-space's displacements under pressures on the grid."""
         return self.inverse.operator
 

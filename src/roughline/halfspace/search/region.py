@@ -11,7 +11,7 @@ from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.operators import loops
 from roughline.halfspace.operators.corrected import CorrectedOperator
-from roughline.halfspace.operators.operator import GridNodes, Precision
+from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.search.carriers import Carriers, merged
 from roughline.halfspace.search.problem import Contact, ContactSet, Load, Outcome, Problem
 from roughline.halfspace.search.residuals import Residuals

@@ -13,7 +13,7 @@ import numpy as np
 
 from roughline.computing.arrays import Mask, Real
 from roughline.halfspace.operators.corrected import CorrectedOperator
-from roughline.halfspace.operators.operator import GridNodes
+from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.patch import ConjugateGradients, Patch
 from roughline.halfspace.search.problem import Contact, Method, Problem
 

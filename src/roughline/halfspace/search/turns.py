@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.halfspace.operators.operator import Precision
+from roughline.halfspace.operators.grid_nodes import Precision
 from roughline.halfspace.search.active_set import AIM, SINGLE_ABOVE, search
 from roughline.halfspace.search.carriers import Carriers
 from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Outcome, Problem
