@@ -34,7 +34,7 @@ def contact_nodes(shape, seed, part):
 def made(operator, ratios):
     """Split an operator."""
     restricted = ApproximateInverse.of(operator).restricted
-    return RestrictedOperator.of(operator, ratios, restricted._kernel, restricted._margins)
+    return RestrictedOperator.of(operator, ratios, restricted._margins)
 
 
 def on(operator, nodes):

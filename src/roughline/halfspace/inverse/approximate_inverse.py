@@ -28,7 +28,7 @@ from roughline.halfspace.inverse.blocks import MOST_DENSE, BlockKernel, Dense, e
 from roughline.halfspace.inverse.even_sums import Lags, even_sums
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes, unit_in_single
-from roughline.halfspace.operators.restricted import NEAR, RestrictedOperators
+from roughline.halfspace.operators.restricted import RestrictedOperators
 
 _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
@@ -83,22 +83,20 @@ class ApproximateInverse:
         lattice = -(-nx // sides[0]), -(-ny // sides[1])
         offsets = _stencil_cells(operator, stretch)
         margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
-        kernel, inverse, near = even_sums(
-            operator.spectrum,
-            operator.periods,
-            Lags(lattice, sides),
-            Lags((margins[0] + 1, margins[1] + 1)),
-            Lags(NEAR),
-        )
+        whole = operator.spectrum, operator.periods
+        reach = Lags((margins[0] + 1, margins[1] + 1))
+        inverse = even_sums(*whole, reach, inverse=True)
         inverse /= float(operator.periods[0] * operator.periods[1]) ** 2
         return cls(
             operator,
             offsets,
             _stencil_taps(offsets, inverse),
             sides,
-            float(near[0, 0]) + raised,
-            BlockKernel(kernel + raised, operator.periods == operator.shape),
-            RestrictedOperators(operator, near, (margins[0], margins[1] + loops.ROUNDING)),
+            float(even_sums(*whole, Lags((1, 1)))[0, 0]) + raised,
+            BlockKernel(
+                even_sums(*whole, Lags(lattice, sides)) + raised, operator.periods == operator.shape
+            ),
+            RestrictedOperators(operator, (margins[0], margins[1] + loops.ROUNDING)),
         )
 
     @property

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import gcd
 
@@ -32,29 +31,23 @@ class Lags:
 
 
 def even_sums(
-    spectrum: Real, periods: tuple[int, int], lags: Lags, inverse_lags: Lags, near_lags: Lags
-) -> tuple[Real, Real, Real]:
-    """Transform a spectrum and its inverse back, in one pass and only at the lags that are wanted.
+    spectrum: Real, periods: tuple[int, int], lags: Lags, *, inverse: bool = False
+) -> Real:
+    """Transform a spectrum, or its inverse, back at the lags that are wanted, block by block.
 
-    The spectrum is even and not negative, and a quarter is given. Its sums are returned at `lags`,
-    those of its inverse, which is zero where it is, at `inverse_lags`, and its own at `near_lags`.
+    The spectrum is even and not negative, and a quarter is given. The inverse is zero where it is.
     """
-    wanted = (lags, inverse_lags, near_lags)
-    axes = [_axes(periods, each) for each in wanted]
-    along_y = [np.empty((len(spectrum), each.counts[1])) for each in wanted]
+    x, y = (_axis(*each) for each in zip(periods, lags.counts, lags.sides, strict=True))
+    along_y = np.empty((len(spectrum), lags.counts[1]))
 
     def transform(first: int, last: int) -> None:
         rows = spectrum[first:last]
-        inverse = np.empty_like(rows)
-        loops.invert(rows, inverse)
-        for values, (_, y), sums in zip((rows, inverse, rows), axes, along_y, strict=True):
-            sums[first:last] = y.at_lags(values)
+        if inverse:
+            rows = np.divide(1.0, rows, out=np.zeros_like(rows), where=rows > 0)
+        along_y[first:last] = y.at_lags(rows)
 
     fft.share_out_blocks(transform, len(spectrum), _ROWS_AT_A_TIME)
-    sums, inverse_sums, near_sums = (
-        x.at_lags(rows.T).T for (x, _), rows in zip(axes, along_y, strict=True)
-    )
-    return sums, inverse_sums, near_sums
+    return x.at_lags(along_y.T).T
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,10 +73,6 @@ class _Axis:
         sums = np.zeros((len(rows), len(self.cosines)))
         loops.fold_rows(rows, self.weights, self.places, sums)
         return sums @ self.cosines
-
-
-def _axes(periods: tuple[int, int], lags: Lags) -> Sequence[_Axis]:
-    return [_axis(*each) for each in zip(periods, lags.counts, lags.sides, strict=True)]
 
 
 def _axis(period: int, count: int, side: int) -> _Axis:

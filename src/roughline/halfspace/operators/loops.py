@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
 
@@ -203,14 +201,6 @@ def weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
             if not is_its_own_mirror:
                 mirror[j, 0] *= weight
                 mirror[j, 1] *= weight
-
-
-@compiled
-def invert(values: Floats, inverse: Floats) -> None:
-    """Divide one by each value that is positive; zero for others."""
-    for i in range(values.shape[0]):
-        for j in range(values.shape[1]):
-            inverse[i, j] = np.divide(1.0, values[i, j]) if values[i, j] > 0 else 0.0
 
 
 @compiled

@@ -39,9 +39,6 @@ _FEWEST_POINTS = 64  # along the shorter side of the grid
 _ROUNDING = 8  # to which the lengths of runs, and rows of the near part, are rounded up
 _SUMS_AT_A_TIME = 2**21  # near sums; for fewer, starting a thread does not pay
 
-NEAR = _REACH + 1, _REACH + 1
-"""Distances in cells, counted from zero, at which the kernel is needed."""
-
 
 @dataclass(frozen=True, eq=False)
 class RestrictedOperator:
@@ -67,13 +64,9 @@ class RestrictedOperator:
 
     @classmethod
     def of(
-        cls, operator: Convolution, ratios: tuple[int, int], kernel: Real, margins: tuple[int, int]
+        cls, operator: Convolution, ratios: tuple[int, int], margins: tuple[int, int]
     ) -> RestrictedOperator:
-        """Split an operator, with so many cells along the sides of a coarse cell.
-
-        The kernel, of shape NEAR, is the displacement under unit pressure on one node, by the
-        distance in cells. [length / pressure]
-        """
+        """Split an operator, with so many cells along the sides of a coarse cell."""
         (px, py), (dx, dy), (rx, ry) = operator.periods, operator.spacing, ratios
         coarse = px // rx, py // ry
         side = max(rx * dx, ry * dy)
@@ -88,7 +81,8 @@ class RestrictedOperator:
         limit = float((q_small * operator.half_space.spectrum(q_small))[0]) / (px * py)
         smooth[0, 0] -= limit * _WIDTH * side / np.sqrt(np.pi)
         lags = [np.arange(int(_RADIUS * side / spacing) + 1) for spacing in (dx, dy)]
-        near = kernel[: lags[0].size, : lags[1].size] - at_cells(smooth, coarse, ratios, lags)
+        near = at_cells(operator.spectrum, operator.periods, (1, 1), lags)
+        near -= at_cells(smooth, coarse, ratios, lags)
         inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _RADIUS * side
         near[~inside] = 0
         # what the cut leaves out, far more where the body has a length of its own, is smooth
@@ -143,13 +137,11 @@ class RestrictedOperator:
 class RestrictedOperators:
     """The restricted forms of an operator, made as they are needed.
 
-    The kernel is that of :meth:`RestrictedOperator.of`; the margins are cells that others need, who
-    use the same padded grid.
+    The margins are cells that others need, who use the same padded grid.
     """
 
-    def __init__(self, operator: Convolution, kernel: Real, margins: tuple[int, int]) -> None:
+    def __init__(self, operator: Convolution, margins: tuple[int, int]) -> None:
         self._operator = operator
-        self._kernel = kernel
         self._ratios = _ratios(operator)
         if self._ratios:
             margins = max(margins[0], _REACH), max(margins[1], _REACH + _ROUNDING)
@@ -171,7 +163,7 @@ class RestrictedOperators:
         if ratios is None:
             return None
         if ratios not in self._made:
-            made = RestrictedOperator.of(self._operator, ratios, self._kernel, self._margins)
+            made = RestrictedOperator.of(self._operator, ratios, self._margins)
             self._made[ratios] = made
         return self._made[ratios]
 
