@@ -5,7 +5,6 @@ import pytest
 
 from roughline.computing import fft
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
-from roughline.halfspace.inverse import approximate_inverse as room
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
 from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.grid_nodes import GridNodes
@@ -68,7 +67,7 @@ def test_an_even_residual_far_above_the_others_does_not_drown_them(inverse, part
 
 
 def test_its_bits_do_not_depend_on_the_threads(inverse, monkeypatch):
-    monkeypatch.setattr(room, "_NODES_AT_A_TIME", 1000)
+    monkeypatch.setattr(fft, "VALUES_AT_A_TIME", 1000)
     monkeypatch.setattr(fft, "available_cores", lambda: 3)
     nodes, results, before = some_nodes(0.3), [], fft.threads()
     residual = np.random.default_rng(5).normal(size=nodes.indices.size)

@@ -21,7 +21,11 @@ from roughline.errors.public import public
 
 _threads = available_cores()
 
-_LINES_AT_A_TIME = 64  # so many columns fit into a core's cache
+LINES_AT_A_TIME = 64
+"""Columns, rows, or pairs of these, that fit into a core's cache."""
+
+VALUES_AT_A_TIME = 2**15
+"""Values that a thread works on: they fit into a cache; for fewer, to start it costs more."""
 
 
 @public
@@ -111,8 +115,8 @@ def cosine_spectrum(quarter: Real) -> None:
         ducc0.fft.dct(lines, axes=(axis,), type=1, out=lines, nthreads=1)
 
     nx, ny = quarter.shape
-    share_out_blocks(lambda a, b: transform(quarter[a:b], 1), nx, _LINES_AT_A_TIME)
-    share_out_blocks(lambda a, b: transform(quarter[:, a:b], 0), ny, _LINES_AT_A_TIME)
+    share_out_blocks(lambda a, b: transform(quarter[a:b], 1), nx, LINES_AT_A_TIME)
+    share_out_blocks(lambda a, b: transform(quarter[:, a:b], 0), ny, LINES_AT_A_TIME)
 
 
 def analyse(values: Real) -> Complex:

@@ -28,12 +28,12 @@ from roughline.halfspace.inverse.blocks import MOST_DENSE, BlockKernel, Dense, e
 from roughline.halfspace.inverse.even_sums import Lags, even_sums
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes, unit_in_single
+from roughline.halfspace.operators.loops import ROUNDING
 from roughline.halfspace.operators.restricted import RestrictedOperators
 
 _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
 _STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
-_NODES_AT_A_TIME = 2**15  # for fewer, starting a thread costs more than it saves
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +96,7 @@ class ApproximateInverse:
             BlockKernel(
                 even_sums(*whole, Lags(lattice, sides)) + raised, operator.periods == operator.shape
             ),
-            RestrictedOperators(operator, (margins[0], margins[1] + loops.ROUNDING)),
+            RestrictedOperators(operator, (margins[0], margins[1] + ROUNDING)),
         )
 
     @property
@@ -199,7 +199,7 @@ class _TwoLevels:
         self._grid = grid.values.reshape(-1)
         self._stencil = inverse.stencil
         nodes_of_band = nodes.indices.size / kernel.shape[0]
-        self._bands_at_a_time = max(1, int(_NODES_AT_A_TIME / nodes_of_band))
+        self._bands_at_a_time = max(1, int(fft.VALUES_AT_A_TIME / nodes_of_band))
         count = np.empty(kernel.shape)
         self._share_out(lambda first, last: loops.count_nodes(self._at, first, last, count))
         self._per_node = 1 / np.maximum(count, 1.0)

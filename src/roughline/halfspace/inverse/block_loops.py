@@ -9,9 +9,6 @@ import numpy as np
 from roughline.computing.arrays import Floats, Indices, Integers, Real
 from roughline.computing.compiled import compiled
 
-ROUNDING = 8
-"""Columns to which runs of nodes are rounded up, and so the room they need beyond a stencil."""
-
 
 class Layout(NamedTuple):
     """Where contact nodes lie: in a flat grid with margins, and in blocks.

@@ -8,11 +8,11 @@ from functools import cached_property
 from math import sqrt
 
 import numpy as np
+from scipy.linalg import blas, lapack
 
 from roughline.computing import fft
 from roughline.computing.arrays import Floats, Integers, Real
 from roughline.computing.compiled import compiled
-from roughline.halfspace.inverse.cholesky import Cholesky
 
 MOST_DENSE = 500
 """Nodes, or blocks, whose equations are solved directly; of more blocks, by a convolution."""
@@ -118,11 +118,16 @@ class Dense:
         self._scale = 1 / np.sqrt(_own_energy(energy, count, kernel[0, 0]))
         matrix = np.empty((count.size, count.size), dtype=np.float32)
         _fill_matrix(kernel, rows, columns, count * self._scale, matrix)
-        self._factor = Cholesky(matrix)
-        self._even = self._solve(count)
+        # LAPACK and BLAS without detours: there are many such matrices, and most are small
+        self._factor, failed = lapack.spotrf(matrix.T, lower=1, clean=0, overwrite_a=1)
+        if failed:
+            raise np.linalg.LinAlgError("the matrix is not positive definite")
+        self._even = self._solve(count) if count.size else count
 
     def __call__(self, sums: Real) -> Real:
         """Return the pressure on the nodes of each block, from the sums of their residuals."""
+        if not sums.size:
+            return sums
         mean = sums.sum() / self._count.sum()
         return mean * self._even + self._solve(sums - mean * self._count)
 
@@ -130,7 +135,9 @@ class Dense:
         """Solve the equations, scaled to the room that single precision has."""
         residual = sums * self._scale
         unit = sqrt(residual @ residual) or 1.0
-        return self._factor.solve(residual / unit) * (unit * self._scale)
+        half = blas.strsv(self._factor, residual / unit, lower=1)
+        solution = blas.strsv(self._factor, half, lower=1, trans=1, overwrite_x=1)
+        return solution * (unit * self._scale)
 
 
 def _own_energy(energy: Real, count: Real, kernel: float) -> Real:

@@ -11,8 +11,6 @@ from roughline.computing import fft
 from roughline.computing.arrays import Integers, Real
 from roughline.halfspace.operators import loops
 
-_ROWS_AT_A_TIME = 64
-
 
 @dataclass(frozen=True, eq=False)
 class Lags:
@@ -46,7 +44,7 @@ def even_sums(
             rows = np.divide(1.0, rows, out=np.zeros_like(rows), where=rows > 0)
         along_y[first:last] = y.at_lags(rows)
 
-    fft.share_out_blocks(transform, len(spectrum), _ROWS_AT_A_TIME)
+    fft.share_out_blocks(transform, len(spectrum), fft.LINES_AT_A_TIME)
     return x.at_lags(along_y.T).T
 
 

@@ -22,7 +22,6 @@ from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.padded_grid import PaddedGrid
 from roughline.halfspace.operators.small_grid import SmallGrid
 
-_SPREAD_AT_A_TIME = 2**14  # nodes; for fewer, starting a thread costs more than it saves
 _SMALL = 2**18  # modes, up to which one thread transforms whole rows sooner than two share them
 _BEYOND = 3  # coarse nodes that splines reach beyond the grid
 
@@ -97,8 +96,8 @@ class CoarseGrid:
         def spread_across(first: int, last: int) -> None:
             loops.spread_across_rows(lines, place, across, first, last, spread)
 
-        fft.share_out_blocks(spread_along, sources.rows.size, sources.rows_of(_SPREAD_AT_A_TIME))
-        fft.share_out_blocks(spread_across, len(spread), 1 + _SPREAD_AT_A_TIME // len(spread))
+        fft.share_out_blocks(spread_along, sources.rows.size, sources.rows_of(fft.VALUES_AT_A_TIME))
+        fft.share_out_blocks(spread_across, len(spread), 1 + fft.VALUES_AT_A_TIME // len(spread))
         if self.periodic:
             grid.wrap()
             inner = np.ascontiguousarray(_folded(_folded(spread).T).T)

@@ -16,8 +16,6 @@ from roughline.halfspace.operators.grid_nodes import GridNodes, Precision, unit_
 from roughline.halfspace.operators.pair_sums import ROWS_AT_A_TIME, displaced_by_pairs
 from roughline.halfspace.operators.workspace import Workspace
 
-_MODES_AT_A_TIME = 64  # so many columns fit into a core's cache
-_PAIRS_AT_A_TIME = 64  # pairs of rows
 _PAIRS = 4.0  # of nodes for each mode, up to which sums over pairs take less time ...
 _MANY = 2**20  # ... where there are so many modes
 _SPARE = 8  # modes at the end of each row, as caches hold few rows a power of two apart
@@ -190,13 +188,11 @@ class Convolution:
                 places = targets.starts, targets.columns
                 loops.gather_pairs(real_modes, period, *places, first, last, result)
 
-        modes_at_a_time, pairs_at_a_time = _MODES_AT_A_TIME, _PAIRS_AT_A_TIME
-        if mx * my <= _SMALL:
-            modes_at_a_time, pairs_at_a_time = my, mx
+        at_a_time = max(mx, my) if mx * my <= _SMALL else fft.LINES_AT_A_TIME
         pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
-        fft.share_out_blocks(transform_rows, pairs, pairs_at_a_time)
-        fft.share_out_blocks(convolve_columns, spectrum.shape[1], modes_at_a_time)
-        fft.share_out_blocks(transform_rows_back, pairs_out, pairs_at_a_time)
+        fft.share_out_blocks(transform_rows, pairs, at_a_time)
+        fft.share_out_blocks(convolve_columns, spectrum.shape[1], at_a_time)
+        fft.share_out_blocks(transform_rows_back, pairs_out, at_a_time)
 
 
 def displacement_field(operator: Convolution, pressure: Real) -> Real:

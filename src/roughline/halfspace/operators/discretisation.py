@@ -10,7 +10,6 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.workspace import Workspace
 
-_TABLE_AT_A_TIME = 2**16  # points
 _LONG = 64  # points along a side, from which on it has as many periods to choose from
 
 
@@ -73,7 +72,7 @@ def _free(
         rows /= mx * my
 
     rows, columns = spectrum.shape
-    fft.share_out_blocks(fill, rows, max(1, _TABLE_AT_A_TIME // columns))
+    fft.share_out_blocks(fill, rows, 1 + fft.VALUES_AT_A_TIME // columns)
     least = float(spectrum.min()) * mx * my
     fft.cosine_spectrum(spectrum)
     if not np.isfinite(spectrum[0, 0]):

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.operators.loops import list_rows
-from roughline.halfspace.operators.restricted_loops import find_runs
+from roughline.halfspace.operators.loops import find_runs, list_rows
 
 Precision = Literal["float32", "float64"]
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
 
+ROUNDING = 8
+"""Columns to which runs of nodes are rounded up, and so the room they need beyond a stencil."""
+
 
 @compiled
 def list_rows(
@@ -25,6 +28,28 @@ def list_rows(
         columns[i] = indices[i] - begin
     starts[found] = indices.size
     return found
+
+
+@compiled
+def find_runs(
+    starts: Integers, columns: Integers, apart: int, runs: Integers, first_run: Integers
+) -> None:
+    """List runs of nodes in a row of which neighbours are no further apart.
+
+    For each run its first node, the node after the last one, and the columns from the first node to
+    the last, rounded up, are written, and where the runs of each row begin.
+    """
+    count = 0
+    for row in range(starts.size - 1):
+        first_run[row] = count
+        begin = starts[row]
+        for i in range(starts[row], starts[row + 1]):
+            if i + 1 == starts[row + 1] or columns[i + 1] - columns[i] > apart:
+                runs[count, 0], runs[count, 1] = begin, i + 1
+                runs[count, 2] = (columns[i] - columns[begin] + ROUNDING) // ROUNDING * ROUNDING
+                begin = i + 1
+                count += 1
+    first_run[starts.size - 1] = count
 
 
 @compiled

@@ -27,6 +27,7 @@ from roughline.halfspace.operators import restricted_loops as loops
 from roughline.halfspace.operators.coarse_grid import CoarseGrid, at_cells
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
+from roughline.halfspace.operators.loops import ROUNDING
 from roughline.halfspace.operators.padded_grid import PaddedGrid
 
 _WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
@@ -36,7 +37,6 @@ _REACH = int(_RADIUS * _SIDES[-1])  # of the near part, at most
 _SHARES = 0.6, 0.35, 0.025  # of the grid, up to which the coarse cells of each size serve best
 _NEARLY_EVEN = 1e-3  # wavenumber, over that of the longest wave, that stands for q = 0
 _FEWEST_POINTS = 64  # along the shorter side of the grid
-_ROUNDING = 8  # to which the lengths of runs, and rows of the near part, are rounded up
 _SUMS_AT_A_TIME = 2**21  # near sums; for fewer, starting a thread does not pay
 
 
@@ -92,7 +92,7 @@ class RestrictedOperator:
         )
         smooth += (spectrum - smooth - x @ near @ y.T / (px * py)) * share
         near = np.concatenate([near[:0:-1], near])
-        taps = np.concatenate([near[:, :0:-1], near, np.zeros((len(near), _ROUNDING - 1))], axis=1)
+        taps = np.concatenate([near[:, :0:-1], near, np.zeros((len(near), ROUNDING - 1))], axis=1)
         reach = inside.sum(axis=1) - 1
         return cls(
             CoarseGrid.of(operator, ratios, smooth),
@@ -144,7 +144,7 @@ class RestrictedOperators:
         self._operator = operator
         self._ratios = _ratios(operator)
         if self._ratios:
-            margins = max(margins[0], _REACH), max(margins[1], _REACH + _ROUNDING)
+            margins = max(margins[0], _REACH), max(margins[1], _REACH + ROUNDING)
         self._margins = margins
         self._made: dict[tuple[int, int], RestrictedOperator] = {}
 

@@ -7,29 +7,6 @@ import numpy as np
 from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
 
-
-@compiled
-def find_runs(
-    starts: Integers, columns: Integers, apart: int, runs: Integers, first_run: Integers
-) -> None:
-    """List runs of nodes in a row of which neighbours are no further apart.
-
-    For each run its first node, the node after the last one, and the columns from the first node to
-    the last, rounded up to eight, are written, and where the runs of each row begin.
-    """
-    count = 0
-    for row in range(starts.size - 1):
-        first_run[row] = count
-        begin = starts[row]
-        for i in range(starts[row], starts[row + 1]):
-            if i + 1 == starts[row + 1] or columns[i + 1] - columns[i] > apart:
-                runs[count, 0], runs[count, 1] = begin, i + 1
-                runs[count, 2] = (columns[i] - columns[begin] + 8) // 8 * 8
-                begin = i + 1
-                count += 1
-    first_run[starts.size - 1] = count
-
-
 Nodes = tuple[Integers, Integers, Integers]
 """Where each row begins in the list of nodes, their columns, and the rows that hold any."""
 
@@ -111,7 +88,7 @@ def add_near_and_far(
     The near part is the kernel by the distance in cells, each row followed by seven zeros, and the
     columns to which each row of it reaches, to both sides. Weights are those of the coarse rows and
     columns. Nodes are rows that hold any, the column of each, where the runs of each row begin, and
-    the runs of :func:`find_runs`.
+    the runs of :func:`roughline.halfspace.operators.loops.find_runs`.
     """
     rows, columns, first_run, runs = nodes
     ratio, radius = weights[1].shape[0], near[0].shape[0] // 2
