@@ -42,8 +42,9 @@ def peak():
 def estimated(surface, forces, hardness, *, periodic):
     """Return what is estimated for a press, the heights included. [bytes/point]"""
     loads = Loads("forces", np.array(forces))
-    share = expected_area_fraction(surface, rl.Homogeneous(1.0, periodic), loads, hardness)
     several, yielding = len(forces) > 1, hardness is not None
+    law = rl.Yielding(hardness) if yielding else rl.Unilateral()
+    share = expected_area_fraction(surface, rl.Homogeneous(1.0, periodic), loads, law)
     held = bytes_at_a_point(surface.shape, periodic, share, yielding=yielding, several=several)
     return round(held) + surface.heights.itemsize
 

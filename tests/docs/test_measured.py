@@ -112,7 +112,9 @@ def test_memory_is_estimated_as_the_table_says():
     for row in rows:
         periodic, forces = row["half-space"] == "periodic", json.loads(f"[{row['F̄']}]")
         loads = Loads("forces", np.array(forces))
-        share = expected_area_fraction(surface, rl.Homogeneous(1.0, periodic), loads, None)
+        share = expected_area_fraction(
+            surface, rl.Homogeneous(1.0, periodic), loads, rl.Unilateral()
+        )
         several = len(forces) > 1
         held = bytes_at_a_point(surface.shape, periodic, share, yielding=False, several=several)
         assert round(held) + 8 == int(row["estimated"])

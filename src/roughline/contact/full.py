@@ -118,13 +118,11 @@ def _results(
         inverse = inverse_on(scaled.half_space, surface.shape, scaled.spacing)
         solved = solve_path(_problem(inverse, scaled, law, method), path, method)
         dents: Indentation | None = None
-        for i in range(len(path)):  # enumerate() would hold a contact while the next is solved
-            contact, response = next(solved)
-            result = LoadResult.of(contact, response, scaled, law, with_fields=i in with_fields)
+        for i in range(len(path)):  # no contact is held while the next is solved
+            result = LoadResult.of(*next(solved), scaled, law, with_fields=i in with_fields)
             if dents is not None and result.dents is not None and result.dents.equals(dents):
                 result = replace(result, dents=dents)  # one memory for all loads that add none
             dents = result.dents
-            del contact, response  # so that the next load finds their memory free
             yield result
 
 
