@@ -1,4 +1,4 @@
-"""Draw the rooms of roughline, their imports and the walk through them: `make architecture`.
+"""Draw the rooms of roughline and count what changes open: `make architecture`.
 
 The picture carries the facts that it was drawn from, so that a test can compare them with the code.
 """
@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch, FancyBboxPatch, Rectangle
 from matplotlib.path import Path as Curve
+from seams import PAGE, written
 
 # Where a room stands in its row.
 PLACES = {
@@ -282,4 +283,5 @@ def _legend(axes: Axes) -> None:
 if __name__ == "__main__":
     draw(PICTURE)
     print(figures())
-    print(f"wrote {PICTURE.relative_to(ROOT)}")
+    PAGE.write_text(written(PAGE.read_text("utf-8")), "utf-8")
+    print(f"wrote {PICTURE.relative_to(ROOT)} and the counts of {PAGE.relative_to(ROOT)}")

@@ -32,6 +32,9 @@ SECTIONS = {
         *("press", "press_scan", "Curve", "Fields", "Status", "estimate", "Estimate"),
         *("set_threads", "theory", "compare", "Comparison", "trust_map"),
     ),
+    "Half-spaces and contact laws": (
+        *("HalfSpace", "Homogeneous", "ContactLaw", "Unilateral", "Yielding"),
+    ),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
         *("PartAssessment", "material", "Material", "contact_modulus"),

@@ -53,6 +53,8 @@ class Change:
 
 CHANGES = (
     Change("a contact law: yield, before laws were a room", ("87d841c",)),
+    Change("a contact law: an uneven hardness", test="tests/halfspace/test_foreign_law.py"),
+    Change("a half-space: a coating", test="tests/halfspace/test_foreign_half_space.py"),
     Change("an exact solution: a disc that yields at its rim", ("12afc3a",)),
     Change("an answer: the stiffness on unloading", ("2f9ce6e",)),
     Change("a field of a question: the area of a joint", ("00e2273", "d60321c")),
@@ -117,8 +119,8 @@ def table_of_the_solver() -> str:
     """Return the rooms of the solver with their files, constants and imports."""
     pairs = arrows_of_the_solver(import_graph(for_types=True))
     lines = [
-        "| room of the solver | files | lines | constants | imports |",
-        "|---|---|---|---|---|",
+        "| room of the solver | files | constants | imports |",
+        "|---|---|---|---|",
     ]
     for name in (name for row in layers(f"roughline.{SOLVER}") for name in row):
         room = SOURCE / SOLVER / name

@@ -5,10 +5,10 @@ import re
 import pytest
 from architecture import PICTURE, ROOT, facts_in, import_graph, layers, rooms
 from draw_architecture import HUNDREDS, ONE_BODY
+from seams import PAGE, written
 
 import roughline as rl
 
-PAGE = ROOT / "docs" / "architecture.md"
 AGAIN = "the picture is not of this code any more: run `make architecture`"
 LINES_MAY_DIFFER = 0.2  # the picture shows them as bars
 
@@ -56,6 +56,12 @@ def test_every_room_has_its_line_and_its_layer(found):
 @pytest.mark.parametrize("path", PATHS)
 def test_every_path_is_there(path):
     assert (ROOT / path).exists()
+
+
+def test_the_counts_are_those_of_today():
+    assert written(TEXT) == TEXT, (
+        "the counts are not of this code any more: run `make architecture`"
+    )
 
 
 def test_no_room_has_the_name_of_something_public(found):
