@@ -80,11 +80,10 @@ class UnevenHardness(rl.ContactLaw):
     def then(self, contact):
         """Take the hardness into account where a node bears more."""
         over = contact.pressure > self.hardness.ravel()[contact.nodes]
-        return self.bounded if self.elastic and over.any() else None
+        return self.bounded() if self.elastic and over.any() else None
 
-    @property
     def bounded(self):
-        """The law with its hardness."""
+        """Return the law with its hardness."""
         return replace(self, elastic=False)
 
 
@@ -233,6 +232,21 @@ def assert_same_dents(curve, i, state):
     off = np.abs(fields.indentation.ravel() - state.indentation).max()
     assert off <= DENT * curve.rms_height
     assert curve.area_fraction[i] == state.contact.mean()
+
+
+@pytest.mark.parametrize("elastic_first", [False, True])
+def test_depths_that_elastic_bodies_do_not_reach_are_the_dense_solutions(elastic_first):
+    body, pressure = posed("H = 0.8", periodic=True)
+    hardness = 0.05 * pressure * np.random.default_rng(5).uniform(0.4, 1.6, body.heights.shape)
+    history = History(body, hardness.ravel())
+    shares = np.array([0.2, 0.97, 0.5, 0.98])
+    states = [history.press(share * body.cell * hardness.sum()) for share in shares]
+    depths = np.array([each.depth for each in states])
+    assert depths[1] > float(np.mean(body.separation))  # full contact, if it did not yield
+    curve = pressed(body, UnevenHardness(hardness, elastic_first), depths=depths)
+    assert curve.force == pytest.approx([each.force for each in states], rel=LOAD)
+    for i, state in enumerate(states):
+        assert_same_dents(curve, i, state)
 
 
 def test_one_hardness_of_all_nodes_is_the_packages_own():
