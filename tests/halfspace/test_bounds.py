@@ -16,7 +16,7 @@ from roughline.halfspace.search.cascade import first_guess
 from roughline.halfspace.search.problem import Load, Method, Problem
 from roughline.halfspace.search.region import Region, Trial
 from roughline.halfspace.search.tangent import response
-from roughline.halfspace.search.turns import solve
+from roughline.halfspace.search.turns import Turns
 
 ELASTIC = Bounds.of(Unilateral(), None)
 YIELDING = Bounds.of(Yielding(hardness=4.0), None)
@@ -166,7 +166,7 @@ def test_the_stiffness_on_loading_is_that_of_the_elastic_nodes_and_on_unloading_
     n, method = 12, Method(rtol=1e-6, max_iterations=100)
     x, y = np.indices((n, n)) - (n - 1) / 2
     bodies, load = problem((x**2 + y**2) / 20, Yielding(hardness=0.1), 1.0), Load(depth=1.0)
-    contact = solve(bodies, load, first_guess(bodies, load)[0], method)
+    contact = Turns(bodies, load, first_guess(bodies, load)[0], method).contact()
     assert 0 < contact.plastic.sum() < contact.nodes.size
     answer = response(contact, None, method)
     assert answer.converged

@@ -19,8 +19,8 @@ from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.padded_grid import PaddedGrid
 from roughline.halfspace.operators.restricted import RestrictedOperator, RestrictedOperators
 from roughline.halfspace.operators.small_grid import SmallGrid
-from roughline.halfspace.search import turns
 from roughline.halfspace.search.region import Region
+from roughline.halfspace.search.turns import Turns
 
 
 def contact_nodes(shape, seed, part):
@@ -206,9 +206,7 @@ def test_a_damaged_one_costs_time_and_never_a_wrong_result(monkeypatch, damage, 
 
 def test_a_turn_that_does_not_help_is_not_repeated(monkeypatch):
     """A search near the contact that finds nothing is left to the exact operator."""
-    monkeypatch.setattr(
-        turns, "_refined", lambda trial, *rest: trial.region.on_grid(trial.carriers, trial.depth)
-    )
+    monkeypatch.setattr(Turns, "_refine", lambda self: None)
     curve = rl.press(heights(), E_star=1.0, forces=[0.3])
     assert curve.converged.all()
 

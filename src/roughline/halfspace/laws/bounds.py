@@ -57,7 +57,9 @@ class Bounds:
         return ~(self.yielding(pressure) | self.pulling(pressure))
 
     def nearest(self, pressure: Real) -> Real:
-        """Return the nearest pressures within the bounds."""
+        """Return the nearest pressures within the bounds; these themselves if all are."""
+        if np.all((pressure >= self.low) & (pressure <= self.high)):
+            return pressure
         return np.clip(pressure, self.low, self.high)
 
     def missed(self, pressure: Real) -> tuple[float, float]:

@@ -51,23 +51,41 @@ class CorrectedOperator:
         """Return nodes listed row by row."""
         return GridNodes.of(self.on_grid(places), self.exact.shape)
 
-    def displacement(self, pressure: Real, places: Indices, precision: Precision) -> Real:
-        """Return the displacement of all nodes under the pressure on some, shape (nodes,)."""
+    def displacement(self, pressure: Real, places: Indices | None, precision: Precision) -> Real:
+        """Return the displacement of all nodes under the pressure on some, or on all of them.
+
+        Parameters
+        ----------
+        pressure : ndarray
+            Pressures. [pressure]
+        places : ndarray of int, or None
+            Where they act; None: on all nodes.
+        precision : {"float64", "float32"}
+            Precision of the exact operator.
+
+        Returns
+        -------
+        ndarray, shape (nodes,)
+            Displacements. [length]
+        """
         if self.restricted is None:
             return self._exactly(pressure, places, precision)
         assert self.nodes is not None
         change = np.zeros(self.nodes.indices.size) if self.before is None else -self.before
-        change[places] += pressure
+        change[slice(None) if places is None else places] += pressure
         moved = self.restricted.displacement(change, self.nodes, self.nodes, precision)
         return moved if self.moved is None else np.add(moved, self.moved, out=moved)
 
-    def recentred(self, pressure: Real, places: Indices, precision: Precision) -> CorrectedOperator:
+    def recentred(
+        self, pressure: Real, places: Indices | None, precision: Precision
+    ) -> CorrectedOperator:
         """Return the operator that is exact for the pressure on some nodes."""
         moved = self._exactly(pressure, places, precision)
         before = np.zeros_like(moved)
-        before[places] = pressure
+        before[slice(None) if places is None else places] = pressure
         return replace(self, before=before, moved=moved)
 
-    def _exactly(self, pressure: Real, places: Indices, precision: Precision) -> Real:
-        sources = self.grid_nodes(places)
+    def _exactly(self, pressure: Real, places: Indices | None, precision: Precision) -> Real:
+        sources = self.nodes if places is None else self.grid_nodes(places)
+        assert sources is not None
         return self.exact.displacement(pressure, sources, self.nodes, precision).ravel()

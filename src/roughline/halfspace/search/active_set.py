@@ -52,7 +52,7 @@ _RELIEF = 1e-3  # part of a bound by which a node that leaves it is relieved at 
 
 
 def search(
-    region: Region, load: Load, start: Carriers, method: Method
+    region: Region, carriers: Carriers, load: Load, method: Method
 ) -> tuple[Trial, Outcome, int]:
     """Find the sets of nodes and the pressures under one load.
 
@@ -60,10 +60,10 @@ def search(
     ----------
     region : Region
         The nodes among which they are sought, and the operator.
+    carriers : Carriers
+        Where to start from, with pressures within their bounds.
     load : Load
         What is prescribed.
-    start : Carriers
-        Where to start from, with pressures within their bounds.
     method : Method
         Tolerance, bound on the products and precision.
 
@@ -72,45 +72,68 @@ def search(
     tuple of Trial, Outcome and int
         What was found, how the search ended, and how many products with the operator it took.
     """
-    carriers, gap, products = start, region.separation, 0
-    rule, stopping = _ExchangeRule(region.separation.size), _StoppingRule(method)
-    total = load.total(region.problem.operator.cell_area)
+    rounds = _Rounds(region, load, method)
+    carriers = carriers.able_to_carry(rounds.total, region.bounds, region.separation)
     while True:
+        found = rounds.after(carriers)
+        if not isinstance(found, Carriers):
+            return found
+        carriers = found
+
+
+class _Rounds:
+    """Rounds of a search; what one has in its hands is free for the next."""
+
+    def __init__(self, region: Region, load: Load, method: Method) -> None:
+        self.total = load.total(region.problem.operator.cell_area)
+        self._region = region
+        self._load = load
+        self._method = method
+        self._rule = _ExchangeRule(region.separation.size)
+        self._stopping = _StoppingRule(method)
+        self._products = 0
+
+    def after(self, carriers: Carriers) -> Carriers | tuple[Trial, Outcome, int]:
+        """Return the carriers after a round, or how the search ends."""
+        region, method, rule, stopping = self._region, self._method, self._rule, self._stopping
         # 1. The gap that the pressures leave, and the residuals.
-        nearest = gap if carriers.places.size else region.separation
-        carriers = carriers.able_to_carry(total, region.bounds, nearest)
-        trial = region.trial(load, carriers, stopping.residuals, rescale=not products)
-        carriers, gap, products = trial.carriers, trial.gap, products + 1
-        spent = products >= method.max_iterations
+        trial = region.trial(self._load, carriers, stopping.residuals, rescale=not self._products)
+        self._products += 1
+        spent = self._products >= method.max_iterations
         if spent and stopping.residuals != method.certificate:
             stopping.residuals = method.certificate
-            trial = region.trial(load, carriers, stopping.residuals)
-            products += 1
-        outcome = stopping.outcome(trial, rule, spent=spent)
+            trial = region.trial(self._load, trial.carriers, stopping.residuals)
+            self._products += 1
         # 2. The end of the search.
+        outcome = stopping.outcome(trial, rule, spent=spent)
         if outcome is Outcome.CONVERGED and trial.residuals.tension:  # less than the tolerance
-            carriers = _within_bounds(carriers, region.bounds.at(carriers.places))
-            continue
+            bounds = region.bounds.at(trial.carriers.places)
+            return self._able(_within_bounds(trial.carriers, bounds), trial)
         if outcome is not None:
-            return trial, outcome, products
+            return trial, outcome, self._products
         # 3. Conjugate gradients on the touching nodes.
-        watched = trial.close(np.inf, gap.size) if rule.one_by_one else trial.watched
+        watched = trial.close(np.inf, trial.gap.size) if rule.one_by_one else trial.watched
         try:
             relaxation = _relaxed(
                 trial,
-                load,
+                self._load,
                 watched,
                 method.rtol,
                 stopping.steps,
-                most_steps=method.max_iterations - products,
+                most_steps=method.max_iterations - self._products,
                 to_tolerance=rule.to_tolerance,
             )
         except np.linalg.LinAlgError:  # an elastic half-space is positive definite
-            return trial, Outcome.STALLED, products
-        products += relaxation.steps
+            return trial, Outcome.STALLED, self._products
+        self._products += relaxation.steps
         stopping.choose_precision(relaxation, trial.length_scale)
         # 4. The exchange of wrong nodes.
-        carriers = rule.applied(region, relaxation, watched)
+        return self._able(rule.applied(region, relaxation, watched), trial)
+
+    def _able(self, carriers: Carriers, trial: Trial) -> Carriers:
+        """Return carriers that can carry the load, joined by the nodes nearest to contact."""
+        gap = trial.gap if carriers.places.size else self._region.separation
+        return carriers.able_to_carry(self.total, self._region.bounds, gap)
 
 
 def _within_bounds(carriers: Carriers, bounds: Bounds) -> Carriers:
@@ -240,8 +263,10 @@ def _relaxed(
         if not gradients.advance():
             break
     wrong = sides.wrong(gradients.pressure, gradients.watched - level, tolerance)
-    pressure = trial.carriers.pressure.copy()
-    pressure[trial.touching] = gradients.pressure
+    pressure = gradients.pressure
+    if not trial.touching.all():
+        pressure = trial.carriers.pressure.copy()
+        pressure[trial.touching] = gradients.pressure
     largest = max(error, max(sides.bounds.missed(gradients.pressure)) * diagonal)
     carriers = Carriers(trial.carriers.places, pressure)
     return _Relaxation(carriers, wrong, level, largest, gradients.steps)

@@ -15,7 +15,7 @@ from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
-from roughline.halfspace.search.turns import guessed
+from roughline.halfspace.search.turns import Turns
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
 _NODES_AT_A_TIME = 2**15  # whose means a thread computes, so many fit into a cache
@@ -53,7 +53,7 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, ContactLaw]:
     )
     inverse = inverse_on(problem.half_space, shape, spacing)
     coarse = replace(problem, inverse=inverse, separation=coarse_separation, law=law.on(_halved))
-    found = guessed(coarse, load, first_guess(coarse, load)[0], _ROUGH)
+    found = Turns(coarse, load, first_guess(coarse, load)[0], _ROUGH).guess()
     # at the end of an odd side one node takes the force of two
     shares = [
         spacing[axis] / operator.spacing[axis] / _widths(n) for axis, n in enumerate(operator.shape)

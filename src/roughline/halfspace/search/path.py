@@ -15,11 +15,12 @@ import numpy as np
 
 from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.laws.bounds import Bounds
+from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.search.cascade import first_guess
 from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Outcome, Problem
 from roughline.halfspace.search.residuals import Residuals
 from roughline.halfspace.search.tangent import Response, Tangent, response
-from roughline.halfspace.search.turns import solve
+from roughline.halfspace.search.turns import Turns
 
 # Where the force changes by more than this, over the force so far, coarser grids guess better than
 # the tangent.
@@ -81,7 +82,7 @@ class _Path:
         contact = self._contact(load)
         self._before = load.value
         if contact.outcome is not Outcome.CONVERGED:
-            self._start, self._last = None, None
+            self._last = None
             lost = {"none": -np.inf, "dents": load.value, "path": np.inf}
             self._unknown_below = lost[contact.problem.law.memory]
             self._problem = self._problem.obeying(contact.problem.law)
@@ -100,36 +101,49 @@ class _Path:
 
     def _contact(self, load: Load) -> Contact:
         """Solve the contact under a load, by one law after the other until one settles it."""
-        problem, start, spent = self._problem, self._start, 0
-        law = problem.law.start(load.value, self._before, self._largest)
-        if self._furthest is None and problem.is_beyond_full_contact(load):
+        law = self._problem.law.start(load.value, self._before, self._largest)
+        if self._furthest is None and self._problem.is_beyond_full_contact(load):
             law = law.bounded()
-        while True:
-            problem = problem.obeying(law)
-            if _is_apart(problem, load):
-                contact = _apart(problem, load, Outcome.CONVERGED)
-            else:
-                if start is None:
-                    start, law = first_guess(problem, load)
-                if law is not problem.law:  # foreseen
-                    problem = problem.obeying(law)
-                    start, _ = first_guess(problem, load)
-                contact = self._solve(problem, load, start, spent)
-            spent = contact.convolutions
-            # that bodies yield shows before their elastic contact is found
-            told = contact.outcome is Outcome.CONVERGED or law.memory == "dents"
-            following = law.then(contact) if told else None
-            if following is None:
-                return contact
-            law, start = following, ContactSet(contact.nodes, contact.pressure, contact.depth)
+        found: Contact | _Stage = _Stage(law, 0)
+        while isinstance(found, _Stage):
+            found = self._settled(load, found)
+        return found
 
-    def _solve(self, problem: Problem, load: Load, start: ContactSet, spent: int) -> Contact:
-        """Solve a contact from its start; it has spent some of its convolutions before."""
-        if load.force is not None:
-            load = Load(force=problem.law.attainable(load.force, problem.operator.cell_area))
-        left = max(1, self._method.max_iterations - spent)
-        contact = solve(problem, load, start, replace(self._method, max_iterations=left))
-        return replace(contact, convolutions=contact.convolutions + spent)
+    def _settled(self, load: Load, stage: _Stage) -> Contact | _Stage:
+        """Solve the contact by a law; return it, or the stage that follows."""
+        problem = self._problem.obeying(stage.law)
+        if _is_apart(problem, load):
+            contact = _apart(problem, load, Outcome.CONVERGED)
+        else:
+            if load.force is not None:
+                load = Load(force=stage.law.attainable(load.force, problem.operator.cell_area))
+            if self._start is None:
+                problem = self._guess(problem, load)
+            left = max(1, self._method.max_iterations - stage.spent)
+            method = replace(self._method, max_iterations=left)
+            contact = Turns(problem, load, self._taken_start(), method).contact()
+        contact = replace(contact, convolutions=contact.convolutions + stage.spent)
+        # that bodies yield shows before their elastic contact is found
+        told = contact.outcome is Outcome.CONVERGED or problem.law.memory == "dents"
+        following = problem.law.then(contact) if told else None
+        if following is None:
+            return contact
+        self._start = contact.contact_set
+        return _Stage(following, contact.convolutions)
+
+    def _guess(self, problem: Problem, load: Load) -> Problem:
+        """Start from a first guess, and return the bodies under the law that it foresees."""
+        self._start, law = first_guess(problem, load)
+        if law is not problem.law:
+            problem = problem.obeying(law)
+            self._start, _ = first_guess(problem, load)
+        return problem
+
+    def _taken_start(self) -> ContactSet:
+        """Return where a search starts, and hold it no longer."""
+        start, self._start = self._start, None
+        assert start is not None
+        return start
 
     def _prepare(self, load: Load | None, solved: _Solved | None) -> None:
         """Choose the contact from which the next load starts, and follow its tangent.
@@ -159,6 +173,14 @@ class _Path:
         change = _change(contact, tangent, load)
         if tangent.stiffness > 0 and abs(change) < _LARGEST_CHANGE * abs(contact.force):
             self._start = _predicted(change, contact, tangent)
+
+
+@dataclass(frozen=True, eq=False)
+class _Stage:
+    """A law by which a load is solved next, and the convolutions spent before."""
+
+    law: ContactLaw
+    spent: int
 
 
 @dataclass(frozen=True, eq=False)

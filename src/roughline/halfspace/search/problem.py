@@ -233,6 +233,11 @@ class Contact:
         return ~(self.plastic | self.pulling)
 
     @property
+    def contact_set(self) -> ContactSet:
+        """The nodes under pressure, the pressures and the depth."""
+        return ContactSet(self.nodes, self.pressure, self.depth)
+
+    @property
     def separation(self) -> Real:
         """Distance of the bodies at first touch, as this load leaves them, shape (nx, ny)."""
         return self.problem.separation

@@ -75,10 +75,6 @@ class Region:
             problem, CorrectedOperator(problem.operator, nodes=nodes), separation, bounds, reach
         )
 
-    def on_grid(self, carriers: Carriers, depth: float) -> ContactSet:
-        """Return carriers as a contact set of the grid, at a depth."""
-        return ContactSet(self.operator.on_grid(carriers.places), carriers.pressure, depth)
-
     def carriers(self, contact_set: ContactSet) -> Carriers:
         """Return the nodes of a contact set as carriers, within their bounds.
 
@@ -268,6 +264,12 @@ class Trial:
     def certified(self, rtol: float) -> bool:
         """Whether the residuals are within a tolerance, and no node overlaps that was left out."""
         return self.residuals.worst <= rtol and not self.residuals.penetration
+
+    @property
+    def contact_set(self) -> ContactSet:
+        """The carriers as nodes of the grid, and the depth."""
+        nodes = self.region.operator.on_grid(self.carriers.places)
+        return ContactSet(nodes, self.carriers.pressure, self.depth)
 
     @property
     def watched(self) -> Indices:

@@ -139,7 +139,7 @@ class _Solution:
         restricted operator err by a part of what they gain, which shows in the gain of the next
         turn.
         """
-        cell_area, every = problem.operator.cell_area, np.arange(start.size)
+        cell_area = problem.operator.cell_area
         restricted = problem.inverse.restricted.on(nodes)
         operator = CorrectedOperator(problem.operator, restricted, nodes)
         pressure, gained, accuracy = start, np.nan, _ENERGY_MARGIN * method.rtol
@@ -149,8 +149,8 @@ class _Solution:
             # 1. The compliance of the pressures so far; exact but for a first restricted operator.
             exact = turn > 0 or operator.restricted is None
             if exact and operator.restricted is not None:
-                operator = operator.recentred(pressure, every, method.certificate)
-            displacement = operator.displacement(pressure, every, method.certificate)
+                operator = operator.recentred(pressure, None, method.certificate)
+            displacement = operator.displacement(pressure, None, method.certificate)
             compliance = float(pressure @ displacement) * cell_area
             # 2. Steps that lessen it; it counts forces, energies of errors count pressures.
             gradients = ConjugateGradients(

@@ -8,7 +8,7 @@ touch. Where turns do not help, the search continues with the exact operator alo
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -24,8 +24,11 @@ _PRODUCTS = 200  # with the restricted operator in one search, at most; a sound 
 _DEEPER = 1.05  # times the depth of the start up to which nodes are looked at
 
 
-def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Contact:
-    """Find the contact set and the pressures under one load.
+class Turns:
+    """The search for the contact set and the pressures under one load.
+
+    It holds what the next step needs and nothing else, so that the memory of a step is free for
+    the one after.
 
     Parameters
     ----------
@@ -36,134 +39,112 @@ def solve(problem: Problem, load: Load, start: ContactSet, method: Method) -> Co
     start : ContactSet
         Where to start from.
     method : Method
-        Tolerance, bound on the convolutions and precision.
-    """
-    spent = _Spent(method.max_iterations)
-    trial = _looked_at(problem, load, start, method.steps, spent, rescale=True)
-    before, worst, precision = np.inf, trial.residuals.worst, method.steps
-    while precision != method.certificate or not trial.certified(method.rtol):
-        found = None
-        if worst < 0.5 * before and spent.left > 1:
-            found = _refined(trial, load, method, spent)
-        if found is None:
-            return _with_exact_operator(trial, load, method, spent)
-        precision = method.certificate
-        trial = _looked_at(problem, load, found, precision, spent)
-        before, worst = worst, trial.residuals.worst
-    return trial.contact(Outcome.CONVERGED, spent.convolutions)
-
-
-@dataclass
-class _Spent:
-    """What a load has taken so far.
-
-    Attributes
-    ----------
-    most : int
-        Bound on convolutions and products together.
-    convolutions : int
-        Convolutions with the exact operator.
-    products : int
-        Products with restricted operators.
+        Tolerance, bound on the convolutions and products together, and precision.
     """
 
-    most: int
-    convolutions: int = 0
-    products: int = 0
+    def __init__(self, problem: Problem, load: Load, start: ContactSet, method: Method) -> None:
+        self._problem = problem
+        self._load = load
+        self._method = method
+        self._start: ContactSet | None = start
+        self._near: tuple[Region, Carriers] | None = None
+        self._worst = np.inf  # residual of the last look
+        self._convolutions = 0  # with the exact operator
+        self._products = 0  # with restricted ones
 
     @property
-    def left(self) -> int:
-        """What may still be spent."""
-        return self.most - self.convolutions - self.products
+    def _left(self) -> int:
+        """Convolutions and products that may still be spent."""
+        return self._method.max_iterations - self._convolutions - self._products
 
+    def contact(self) -> Contact:
+        """Return the contact, certified or not."""
+        method = self._method
+        contact = self._seen(method.steps)
+        while contact is None and self._near is not None:
+            self._refine()
+            contact = self._seen(method.certificate)
+        return contact or self._with_exact_operator()
 
-def guessed(problem: Problem, load: Load, start: ContactSet, method: Method) -> ContactSet:
-    """Find a contact roughly: as :func:`solve`, with one search, and no certificate."""
-    spent = _Spent(method.max_iterations)
-    trial = _looked_at(problem, load, start, method.steps, spent, rescale=True)
-    region, carriers = trial.region.near(trial, REACH) or _everywhere(trial)
-    found, _, _ = search(region, load, carriers, method)
-    return region.on_grid(found.carriers, found.depth)
+    def guess(self) -> ContactSet:
+        """Return a contact that is found roughly, by one search and with no certificate."""
+        trial = self._trial(self._method.steps)
+        near = trial.region.near(trial, REACH) or self._everywhere(trial.contact_set)
+        return search(*near, self._load, self._method)[0].contact_set
 
+    def _seen(self, precision: Precision) -> Contact | None:
+        """Look wherever bodies can touch; return the contact if it is certified.
 
-def _looked_at(
-    problem: Problem,
-    load: Load,
-    start: ContactSet,
-    precision: Precision,
-    spent: _Spent,
-    *,
-    rescale: bool = False,
-) -> Trial:
-    """Return a start as a trial among all nodes that can touch."""
-    total = load.total(problem.operator.cell_area)
-    depth = start.depth if load.depth is None else load.depth
-    pressures = float(start.pressure.sum()) if total is None else total
-    reach = np.inf if depth is None else problem.reach(depth, pressures)
-    while True:
-        region = Region.possible(problem, start.nodes, _DEEPER * reach)
-        carriers = region.carriers(start).able_to_carry(total, region.bounds, region.separation)
-        if region.reach < np.inf and not carriers.can_carry(total, region.bounds):
-            reach = np.inf
-            continue
-        trial = region.trial(load, carriers, precision, rescale=rescale)
-        spent.convolutions += 1
-        reach = problem.reach(trial.depth, float(trial.carriers.pressure.sum()))
-        if reach <= region.reach:
-            return trial
-        start = region.on_grid(trial.carriers, trial.depth)
+        If not, the nodes near the contact are kept, unless the last turn did not help.
+        """
+        trial, before = self._trial(precision), self._worst
+        if precision == self._method.certificate and trial.certified(self._method.rtol):
+            return trial.contact(Outcome.CONVERGED, self._convolutions)
+        self._start, self._worst = trial.contact_set, trial.residuals.worst
+        helped = self._worst < 0.5 * before
+        self._near = trial.region.near(trial, REACH) if helped and self._left > 1 else None
+        return None
 
+    def _trial(self, precision: Precision) -> Trial:
+        """Return where the search is as a trial among all nodes that can touch."""
+        problem, load, start = self._problem, self._load, self._start
+        assert start is not None
+        total = load.total(problem.operator.cell_area)
+        depth = start.depth if load.depth is None else load.depth
+        pressures = float(start.pressure.sum()) if total is None else total
+        reach = np.inf if depth is None else problem.reach(depth, pressures)
+        while True:
+            region = Region.possible(problem, start.nodes, _DEEPER * reach)
+            carriers = region.carriers(start)
+            carriers = carriers.able_to_carry(total, region.bounds, region.separation)
+            if region.reach < np.inf and not carriers.can_carry(total, region.bounds):
+                reach = np.inf
+                continue
+            trial = region.trial(load, carriers, precision, rescale=not self._convolutions)
+            self._convolutions += 1
+            reach = problem.reach(trial.depth, float(trial.carriers.pressure.sum()))
+            if reach <= region.reach:
+                return trial
+            start = trial.contact_set
 
-def _everywhere(trial: Trial) -> tuple[Region, Carriers]:
-    """Return all of the grid with the exact operator, and the carriers of a trial in it."""
-    region = Region.whole(trial.region.problem)
-    return region, region.carriers(trial.region.on_grid(trial.carriers, trial.depth))
+    def _refine(self) -> None:
+        """Search near the contact, and correct there, until a certificate is likely."""
+        assert self._near is not None
+        (region, carriers), self._near = self._near, None
+        method, worst = self._method, self._worst
+        while True:
+            # 1. Search with the restricted operator.
+            target = max(_GAIN * worst, AIM * method.rtol)
+            rough = Method(target, max(1, min(self._left - 1, _PRODUCTS)), "float32")
+            found, _, products = search(region, carriers, self._load, rough)
+            self._products += products
+            self._start = found.contact_set
+            expected = max(target, _GAIN * worst)
+            if expected <= method.rtol or self._left <= 1:
+                return
+            # 2. See, there, what the exact operator gives.
+            precision = method.steps if expected > SINGLE_ABOVE else method.certificate
+            region = region.recentred(found.carriers, precision)
+            trial = region.trial(self._load, found.carriers, "float32")
+            self._convolutions += 1
+            self._start = trial.contact_set
+            before, worst = worst, trial.residuals.worst
+            near = region.near(trial, _NEARER)
+            if near is None or not worst < 0.5 * before:
+                return
+            region, carriers = near
 
+    def _everywhere(self, contact_set: ContactSet) -> tuple[Region, Carriers]:
+        """Return all of the grid with the exact operator, and a contact set as carriers in it."""
+        region = Region.whole(self._problem)
+        return region, region.carriers(contact_set)
 
-def _with_exact_operator(trial: Trial, load: Load, method: Method, spent: _Spent) -> Contact:
-    """Go on from a trial with the exact operator alone."""
-    rest = replace(method, max_iterations=max(1, spent.left))
-    if rest.max_iterations == 1:  # no more than a certificate
-        rest = replace(rest, precision=method.certificate)
-    region, carriers = _everywhere(trial)
-    trial, outcome, products = search(region, load, carriers, rest)
-    return trial.contact(outcome, spent.convolutions + products)
-
-
-def _refined(trial: Trial, load: Load, method: Method, spent: _Spent) -> ContactSet | None:
-    """Search near the contact of a trial in turns, until a certificate is likely.
-
-    Parameters
-    ----------
-    trial : Trial
-        A trial among all nodes that can touch.
-    load, method
-        As for :func:`solve`.
-    spent : _Spent
-        What the load has taken; added to.
-
-    Returns
-    -------
-    ContactSet or None
-        What was found; None where the exact operator costs less.
-    """
-    found, reach, worst = None, REACH, trial.residuals.worst
-    while (near := trial.region.near(trial, reach)) is not None:
-        # 1. Search with the restricted operator.
-        target = max(_GAIN * worst, AIM * method.rtol)
-        rough = Method(target, max(1, min(spent.left - 1, _PRODUCTS)), "float32")
-        result, _, products = search(near[0], load, near[1], rough)
-        found = near[0].on_grid(result.carriers, result.depth)
-        spent.products += products
-        expected = max(target, _GAIN * worst)
-        if expected <= method.rtol or spent.left <= 1:
-            break
-        # 2. See, there, what the exact operator gives.
-        precision = method.steps if expected > SINGLE_ABOVE else method.certificate
-        exact = near[0].recentred(result.carriers, precision)
-        trial = exact.trial(load, result.carriers, "float32")
-        spent.convolutions += 1
-        before, worst, reach = worst, trial.residuals.worst, _NEARER
-        if not worst < 0.5 * before:
-            break
-    return found
+    def _with_exact_operator(self) -> Contact:
+        """Go on with the exact operator alone."""
+        rest = replace(self._method, max_iterations=max(1, self._left))
+        if rest.max_iterations == 1:  # no more than a certificate
+            rest = replace(rest, precision=rest.certificate)
+        assert self._start is not None
+        (region, carriers), self._start = self._everywhere(self._start), None
+        trial, outcome, products = search(region, carriers, self._load, rest)
+        return trial.contact(outcome, self._convolutions + products)
