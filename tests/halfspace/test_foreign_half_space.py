@@ -239,6 +239,10 @@ def test_a_half_space_that_is_none_is_refused_in_one_line():
         def spectrum(self, q):
             return -super().spectrum(q)
 
+    class AsThickInAllUnits(Coated):
+        def in_units(self, pressure, length):
+            return replace(self, E_star=self.E_star / pressure)
+
     class Unknown(Coated):
         def kernel(self, first, spacing, rows):
             rows[:] = np.nan
@@ -246,6 +250,7 @@ def test_a_half_space_that_is_none_is_refused_in_one_line():
     for kind, periodic, message in (
         (WithoutKernel, False, "WithoutKernel has no kernel, which a free half-space needs: make"),
         (Negative, True, "Negative.spectrum gives -.* at q = .*; a positive, finite displacement"),
+        (AsThickInAllUnits, True, r"AsThickInAllUnits.in_units\(2, .*\) displaces a wave by"),
         (Unknown, False, "Unknown.kernel gives numbers that are not finite; a finite"),
     ):
         half_space = kind(free.E_star, free.share, free.thickness, periodic)

@@ -8,6 +8,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.contact.loads import Loads
+from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.topography.body import Surface
 
@@ -50,6 +51,7 @@ class ScaledSurface:
         dx, dy = surface.spacing
         length = float(np.sqrt(dx) * np.sqrt(dy))
         scaled = half_space.in_units(half_space.E_star, length)
+        _refuse_other_half_space(half_space, scaled, length, max(surface.sizes) / length)
         return cls(surface, height, length, half_space.E_star, (dx / length, dy / length), scaled)
 
     def separation(self) -> Real:
@@ -73,3 +75,20 @@ class ScaledSurface:
     def cell_area(self) -> float:
         """Area of one cell. [length²]"""
         return self.spacing[0] * self.spacing[1] * self.length**2
+
+
+def _refuse_other_half_space(
+    half_space: HalfSpace, scaled: HalfSpace, length: float, side: float
+) -> None:
+    """Refuse units in which waves as long as the surface, or as two cells, move otherwise."""
+    q = np.array([2 * np.pi / side, np.pi])
+    with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
+        moved = half_space.spectrum(q / length) * (half_space.E_star / length)
+    there, computed = scaled.spectrum(q), np.isfinite(moved) & (moved > 0)  # in these units, too
+    if computed.all() and not np.allclose(there, moved, rtol=1e-6, atol=0):
+        worst = int(np.abs(there / moved - 1).argmax())
+        raise InputError(
+            f"{type(half_space).__name__}.in_units({half_space.E_star:g}, {length:g}) displaces a "
+            f"wave by {there[worst] / moved[worst]:g} of what it should: pressures are to be "
+            "divided by the first number, and all lengths of the body by the second"
+        )
