@@ -1,61 +1,104 @@
-"""What each lever of the full model is worth: a path of loads with one of them taken away."""
+"""What each lever of the full model is worth: presses with one of them taken away, in turns.
 
-import sys
-import time
+``python benchmarks/levers.py --rows "cold free 1024" "path of 20 512"`` takes rows of ``turns.py``,
+on one thread. The numbers are times of the core without a lever over that with all, the shortest
+of all rounds; convolutions follow where they change.
+"""
+
+import argparse
+import re
 from contextlib import contextmanager
 
+import numpy as np
+import turns
+
 import roughline as rl
-from roughline.halfspace.inverse import approximate_inverse as preconditioner
+from roughline.contact import scaled_surface
+from roughline.halfspace.inverse import approximate_inverse, blocks, kept
 from roughline.halfspace.operators import convolution
 from roughline.halfspace.operators.restricted import RestrictedOperators
 from roughline.halfspace.search import cascade, path, tangent
+from roughline.halfspace.search.separation import Separation
+
+
+class StencilAlone(approximate_inverse._TwoLevels):
+    """The approximate inverse without its blocks."""
+
+    def __init__(self, inverse, nodes):
+        super().__init__(inverse, nodes)
+        self._per_node[:] = 0
+        self._even = np.zeros_like
+
+
+LEVERS = {
+    # what is taken away: the places and what comes there
+    "nothing": (),
+    "blocks beside the stencil": ((approximate_inverse, "_TwoLevels", StencilAlone),),
+    "equations of few nodes": ((approximate_inverse, "MOST_DENSE", 0),),
+    "equations of few blocks": ((blocks, "MOST_DENSE", 0),),
+    "restricted steps": ((RestrictedOperators, "on", lambda self, nodes: None),),
+    "sums over pairs": ((convolution, "_PAIRS", 0.0),),
+    "odd and even halves": ((convolution.Convolution, "_parts", lambda self, precision: 1),),
+    "separation from heights": (
+        (scaled_surface, "Separation", lambda *given: np.array(Separation(*given))),
+    ),
+    "kept operators": ((kept, "_MOST_TABLES", 0),),
+    "coarser grids": ((cascade, "_COARSEST", 10**6),),
+    "start along the tangent": ((path, "_LARGEST_CHANGE", 0.0),),
+    "energy of the tangent's error": ((tangent, "_ENERGY_MARGIN", 1e-6),),
+}
 
 
 @contextmanager
-def without(module, name, value):
-    """Replace a part for a while."""
-    sound = getattr(module, name)
-    setattr(module, name, value)
+def without(parts):
+    """Replace some parts for a while."""
+    sound = [(place, name, getattr(place, name)) for place, name, _ in parts]
+    for place, name, value in parts:
+        setattr(place, name, value)
     try:
         yield
     finally:
-        setattr(module, name, sound)
+        for place, name, value in sound:
+            setattr(place, name, value)
 
 
-def measured(surface, n_loads, **options):
-    """Return seconds and convolutions for each load of a path."""
-    start = time.perf_counter()
-    curve = rl.press(surface, E_star=1.0, n_loads=n_loads, **options)
-    return (time.perf_counter() - start) / n_loads, curve.convolutions.mean()
+def measured(row, lever):
+    """Return time of the core and convolutions of a row without a lever."""
+    turns.forget()
+    with without(LEVERS[lever]):
+        if row.startswith("warm"):
+            turns.press(*turns.rows()[row])
+        _, cores, _, convolutions = turns.measured(row)
+    turns.forget()
+    return cores, convolutions
 
 
 def main():
     """Print the table."""
-    n, n_loads = int(sys.argv[1]) if len(sys.argv) > 1 else 1024, 20
-    surface = rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(n, 7)
-    rl.press(rl.SelfAffine(hurst=0.8, rms_height=1.0).surface(512, 7), E_star=1.0, n_loads=3)
-    levers = {
-        "nothing": without(path, "_LARGEST_CHANGE", path._LARGEST_CHANGE),
-        "steps restricted to the contact": without(
-            RestrictedOperators, "on", lambda self, nodes: None
-        ),
-        "sums over pairs of few nodes": without(convolution, "_PAIRS", 0.0),
-        "direct solution of few nodes": without(preconditioner, "_DIRECT", 0),
-        "energy of the tangent's error as its measure (1e-12 instead)": without(
-            tangent, "_ENERGY_MARGIN", 1e-6
-        ),
-        "prediction along the tangent (coarse grids every time)": without(
-            path, "_LARGEST_CHANGE", 0.0
-        ),
-        "coarse grids (rigid shift for the first load)": without(cascade, "_COARSEST", 10**6),
-    }
-    print(f"{n}², H = 0.8, {n_loads} loads\n\n| without | per load | convolutions |\n|---|---|---|")
-    for name, lever in levers.items():
-        with lever:
-            wall, count = measured(surface, n_loads)
-        print(f"| {name} | {wall:.2f} s | {count:.0f} |", flush=True)
-    wall, count = measured(surface, n_loads, precision="float64")
-    print(f"| single precision for the steps | {wall:.2f} s | {count:.0f} |")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rows", nargs="+", default=["cold free 1024", "path of 20 512"])
+    parser.add_argument("--without", nargs="+", default=[""], help="what names of levers contain")
+    parser.add_argument("--rounds", type=int, default=3)
+    wanted = parser.parse_args()
+    names = [name for name in LEVERS if any(each in name for each in wanted.without)]
+    names = ["nothing", *(name for name in names if name != "nothing")]
+    rl.set_threads(1)
+    turns.compile_loops()
+    print(f"| row | {' | '.join(names)} |\n|{'---|' * (len(names) + 1)}")
+    for row in turns.rows():
+        if not any(re.search(each, row) for each in wanted.rows):
+            continue
+        runs = {name: [] for name in names}
+        for turn in range(wanted.rounds):
+            for name in names if turn % 2 == 0 else reversed(names):
+                runs[name].append(measured(row, name))
+        best = {name: min(cores for cores, _ in each) for name, each in runs.items()}
+        cells = [f"{best['nothing']:.3f} s, {runs['nothing'][0][1]}"]
+        for name in names[1:]:
+            count = runs[name][0][1]
+            more = "" if count == runs["nothing"][0][1] else f", {count}"
+            cells.append(f"{best[name] / best['nothing']:.2f}{more}")
+        print(f"| {row} | {' | '.join(cells)} |", flush=True)
 
 
 if __name__ == "__main__":

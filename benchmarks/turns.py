@@ -72,23 +72,31 @@ def forget():
             getattr(module, "_kept", {}).clear()
 
 
+def compile_loops():
+    """Press what compiles all loops."""
+    press(512, {"forces": [0.01, 0.3], "hardness": True})
+    press(512, {"forces": [0.01, 0.3], "periodic": True})
+
+
+def measured(name):
+    """Press a row; return wall and cores' time, loads that failed, convolutions."""
+    n, loads = rows()[name]
+    surface(n)
+    best, spent = [np.inf, np.inf], 0.0
+    while spent < SHORT:
+        if not name.startswith("warm"):
+            forget()
+        curve, *times = press(n, loads)
+        best, spent = list(map(min, best, times)), spent + times[0]
+    return [*best, int(np.count_nonzero(~curve.converged)), int(curve.convolutions.sum())]
+
+
 def work(threads):
     """Press the rows whose names come in, line by line."""
-    every = rows()
     rl.set_threads(threads)
-    press(512, {"forces": [0.01, 0.3], "hardness": True})  # compiles
-    press(512, {"forces": [0.01, 0.3], "periodic": True})
+    compile_loops()
     for line in sys.stdin:
-        name = line.strip()
-        surface(every[name][0])
-        best, spent = [np.inf, np.inf], 0.0
-        while spent < SHORT:
-            if not name.startswith("warm"):
-                forget()
-            curve, *times = press(*every[name])
-            best, spent = list(map(min, best, times)), spent + times[0]
-        failed = int(np.count_nonzero(~curve.converged))
-        print(json.dumps([*best, failed, int(curve.convolutions.sum())]), flush=True)
+        print(json.dumps(measured(line.strip())), flush=True)
 
 
 class State:
