@@ -1,10 +1,9 @@
 """An approximate inverse of the half-space on any set of contact nodes.
 
 Neighbours within two cells are inverted by a stencil, which is the inverse convolution cut short.
-What is smooth over blocks of 16 cells is inverted by equations for the mean pressure of each block:
-dense ones of few blocks, and the inverse convolution of many. The two spaces are split by zero
-means, so each adds only what the other cannot represent; the splitting is stable for operators of
-this order [1]_ [2]_.
+What is smooth over blocks of 16 cells is inverted by the inverse convolution of the kernel between
+blocks. The two spaces are split by zero means, so each adds only what the other cannot represent;
+the splitting is stable for operators of this order [1]_ [2]_.
 
 References
 ----------
@@ -24,7 +23,8 @@ import numpy as np
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Integers, Real, Single
 from roughline.halfspace.inverse import block_loops as loops
-from roughline.halfspace.inverse.blocks import MOST_DENSE, BlockKernel, Dense, even_on_blocks
+from roughline.halfspace.inverse.blocks import BlockKernel, EvenOnBlocks
+from roughline.halfspace.inverse.direct import Direct
 from roughline.halfspace.inverse.even_sums import Lags, even_sums
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes, unit_in_single
@@ -33,6 +33,7 @@ from roughline.halfspace.operators.restricted import RestrictedOperators
 
 _RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
+_DIRECT = 300  # nodes or fewer, whose equations are solved directly
 _STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
 
 
@@ -167,12 +168,9 @@ Preconditioner = Callable[[Real], Real]
 
 def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> Preconditioner:
     """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
-    few = nodes.indices.size
-    if few > MOST_DENSE:
-        return _TwoLevels(inverse, nodes)
-    rows = np.repeat(nodes.rows, np.diff(nodes.starts))
-    energy = np.full(few, inverse.kernel[0, 0])
-    return Dense(inverse.kernel, rows, nodes.columns, np.ones(few), energy)
+    if nodes.indices.size <= _DIRECT:
+        return Direct(inverse.kernel, nodes)
+    return _TwoLevels(inverse, nodes)
 
 
 class _TwoLevels:
@@ -206,7 +204,7 @@ class _TwoLevels:
         energy = count**2 * kernel[0, 0]
         # as if the nodes of a block lay at random in it
         energy += count * (1 - count / (sides[0] * sides[1])) * (inverse.diagonal - kernel[0, 0])
-        self._even = even_on_blocks(inverse.block_kernel, count, energy)
+        self._even = EvenOnBlocks(inverse.block_kernel, count, energy)
 
     def _share_out(self, work: Callable[[int, int], None]) -> None:
         """Do some work on all bands."""
