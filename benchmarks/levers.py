@@ -13,12 +13,10 @@ import numpy as np
 import turns
 
 import roughline as rl
-from roughline.contact import scaled_surface
-from roughline.halfspace.inverse import approximate_inverse, blocks, kept
+from roughline.halfspace.inverse import approximate_inverse, kept
 from roughline.halfspace.operators import convolution
 from roughline.halfspace.operators.restricted import RestrictedOperators
 from roughline.halfspace.search import cascade, path, tangent
-from roughline.halfspace.search.separation import Separation
 
 
 class StencilAlone(approximate_inverse._TwoLevels):
@@ -34,14 +32,10 @@ LEVERS = {
     # what is taken away: the places and what comes there
     "nothing": (),
     "blocks beside the stencil": ((approximate_inverse, "_TwoLevels", StencilAlone),),
-    "equations of few nodes": ((approximate_inverse, "MOST_DENSE", 0),),
-    "equations of few blocks": ((blocks, "MOST_DENSE", 0),),
+    "direct solution of few nodes": ((approximate_inverse, "_DIRECT", 0),),
     "restricted steps": ((RestrictedOperators, "on", lambda self, nodes: None),),
     "sums over pairs": ((convolution, "_PAIRS", 0.0),),
     "odd and even halves": ((convolution.Convolution, "_parts", lambda self, precision: 1),),
-    "separation from heights": (
-        (scaled_surface, "Separation", lambda *given: np.array(Separation(*given))),
-    ),
     "kept operators": ((kept, "_MOST_TABLES", 0),),
     "coarser grids": ((cascade, "_COARSEST", 10**6),),
     "start along the tangent": ((path, "_LARGEST_CHANGE", 0.0),),

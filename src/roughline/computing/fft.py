@@ -14,7 +14,7 @@ from functools import cache
 import ducc0.fft
 import numpy as np
 
-from roughline.computing.arrays import Complex, ComplexFloats, Real, Single
+from roughline.computing.arrays import Complex, ComplexFloats, Real
 from roughline.computing.cores import available_cores
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
@@ -96,16 +96,6 @@ def fft_rows(rows: ComplexFloats, *, forward: bool) -> None:
 def fft_columns(columns: ComplexFloats, *, forward: bool) -> None:
     """Transform each column in place."""
     ducc0.fft.c2c(columns, axes=(0,), forward=forward, out=columns, nthreads=1)
-
-
-def real_rows(rows: Single, modes: ComplexFloats) -> None:
-    """Transform real rows; half of their modes is written."""
-    ducc0.fft.r2c(rows, axes=(1,), out=modes, nthreads=1)
-
-
-def real_rows_back(modes: ComplexFloats, rows: Single) -> None:
-    """Transform rows of modes, of which half is given, back to real ones."""
-    ducc0.fft.c2r(modes, axes=(1,), lastsize=rows.shape[1], forward=False, out=rows, nthreads=1)
 
 
 def cosine_spectrum(quarter: Real) -> None:

@@ -7,7 +7,7 @@ from scipy.linalg import blas, lapack
 
 from roughline.computing.arrays import Floats, Integers, Real
 from roughline.computing.compiled import compiled
-from roughline.halfspace.operators.operator import GridNodes
+from roughline.halfspace.operators.grid_nodes import GridNodes
 
 _RIDGE = 1 + 1e-6  # factor on the diagonal, as the kernel comes in single precision
 

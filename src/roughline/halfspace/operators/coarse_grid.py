@@ -20,9 +20,8 @@ from roughline.halfspace.operators import restricted_loops as loops
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.padded_grid import PaddedGrid
-from roughline.halfspace.operators.small_grid import SmallGrid
 
-_SMALL = 2**18  # modes, up to which one thread transforms whole rows sooner than two share them
+_SMALL = 2**18  # modes, up to which one thread transforms all sooner than two share them
 _BEYOND = 3  # coarse nodes that splines reach beyond the grid
 
 
@@ -66,12 +65,10 @@ class CoarseGrid:
         return cls(convolution, (_spline_weights(ratios[0]), _spline_weights(ratios[1])), periodic)
 
     @cached_property
-    def _small(self) -> SmallGrid | None:
-        """The same convolution where it is small."""
-        its = self.convolution
-        if its.periods[0] * its.periods[1] > _SMALL:
-            return None
-        return SmallGrid.of(its.shape, its.periods, its.spectrum, its.workspace)
+    def _half_spectrum(self) -> Single:
+        """Half of the eigenvalues, of which the convolution stores a quarter."""
+        modes, quarter = np.arange(self.convolution.periods[0]), self.convolution.spectrum
+        return quarter[np.minimum(modes, modes[::-1] + 1)].astype(np.float32)
 
     @cached_property
     def _everywhere(self) -> GridNodes:
@@ -107,8 +104,14 @@ class CoarseGrid:
 
     def _convolved(self, pressure: Single, out: Single) -> Single:
         """Convolve on the coarse grid; all is in single precision, whatever the types say."""
-        if self._small is not None:
-            return self._small.convolved(pressure, out)
+        (nx, ny), periods = self.convolution.shape, self.convolution.periods
+        if periods[0] * periods[1] <= _SMALL:
+            padded: Any = np.zeros(periods, dtype=np.float32)
+            padded[:nx, :ny] = pressure
+            modes: Any = fft.half_spectrum(padded)
+            modes *= self._half_spectrum
+            out[:] = fft.synthesise(modes, periods[1])[:nx, :ny]
+            return out
         values: Any = pressure.ravel()
         result: Any = out
         self.convolution.displacement(values, self._everywhere, None, "float32", result)
