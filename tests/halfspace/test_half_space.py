@@ -99,3 +99,19 @@ def test_the_displacement_of_many_nodes_under_few_takes_no_more_than_the_transfo
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
     assert peak < 4 * 8 * 2**19
+
+
+@pytest.mark.parametrize("shape", [(16, 24), (9, 35), (1, 8)])
+def test_modes_taken_in_even_and_odd_halves_displace_as_all_at_once(shape, monkeypatch):
+    operator = on_grid(Homogeneous(1.0), shape, (1.0, 0.6))
+    rng = np.random.default_rng(8)
+    sources, targets = (
+        GridNodes.of(np.flatnonzero(rng.random(shape) < 0.4), shape) for _ in range(2)
+    )
+    pressure = rng.normal(size=sources.indices.size)
+    expected = [operator.displacement(pressure, sources, where) for where in (None, targets)]
+    monkeypatch.setattr(convolution, "_LARGE", 0)
+    for where, whole in zip((None, targets), expected, strict=True):
+        halves = operator.displacement(pressure, sources, where)
+        assert halves == pytest.approx(whole, abs=ROUNDING * abs(whole).max())
+        assert (halves != whole).any()

@@ -72,7 +72,7 @@ class Convolution:
 
         Double precision needs no more memory than single precision so, where rows are padded.
         """
-        padded = self.periods[1] != self.shape[1] and self.periods[1] % 2 == 0
+        padded = self.periods[1] >= 2 * self.shape[1] and self.periods[1] % 2 == 0
         large = self.shape[0] * self.periods[1] > _LARGE
         return 2 if padded and large and precision == "float64" else 1
 
@@ -155,15 +155,12 @@ class Convolution:
         modes, real_modes = self._rows(precision)
         period, spectrum = my // parts, self.spectrum[:, odd::parts]
         rows_out = np.arange(nx) if targets is None else targets.rows
-        turns = np.exp(2j * np.pi / my * np.arange(ny if odd else 0))
-        turns = turns.astype(modes.dtype).view(real_modes.dtype).reshape(-1, 2)
+        turns = np.exp(2j * np.pi / my * np.arange(ny)).astype(modes.dtype) if odd else None
 
         def transform_rows(first: int, last: int) -> None:
-            places = sources.starts, sources.columns
-            if odd:
-                loops.scatter_turned(pressure, *places, turns, first, last, real_modes, period)
-            else:
-                loops.scatter_pairs(pressure, *places, first, last, real_modes, period)
+            loops.scatter_pairs(pressure, sources.starts, sources.columns, first, last, real_modes)
+            if turns is not None:
+                modes[first:last, :ny] *= turns.conj()
             fft.fft_rows(modes[first:last, :period], forward=True)
 
         def convolve_columns(first: int, last: int) -> None:
@@ -177,16 +174,13 @@ class Convolution:
 
         def transform_rows_back(first: int, last: int) -> None:
             fft.fft_rows(modes[first:last, :period], forward=False)
-            if targets is None and odd:
-                loops.add_turned_rows(real_modes, period, turns, first, last, result)
-            elif targets is None:
-                loops.gather_rows(real_modes, period, first, last, result)
-            elif odd:
-                places = targets.starts, targets.columns
-                loops.add_turned_pairs(real_modes, period, *places, turns, first, last, result)
+            if turns is not None:
+                modes[first:last, :ny] *= turns
+            if targets is None:
+                loops.gather_rows(real_modes, first, last, bool(odd), result)
             else:
                 places = targets.starts, targets.columns
-                loops.gather_pairs(real_modes, period, *places, first, last, result)
+                loops.gather_pairs(real_modes, *places, first, last, bool(odd), result)
 
         at_a_time = max(mx, my) if mx * my <= _SMALL else fft.LINES_AT_A_TIME
         pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2

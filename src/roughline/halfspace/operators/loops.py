@@ -54,19 +54,12 @@ def find_runs(
 
 @compiled
 def scatter_pairs(
-    values: Floats,
-    starts: Integers,
-    columns: Integers,
-    first: int,
-    last: int,
-    pairs: Floats,
-    period: int,
+    values: Floats, starts: Integers, columns: Integers, first: int, last: int, pairs: Floats
 ) -> None:
     """Write the values of two rows each into the real and imaginary parts of one complex row.
 
-    The real rows begin at `starts` in `values`, with a column for each value, below twice the
-    period. The complex rows from first to last, of shape (period or more, 2), are zero where there
-    are no values; values a period apart are added.
+    The real rows begin at `starts` in `values`, with a column for each value. The complex rows from
+    first to last, of shape (columns, 2), are zero where there are no values.
     """
     for pair in range(first, last):
         pairs[pair] = 0
@@ -74,94 +67,33 @@ def scatter_pairs(
             row = 2 * pair + part
             if row + 1 < starts.size:
                 for i in range(starts[row], starts[row + 1]):
-                    column = columns[i] if columns[i] < period else columns[i] - period
-                    pairs[pair, column, part] += values[i]
-
-
-@compiled
-def scatter_turned(
-    values: Floats,
-    starts: Integers,
-    columns: Integers,
-    turns: Floats,
-    first: int,
-    last: int,
-    pairs: Floats,
-    period: int,
-) -> None:
-    """Write as scatter_pairs does, each value times the conjugate of its column's complex turn."""
-    for pair in range(first, last):
-        z = pairs[pair]
-        z[:] = 0
-        for part in range(2):
-            row = 2 * pair + part
-            if row + 1 < starts.size:
-                for i in range(starts[row], starts[row + 1]):
-                    cosine, sine = turns[columns[i], 0], turns[columns[i], 1]
-                    column = columns[i] if columns[i] < period else columns[i] - period
-                    z[column, 0] += values[i] * (sine if part else cosine)
-                    z[column, 1] += values[i] * (cosine if part else -sine)
+                    pairs[pair, columns[i], part] = values[i]
 
 
 @compiled
 def gather_pairs(
     pairs: Floats,
-    period: int,
     starts: Integers,
     columns: Integers,
     first: int,
     last: int,
+    added: bool,
     values: Floats,
 ) -> None:
-    """Read back the values that scatter_pairs wrote."""
+    """Read back the values that scatter_pairs wrote, or add them to others."""
     for row in range(2 * first, min(2 * last, starts.size - 1)):
         for i in range(starts[row], starts[row + 1]):
-            column = columns[i] if columns[i] < period else columns[i] - period
-            values[i] = pairs[row // 2, column, row % 2]
+            value = pairs[row // 2, columns[i], row % 2]
+            values[i] = values[i] + value if added else value
 
 
 @compiled
-def add_turned_pairs(
-    pairs: Floats,
-    period: int,
-    starts: Integers,
-    columns: Integers,
-    turns: Floats,
-    first: int,
-    last: int,
-    values: Floats,
-) -> None:
-    """Read back the values that scatter_turned wrote, and add them to others."""
-    for row in range(2 * first, min(2 * last, starts.size - 1)):
-        part = row % 2
-        for i in range(starts[row], starts[row + 1]):
-            cosine, sine = turns[columns[i], 0], turns[columns[i], 1]
-            column = columns[i] if columns[i] < period else columns[i] - period
-            z = pairs[row // 2, column]
-            values[i] += z[1] * cosine + z[0] * sine if part else z[0] * cosine - z[1] * sine
-
-
-@compiled
-def gather_rows(pairs: Floats, period: int, first: int, last: int, field: Floats) -> None:
-    """Read back whole rows, cropped to the field."""
+def gather_rows(pairs: Floats, first: int, last: int, added: bool, field: Floats) -> None:
+    """Read back whole rows, cropped to the field, or add them to it."""
     for row in range(2 * first, min(2 * last, field.shape[0])):
         for column in range(field.shape[1]):
-            place = column if column < period else column - period
-            field[row, column] = pairs[row // 2, place, row % 2]
-
-
-@compiled
-def add_turned_rows(
-    pairs: Floats, period: int, turns: Floats, first: int, last: int, field: Floats
-) -> None:
-    """Read back whole rows as add_turned_pairs does, and add them to the field."""
-    for row in range(2 * first, min(2 * last, field.shape[0])):
-        part = row % 2
-        for column in range(field.shape[1]):
-            cosine, sine = turns[column, 0], turns[column, 1]
-            z = pairs[row // 2, column if column < period else column - period]
-            value = z[1] * cosine + z[0] * sine if part else z[0] * cosine - z[1] * sine
-            field[row, column] += value
+            value = pairs[row // 2, column, row % 2]
+            field[row, column] = field[row, column] + value if added else value
 
 
 @compiled
