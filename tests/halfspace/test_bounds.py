@@ -5,15 +5,13 @@ import pytest
 
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.elasticity.kernel import love
-from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
-from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.search.active_set import Sides
 from roughline.halfspace.search.carriers import Carriers
 from roughline.halfspace.search.cascade import first_guess
-from roughline.halfspace.search.problem import Load, Method, Problem
+from roughline.halfspace.search.problem import Grid, Load, Method, Problem
 from roughline.halfspace.search.region import Region, Trial
 from roughline.halfspace.search.tangent import response
 from roughline.halfspace.search.turns import Turns
@@ -24,9 +22,8 @@ PULLING = Bounds(np.array([-2.0, -2.0, 0.0, -2.0]), np.inf)
 
 
 def problem(separation, law, rms_height):
-    shape = separation.shape
-    inverse = ApproximateInverse.of(on_grid(Homogeneous(1.0), shape, (1.0, 1.0)))
-    return Problem(Homogeneous(1.0), inverse, separation, rms_height, 0.0, law)
+    grid = Grid(Homogeneous(1.0), separation.shape, (1.0, 1.0))
+    return Problem(grid, separation, rms_height, 0.0, law)
 
 
 def test_pressures_are_led_to_the_nearest_within_their_bounds():

@@ -40,11 +40,12 @@ def test_what_is_kept_changes_no_bit(settings):
     for seed in (1, 2):
         kept._kept.clear()
         anew.append(press(seed, **settings))
-    assert len(kept._kept.inverses) == 4  # the grid, and the coarser ones that lead it
+    # the grid, the coarser ones that lead it, and windows of them for light loads
+    assert len(kept._kept.inverses) >= 4
     before = set(kept._kept.inverses.values())
     for seed, expected in zip((1, 2), anew, strict=True):
         assert_same_bits(press(seed, **settings), expected)
-    assert set(kept._kept.inverses.values()) == before
+    assert before <= set(kept._kept.inverses.values())
 
 
 def test_threads_that_press_side_by_side_change_no_bit():

@@ -19,13 +19,12 @@ from roughline.contact.status import Status
 from roughline.errors import Interrupted
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
-from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
-from roughline.halfspace.inverse.kept import inverse_on, working_memory
+from roughline.halfspace.inverse.kept import working_memory
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
 from roughline.halfspace.search.path import solve_path
-from roughline.halfspace.search.problem import Load, Method, Problem
+from roughline.halfspace.search.problem import Grid, Load, Method, Problem
 from roughline.topography.body import Surface
 from roughline.topography.borders import border_doubts
 from roughline.topography.effects import grave_effects
@@ -115,8 +114,7 @@ def _results(
     unit = scaled.force if loads.control == "forces" else scaled.height
     path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
     with working_memory():
-        inverse = inverse_on(scaled.half_space, surface.shape, scaled.spacing)
-        solved = solve_path(_problem(inverse, scaled, law, method), path, method)
+        solved = solve_path(_problem(scaled, law, method), path, method)
         dents: Indentation | None = None
         for i in range(len(path)):  # no contact is held while the next is solved
             result = LoadResult.of(*next(solved), scaled, law, with_fields=i in with_fields)
@@ -126,19 +124,14 @@ def _results(
             yield result
 
 
-def _problem(
-    inverse: ApproximateInverse,
-    scaled: ScaledSurface,
-    law: ContactLaw,
-    method: Method,
-) -> Problem:
+def _problem(scaled: ScaledSurface, law: ContactLaw, method: Method) -> Problem:
     """Return the untouched bodies, in the units of `scaled`."""
+    grid = Grid(scaled.half_space, scaled.surface.shape, scaled.spacing)
     return Problem(
-        scaled.half_space,
-        inverse,
+        grid,
         scaled.separation(),
         scaled.surface.rms_height / scaled.height,
-        method.resolution,
+        method.resolution(grid),
         law.scaled(scaled.pressure, scaled.height),
     )
 

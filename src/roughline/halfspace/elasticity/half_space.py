@@ -24,10 +24,14 @@ class HalfSpace(ABC):
         made of. It is the unit of pressures, of `force_bar` and of `stiffness_bar`. [pressure]
     periodic : bool
         Whether pressures repeat themselves beyond the grid. If not, the surface is free there.
+    is_pushed_everywhere : bool
+        Whether pressure displaces no place of the surface towards the other body. Then nothing can
+        touch where the bodies are farther apart than they approach, and is not looked at.
     """
 
     E_star: float
     periodic: bool
+    is_pushed_everywhere: bool = False
 
     @abstractmethod
     def spectrum(self, q: Real) -> Real:

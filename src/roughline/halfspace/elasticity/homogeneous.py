@@ -41,6 +41,11 @@ class Homogeneous(HalfSpace):
                 f"E_star is {self.E_star!r}; a positive, finite contact modulus is needed"
             )
 
+    @property
+    def is_pushed_everywhere(self) -> bool:  # type: ignore[override]
+        """Whether the surface is free: the kernel is positive everywhere then."""
+        return not self.periodic
+
     def spectrum(self, q: Real) -> Real:
         """Return 2 / (E* q), the displacement over the pressure of waves."""
         return 2 / (self.E_star * q)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -42,9 +41,6 @@ class Convolution:
     half_space : HalfSpace or None
         Whose convolution it is; None for another kernel, of which the spectrum is all that there
         is.
-    least : float
-        Least displacement anywhere under unit pressure on one cell; minus infinity where it is not
-        known. [length / pressure]
     workspace : Workspace
         Memory to work in.
     """
@@ -54,7 +50,6 @@ class Convolution:
     periods: tuple[int, int]
     spectrum: Real
     half_space: HalfSpace | None = None
-    least: float = -math.inf
     workspace: Workspace = field(default_factory=Workspace, repr=False)
 
     @property

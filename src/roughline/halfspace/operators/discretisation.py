@@ -73,14 +73,13 @@ def _free(
 
     rows, columns = spectrum.shape
     fft.share_out_blocks(fill, rows, 1 + fft.VALUES_AT_A_TIME // columns)
-    least = float(spectrum.min()) * mx * my
     fft.cosine_spectrum(spectrum)
     if not np.isfinite(spectrum[0, 0]):
         raise InputError(
             f"{type(half_space).__name__}.kernel gives numbers that are not finite; a finite "
             "displacement under unit pressure on one cell is needed at all distances"
         )
-    return Convolution(shape, spacing, (mx, my), spectrum, half_space, least, workspace)
+    return Convolution(shape, spacing, (mx, my), spectrum, half_space, workspace)
 
 
 def _padded(n: int) -> int:
@@ -112,4 +111,4 @@ def _periodic(
             f"{q[wrong][0]:g}; a positive, finite displacement over pressure is needed for each "
             "wave, and may be infinite at q = 0 alone"
         )
-    return Convolution(shape, spacing, shape, spectrum, half_space, workspace=workspace)
+    return Convolution(shape, spacing, shape, spectrum, half_space, workspace)

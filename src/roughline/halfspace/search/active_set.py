@@ -85,7 +85,7 @@ class _Rounds:
     """Rounds of a search; what one has in its hands is free for the next."""
 
     def __init__(self, region: Region, load: Load, method: Method) -> None:
-        self.total = load.total(region.problem.operator.cell_area)
+        self.total = load.total(region.problem.grid.cell_area)
         self._region = region
         self._load = load
         self._method = method

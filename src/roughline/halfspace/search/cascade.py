@@ -10,12 +10,11 @@ import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from roughline.halfspace.inverse.kept import inverse_on
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
-from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.search.problem import ContactSet, Load, Method, Problem
 from roughline.halfspace.search.turns import Turns
+from roughline.halfspace.search.window import Window
 
 _COARSEST = 64  # points along the longer side of the grid that starts from the rigid shift
 _NODES_AT_A_TIME = 2**15  # whose means a thread computes, so many fit into a cache
@@ -42,23 +41,23 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, ContactLaw]:
     law : ContactLaw
         The law to start with, as pressures on the next coarser grid foresee it.
     """
-    operator, separation, law = problem.operator, problem.separation, problem.law
+    grid, separation, law = problem.grid, problem.separation, problem.law
     if max(separation.shape) <= _COARSEST:
         return _rigid_guess(problem, load), law
     coarse_separation = _halved(separation)
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(problem, load), law
-    shape, spacing = coarser_grid(
-        operator.shape, operator.spacing, periodic=problem.half_space.periodic
-    )
-    inverse = inverse_on(problem.half_space, shape, spacing)
-    coarse = replace(problem, inverse=inverse, separation=coarse_separation, law=law.on(_halved))
-    found = Turns(coarse, load, first_guess(coarse, load)[0], _ROUGH).guess()
+    coarse = replace(problem, grid=grid.coarser, separation=coarse_separation, law=law.on(_halved))
+    found, _ = first_guess(coarse, load)
+    window = Window.of(coarse, load, found)
+    found = Turns(window.bodies, load, window.inside(found), _ROUGH).guess()
+    found = replace(found, nodes=window.on_grid(found.nodes))
     # at the end of an odd side one node takes the force of two
     shares = [
-        spacing[axis] / operator.spacing[axis] / _widths(n) for axis, n in enumerate(operator.shape)
+        coarse.grid.spacing[axis] / grid.spacing[axis] / _widths(n)
+        for axis, n in enumerate(grid.shape)
     ]
-    start = _spread(found, operator.shape, shares)
+    start = _spread(found, grid.shape, shares)
     law = law.foreseen(start.nodes, start.pressure)
     pressure = Bounds.of(law, start.nodes).nearest(start.pressure)
     loaded = pressure > 0
@@ -125,14 +124,14 @@ def _rigid_guess(problem: Problem, load: Load) -> ContactSet:
         sums, beyond = np.cumsum(separations), np.append(separations[1:], np.inf)
 
         def depth_of(count: int) -> float:
-            radius = math.sqrt(count * problem.operator.cell_area / math.pi)
-            shift = force / problem.half_space.disc_stiffness(radius)
+            radius = math.sqrt(count * problem.grid.cell_area / math.pi)
+            shift = force / problem.grid.half_space.disc_stiffness(radius)
             return shift + float(sums[count - 1]) / count
 
         counts = range(1, separations.size + 1)
         reached = bisect_left(counts, True, key=lambda count: depth_of(count) <= beyond[count - 1])
         depth = depth_of(counts[reached])
-        fewest = np.nan_to_num(force / problem.law.largest_force(problem.operator.cell_area))
+        fewest = np.nan_to_num(force / problem.law.largest_force(problem.grid.cell_area))
         depth = max(depth, float(separations[min(int(fewest), separations.size - 1)]))
     nodes = np.flatnonzero(separation < depth)
     return ContactSet(nodes, depth - separation.flat[nodes], load.depth)

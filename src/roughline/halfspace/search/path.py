@@ -21,6 +21,7 @@ from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method
 from roughline.halfspace.search.residuals import Residuals
 from roughline.halfspace.search.tangent import Response, Tangent, response
 from roughline.halfspace.search.turns import Turns
+from roughline.halfspace.search.window import Window
 
 # Where the force changes by more than this, over the force so far, coarser grids guess better than
 # the tangent.
@@ -79,7 +80,8 @@ class _Path:
         if self._furthest is not None and load == self._furthest.load:
             self._prepare(next_load, self._furthest)
             return self._furthest.again
-        contact = self._contact(load)
+        found, window = self._found(load)
+        contact = window.contact(found)
         self._before = load.value
         if contact.outcome is not Outcome.CONVERGED:
             self._last = None
@@ -95,41 +97,51 @@ class _Path:
             self._prepare(next_load, None)
             return contact, _NO_RESPONSE
         start = None if self._last is None else self._last.on(contact.nodes)
-        solved = _Solved(load, contact, response(contact, start, self._method))
+        solved = _Solved(load, contact, response(found, start, self._method))
         self._prepare(next_load, solved)
         return contact, solved.response
 
-    def _contact(self, load: Load) -> Contact:
-        """Solve the contact under a load, by one law after the other until one settles it."""
+    def _found(self, load: Load) -> tuple[Contact, Window]:
+        """Solve the contact under a load, by one law after the other until one settles it.
+
+        The contact is that in a window.
+        """
         law = self._problem.law.start(load.value, self._before, self._largest)
         if self._furthest is None and self._problem.is_beyond_full_contact(load):
             law = law.bounded()
-        found: Contact | _Stage = _Stage(law, 0)
-        while isinstance(found, _Stage):
-            found = self._settled(load, found)
-        return found
+        spent = 0
+        while True:
+            found, window = self._settled(load, law, spent)
+            # that bodies yield shows before their elastic contact is found
+            told = found.outcome is Outcome.CONVERGED or found.problem.law.memory == "dents"
+            following = window.problem.law.then(window.contact(found)) if told else None
+            if following is None:
+                return found, window
+            self._start, law = window.contact(found).contact_set, following
+            spent = found.convolutions
 
-    def _settled(self, load: Load, stage: _Stage) -> Contact | _Stage:
-        """Solve the contact by a law; return it, or the stage that follows."""
-        problem = self._problem.obeying(stage.law)
+    def _settled(self, load: Load, law: ContactLaw, spent: int) -> tuple[Contact, Window]:
+        """Solve the contact by a law, in the window in which bodies can touch."""
+        problem = self._problem.obeying(law)
         if _is_apart(problem, load):
-            contact = _apart(problem, load, Outcome.CONVERGED)
-        else:
-            if load.force is not None:
-                load = Load(force=stage.law.attainable(load.force, problem.operator.cell_area))
-            if self._start is None:
-                problem = self._guess(problem, load)
-            left = max(1, self._method.max_iterations - stage.spent)
-            method = replace(self._method, max_iterations=left)
-            contact = Turns(problem, load, self._taken_start(), method).contact()
-        contact = replace(contact, convolutions=contact.convolutions + stage.spent)
-        # that bodies yield shows before their elastic contact is found
-        told = contact.outcome is Outcome.CONVERGED or problem.law.memory == "dents"
-        following = problem.law.then(contact) if told else None
-        if following is None:
-            return contact
-        self._start = contact.contact_set
-        return _Stage(following, contact.convolutions)
+            return _apart(problem, load, Outcome.CONVERGED), Window.whole(problem)
+        if load.force is not None:
+            load = Load(force=law.attainable(load.force, problem.grid.cell_area))
+        if self._start is None:
+            problem = self._guess(problem, load)
+        assert self._start is not None
+        window = Window.of(problem, load, self._start)
+        self._start = window.inside(self._start)
+        while True:
+            method = replace(
+                self._method, max_iterations=max(1, self._method.max_iterations - spent)
+            )
+            found = Turns(window.bodies, load, self._taken_start(), method).contact()
+            spent += found.convolutions
+            if window.holds(found) or spent >= self._method.max_iterations:
+                held = found.outcome if window.holds(found) else Outcome.MAX_ITERATIONS
+                return replace(found, outcome=held, convolutions=spent), window
+            self._start, window = window.contact(found).contact_set, Window.whole(problem)
 
     def _guess(self, problem: Problem, load: Load) -> Problem:
         """Start from a first guess, and return the bodies under the law that it foresees."""
@@ -173,14 +185,6 @@ class _Path:
         change = _change(contact, tangent, load)
         if tangent.stiffness > 0 and abs(change) < _LARGEST_CHANGE * abs(contact.force):
             self._start = _predicted(change, contact, tangent)
-
-
-@dataclass(frozen=True, eq=False)
-class _Stage:
-    """A law by which a load is solved next, and the convolutions spent before."""
-
-    law: ContactLaw
-    spent: int
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,8 +13,10 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
+from roughline.halfspace.inverse.kept import inverse_on
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.search.residuals import Residuals
 
@@ -33,15 +35,48 @@ class Outcome(enum.Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
-    """A rough body over a half-space on a grid, as the loads so far have left their surfaces.
+class Grid:
+    """A half-space divided into cells; its operator is made when it is needed.
 
     Attributes
     ----------
     half_space : HalfSpace
         The half-space.
-    inverse : ApproximateInverse
-        Approximate inverse of its operator on the grid.
+    shape : tuple of int
+        Points, (nx, ny).
+    spacing : tuple of float
+        Sides of a cell, (dx, dy). [length]
+    """
+
+    half_space: HalfSpace
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+
+    @cached_property
+    def inverse(self) -> ApproximateInverse:
+        """Approximate inverse of the operator."""
+        return inverse_on(self.half_space, self.shape, self.spacing)
+
+    @property
+    def cell_area(self) -> float:
+        """Area of one cell. [length²]"""
+        return self.spacing[0] * self.spacing[1]
+
+    @property
+    def coarser(self) -> Grid:
+        """The grid of half as many points a side."""
+        coarse = coarser_grid(self.shape, self.spacing, periodic=self.half_space.periodic)
+        return Grid(self.half_space, *coarse)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A rough body over a half-space on a grid, as the loads so far have left their surfaces.
+
+    Attributes
+    ----------
+    grid : Grid
+        The half-space and the grid.
     separation : ndarray, shape (nx, ny)
         Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
         until that is indented. [length]
@@ -49,50 +84,46 @@ class Problem:
         Gaps are compared with this, or with what the load moves where that is less; zero for a
         flat punch. [length]
     resolution : float
-        Gaps are compared with no less than this part of F / (E* sqrt(A_0)); see
-        :attr:`Method.resolution`. [1]
+        Gaps are compared with no less than this times the sum of the forces on all nodes; see
+        :meth:`Method.resolution`. [length / force]
     law : ContactLaw
         What pressures and gaps obey.
     """
 
-    half_space: HalfSpace
-    inverse: ApproximateInverse
+    grid: Grid
     separation: Real
     rms_height: float
     resolution: float
     law: ContactLaw
 
     @property
+    def inverse(self) -> ApproximateInverse:
+        """Approximate inverse of the operator."""
+        return self.grid.inverse
+
+    @property
     def operator(self) -> Convolution:
         """The half-space's displacements under pressures on the grid."""
-        return self.inverse.operator
+        return self.grid.inverse.operator
 
     @cached_property
     def touch(self) -> float:
         """Depth at which the surfaces touch, as they are now. [length]"""
         return float(self.separation.min())
 
-    def reach(self, depth: float, total: float) -> float:
+    def reach(self, depth: float) -> float:
         """Return how near, beyond the least separation, bodies are that can touch. [length]
 
-        Where a law only pushes, a node is displaced by the least displacement under unit pressure
-        times the sum of all pressures, or more. Where the bodies are farther apart than the depth
-        and that, they cannot touch.
-
-        Parameters
-        ----------
-        depth : float
-            Approach of the bodies. [length]
-        total : float
-            Sum of all pressures. [pressure]
+        Where a law only pushes, and pressure displaces all of the surface away from the other
+        body, the gap is at least the separation less the depth. So where the separation is larger
+        than the depth the gap is positive, and bodies cannot touch.
         """
-        if not self.law.only_pushes or math.isinf(self.operator.least):
-            return math.inf
-        return max(0.0, depth - self.touch - total * min(0.0, self.operator.least))
+        pushed = self.law.only_pushes and self.grid.half_space.is_pushed_everywhere
+        return max(0.0, depth - self.touch) if pushed else math.inf
 
     def is_beyond_full_contact(self, load: Load) -> bool:
         """Whether a load is deeper than full contact, where that is rigid."""
-        free = self.operator.mean_is_free and load.depth is not None
+        free = self.grid.half_space.mean_is_free and load.depth is not None
         return free and load.value >= float(self.separation.mean())
 
     def obeying(self, law: ContactLaw) -> Problem:
@@ -128,10 +159,11 @@ class Method:
         """Precision of the residuals that are returned."""
         return "float32" if self.precision == "float32" else "float64"
 
-    @property
-    def resolution(self) -> float:
-        """Part of F / (E* sqrt(A_0)) with which gaps are compared at least: rounding over rtol."""
-        return _ROUNDINGS * float(np.finfo(self.certificate).eps) / self.rtol
+    def resolution(self, grid: Grid) -> float:
+        """Rounding of displacements over the force, over the tolerance. [length / force]"""
+        length = math.sqrt(math.prod(grid.shape)) * math.sqrt(grid.cell_area)
+        rounding = _ROUNDINGS * float(np.finfo(self.certificate).eps)
+        return rounding / (self.rtol * grid.half_space.E_star * length)
 
 
 @dataclass(frozen=True)

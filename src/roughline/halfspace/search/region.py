@@ -97,7 +97,7 @@ class Region:
         reach : float
             Nodes off the contact are in it whose gap is below so many times the error on contact.
         """
-        problem, carriers, grid = self.problem, trial.carriers, self.problem.operator.shape
+        problem, carriers, grid = self.problem, trial.carriers, self.problem.grid.shape
         most = max(0, int(_LARGEST * math.prod(grid)) - carriers.places.size)
         places, order = merged(carriers.places, trial.close(reach, most))
         nodes = self.operator.grid_nodes(places)
@@ -143,7 +143,7 @@ class Region:
         """
         places, pressure = carriers.places, carriers.pressure
         bounds, touch = self.bounds.at(places), self.problem.touch
-        cell_area = self.problem.operator.cell_area
+        cell_area = self.problem.grid.cell_area
         if load.force is None:
             pressure = np.minimum(pressure, bounds.high)
         else:
@@ -212,7 +212,7 @@ class Trial:
     ) -> Trial:
         """Compute the residuals of pressures with the gap that they leave."""
         problem, places, pressure = region.problem, carriers.places, carriers.pressure
-        bounds, cell_area = region.bounds.at(places), problem.operator.cell_area
+        bounds, cell_area = region.bounds.at(places), problem.grid.cell_area
         touching, plastic = bounds.touching(pressure), bounds.yielding(pressure)
         force, borne = (cell_area * float(each.sum()) for each in (pressure, np.abs(pressure)))
         # 1. The scales. Where a flat body bears evenly hardly anything moves: there a gap is
@@ -221,9 +221,8 @@ class Trial:
         if borne > 0:
             displacement = gap[places] + approach - (region.separation[places] - problem.touch)
             pressure_scale, length_scale = problem.law.scales(pressure, displacement)
-        side = math.sqrt(math.prod(problem.operator.shape)) * math.sqrt(cell_area)
-        least = problem.resolution * borne / (problem.half_space.E_star * side)
-        length_scale = float(np.maximum(length_scale, least))  # which keep what is no number
+        # which keeps what is no number
+        length_scale = float(np.maximum(length_scale, problem.resolution * borne))
         if problem.rms_height:
             length_scale = float(np.minimum(problem.rms_height, length_scale))
         # 2. Overlaps of plastic nodes are dents, and pulling nodes may be apart. Gaps of carriers

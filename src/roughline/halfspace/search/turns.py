@@ -89,10 +89,9 @@ class Turns:
         """Return where the search is as a trial among all nodes that can touch."""
         problem, load, start = self._problem, self._load, self._start
         assert start is not None
-        total = load.total(problem.operator.cell_area)
+        total = load.total(problem.grid.cell_area)
         depth = start.depth if load.depth is None else load.depth
-        pressures = float(start.pressure.sum()) if total is None else total
-        reach = np.inf if depth is None else problem.reach(depth, pressures)
+        reach = np.inf if depth is None else problem.reach(depth)
         while True:
             region = Region.possible(problem, start.nodes, _DEEPER * reach)
             carriers = region.carriers(start)
@@ -102,7 +101,7 @@ class Turns:
                 continue
             trial = region.trial(load, carriers, precision, rescale=not self._convolutions)
             self._convolutions += 1
-            reach = problem.reach(trial.depth, float(trial.carriers.pressure.sum()))
+            reach = problem.reach(trial.depth)
             if reach <= region.reach:
                 return trial
             start = trial.contact_set

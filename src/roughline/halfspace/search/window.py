@@ -1,0 +1,121 @@
+"""A rectangle of the grid in which bodies are nearer than they can touch, solved by itself.
+
+On a free half-space, displacements depend on distances alone, so a part of a grid has the operator
+of its own shape. Where a law only pushes, nothing beyond it can touch: light loads pay for the part
+in which they act.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from roughline.computing.arrays import Indices
+from roughline.halfspace.operators.grid_nodes import GridNodes
+from roughline.halfspace.search.problem import Contact, ContactSet, Load, Problem
+
+_DEEPER = 1.05  # times the approach of a start up to which bodies are looked at
+_ROOM = 2.0  # times the force that a window must be able to bear
+_SMALLEST = 32  # points along a side, where that has so many
+_HALVINGS = 5  # of a side, at most; there are few shapes, so that their tables serve again
+
+
+@dataclass(frozen=True, eq=False)
+class Window:
+    """A rectangle of the grid.
+
+    Attributes
+    ----------
+    problem : Problem
+        The bodies.
+    rows, columns : slice
+        The rectangle.
+    reach : float
+        All nodes are in it where the bodies, as they are now, are nearer than this. [length]
+    """
+
+    problem: Problem
+    rows: slice
+    columns: slice
+    reach: float
+
+    @classmethod
+    def of(cls, problem: Problem, load: Load, start: ContactSet) -> Window:
+        """Return the window for a load: all of the grid, if the bodies may touch all over it."""
+        depth = start.depth if load.depth is None else load.depth
+        reach = np.inf if depth is None else _DEEPER * problem.reach(depth)
+        if reach == np.inf:
+            return cls.whole(problem)
+        shape = problem.separation.shape
+        near = problem.separation <= problem.touch + reach
+        near.flat[start.nodes] = True
+        rows, columns = (
+            _side(np.flatnonzero(near.any(axis=1 - axis)), shape[axis]) for axis in (0, 1)
+        )
+        window = cls(problem, rows, columns, reach)
+        area = window.bodies.separation.size * problem.grid.cell_area
+        bears = load.force is None or problem.law.largest_force(area) > _ROOM * load.force
+        return window if bears else cls.whole(problem)
+
+    @classmethod
+    def whole(cls, problem: Problem) -> Window:
+        """Return all of the grid."""
+        nx, ny = problem.separation.shape
+        return cls(problem, slice(0, nx), slice(0, ny), np.inf)
+
+    @cached_property
+    def bodies(self) -> Problem:
+        """The bodies in the window."""
+        here, problem = (self.rows, self.columns), self.problem
+        separation = problem.separation[here]
+        if separation.shape == problem.separation.shape:
+            return problem
+        return replace(
+            problem,
+            grid=replace(problem.grid, shape=separation.shape),
+            separation=np.ascontiguousarray(separation),
+            law=problem.law.on(lambda field: field[here]),
+        )
+
+    def inside(self, contact_set: ContactSet) -> ContactSet:
+        """Return a contact set of the grid as one of the window."""
+        x, y = np.divmod(contact_set.nodes, self.problem.separation.shape[1])
+        nodes = (x - self.rows.start) * self.bodies.separation.shape[1] + y - self.columns.start
+        return replace(contact_set, nodes=nodes)
+
+    def holds(self, contact: Contact) -> bool:
+        """Whether nothing beyond the window can touch at the depth of a contact."""
+        return self.problem.reach(contact.depth) <= self.reach
+
+    def on_grid(self, nodes: Indices) -> Indices:
+        """Return nodes of the window as nodes of the grid."""
+        x, y = np.divmod(nodes, self.bodies.separation.shape[1])
+        return (x + self.rows.start) * self.problem.separation.shape[1] + y + self.columns.start
+
+    def contact(self, found: Contact) -> Contact:
+        """Return a contact in the window as one of the grid."""
+        if self.bodies is self.problem:
+            return found
+        problem, shape = self.problem, self.problem.separation.shape
+        if found.separation is not self.bodies.separation:
+            separation = problem.separation.copy()
+            separation[self.rows, self.columns] = found.separation
+            problem = replace(problem, separation=separation)
+        looked_at = found.looked_at.indices if found.looked_at else np.arange(found.gaps.size)
+        return replace(
+            found,
+            problem=problem,
+            nodes=self.on_grid(found.nodes),
+            looked_at=GridNodes.of(self.on_grid(looked_at), shape),
+        )
+
+
+def _side(places: Indices, points: int) -> slice:
+    """Return a part of a side, halved as often as may be, that holds points and neighbours."""
+    first, last = max(0, int(places[0]) - 1), min(points, int(places[-1]) + 2)
+    lengths = [-(-points // 2**k) for k in range(_HALVINGS, -1, -1)]
+    length = next(each for each in lengths if each >= min(points, max(last - first, _SMALLEST)))
+    start = min(max(0, first - (length - last + first) // 2), points - length)
+    return slice(start, start + length)
