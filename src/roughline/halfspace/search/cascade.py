@@ -45,6 +45,8 @@ def first_guess(problem: Problem, load: Load) -> tuple[ContactSet, ContactLaw]:
     if max(separation.shape) <= _COARSEST:
         return _rigid_guess(problem, load), law
     coarse_separation = _halved(separation)
+    if problem.operator.mean_is_free:  # depths count from mean planes, odd sides end in half blocks
+        coarse_separation += separation.mean() - coarse_separation.mean()
     if load.depth is not None and load.depth <= coarse_separation.min():
         return _rigid_guess(problem, load), law
     coarse = replace(problem, grid=grid.coarser, separation=coarse_separation, law=law.on(_halved))
