@@ -8,13 +8,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+MUCH = 2**26
+"""Bytes from which on memory that is not needed for a while is given back.
+
+Less is kept: to touch new memory for the first time can take longer than the work on it.
+"""
+
 
 class Workspace:
     """Memory that operators work in, which have none of their own.
 
     It has parts, by name. An operator takes those that it needs for one product; after it, they are
-    free for other operators and other grids. To touch new memory for the first time can take longer
-    than the work on it, so parts stay until they are given up.
+    free for other operators and other grids. Parts stay until they are given up.
     """
 
     def __init__(self) -> None:
@@ -36,6 +41,11 @@ class Workspace:
     def give_up(self) -> None:
         """Give the memory back."""
         self._parts.clear()
+
+    def rest(self) -> None:
+        """Give back what is much, as it is not needed for a while."""
+        for part in [part for part, memory in self._parts.items() if memory.nbytes > MUCH]:
+            del self._parts[part]
 
     def _taken(self, part: str, shape: tuple[int, ...], dtype: Any, make: Any) -> Any:
         """Return the beginning of a part, made anew where it is too small."""

@@ -16,6 +16,7 @@ _PER_PAIR = (math.pi - 1 + math.log(2)) / 24
 # one: 4/3 s^(3/2) / (1 - s)^(1/2) if the edge of the contact is at the share s of the way between
 # the two nodes. At the edge of a plateau, where the body itself falls away, it has no bound.
 _STEEP = 2.0
+_ALIKE = 1e-6  # pressures that differ by no more than this part are alike
 _STEEP_ALONE = 20.0  # where the contact is one cell wide, so that there is no inner pressure
 
 
@@ -65,7 +66,7 @@ def overstated_cells(
             loaded_too &= touching[within]
             rising = np.zeros(edge.size, dtype=bool)
             inner = np.searchsorted(nodes, within[loaded_too])
-            rising[loaded_too] = edge[loaded_too] > pressure[inner]
+            rising[loaded_too] = edge[loaded_too] > pressure[inner] * (1 + _ALIKE)
             rising |= plastic[outer]  # the body is cut off there, as at the edge of a plateau
             smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP, _STEEP_ALONE)
             steep = (rising | ~loaded_too) & (gap > smooth)

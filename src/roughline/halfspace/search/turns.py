@@ -112,7 +112,8 @@ class Turns:
         (region, carriers), self._near = self._near, None
         method, worst = self._method, self._worst
         while True:
-            # 1. Search with the restricted operator.
+            # 1. Search with the restricted operator, while the exact one rests.
+            self._problem.operator.workspace.rest()
             target = max(_GAIN * worst, AIM * method.rtol)
             rough = Method(target, max(1, min(self._left - 1, _PRODUCTS)), "float32")
             found, _, products = search(region, carriers, self._load, rough)
