@@ -67,7 +67,7 @@ class Bounds:
         if not pressure.size:
             return 0.0, 0.0
         below, above = float((self.low - pressure).max()), float((pressure - self.high).max())
-        return max(0.0, below), max(0.0, above)
+        return max(below, 0.0), max(above, 0.0)  # which keeps what is no number
 
     def with_total(self, pressure: Real, total: float) -> Real:
         """Change the pressures between the bounds so that all of them sum to a total. [pressure]
