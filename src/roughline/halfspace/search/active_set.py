@@ -51,10 +51,11 @@ _PATIENCE = 8
 _RELIEF = 1e-3  # part of a bound by which a node that leaves it is relieved at most
 
 
-def search(
-    region: Region, carriers: Carriers, load: Load, method: Method
-) -> tuple[Trial, Outcome, int]:
-    """Find the sets of nodes and the pressures under one load.
+class Search:
+    """The search for the sets of nodes and the pressures under one load.
+
+    It holds what the next round needs and nothing else, so that the memory of a round is free for
+    the one after.
 
     Parameters
     ----------
@@ -67,50 +68,45 @@ def search(
     method : Method
         Tolerance, bound on the products and precision.
 
-    Returns
-    -------
-    tuple of Trial, Outcome and int
-        What was found, how the search ended, and how many products with the operator it took.
+    Attributes
+    ----------
+    products : int
+        Products with the operator so far.
     """
-    rounds = _Rounds(region, load, method)
-    carriers = carriers.able_to_carry(rounds.total, region.bounds, region.separation)
-    while True:
-        found = rounds.after(carriers)
-        if not isinstance(found, Carriers):
-            return found
-        carriers = found
 
-
-class _Rounds:
-    """Rounds of a search; what one has in its hands is free for the next."""
-
-    def __init__(self, region: Region, load: Load, method: Method) -> None:
-        self.total = load.total(region.problem.grid.cell_area)
-        self._region = region
+    def __init__(self, region: Region, carriers: Carriers, load: Load, method: Method) -> None:
+        self.region = region
+        self.products = 0
         self._load = load
         self._method = method
         self._rule = _ExchangeRule(region.separation.size)
         self._stopping = _StoppingRule(method)
-        self._products = 0
+        self._carriers = self._able(carriers, region.separation)
 
-    def after(self, carriers: Carriers) -> Carriers | tuple[Trial, Outcome, int]:
-        """Return the carriers after a round, or how the search ends."""
-        region, method, rule, stopping = self._region, self._method, self._rule, self._stopping
+    def found(self) -> tuple[Trial, Outcome]:
+        """Return what is found, and how the search ended."""
+        found = None
+        while found is None:
+            found = self._after_a_round()
+        return found
+
+    def _after_a_round(self) -> tuple[Trial, Outcome] | None:
+        """Exchange nodes; return what is found where the search ends."""
+        region, method, rule, stopping = self.region, self._method, self._rule, self._stopping
         # 1. The gap that the pressures leave, and the residuals.
-        trial = region.trial(self._load, carriers, stopping.residuals, rescale=not self._products)
-        self._products += 1
-        spent = self._products >= method.max_iterations
+        trial = self._trial(rescale=not self.products)
+        spent = self.products >= method.max_iterations
         if spent and stopping.residuals != method.certificate:
             stopping.residuals = method.certificate
-            trial = region.trial(self._load, trial.carriers, stopping.residuals)
-            self._products += 1
+            trial = self._trial()
         # 2. The end of the search.
         outcome = stopping.outcome(trial, rule, spent=spent)
         if outcome is Outcome.CONVERGED and trial.residuals.tension:  # less than the tolerance
             bounds = region.bounds.at(trial.carriers.places)
-            return self._able(_within_bounds(trial.carriers, bounds), trial)
+            self._carriers = self._able(_within_bounds(trial.carriers, bounds), trial.gap)
+            return None
         if outcome is not None:
-            return trial, outcome, self._products
+            return trial, outcome
         # 3. Conjugate gradients on the touching nodes.
         watched = trial.close(np.inf, trial.gap.size) if rule.one_by_one else trial.watched
         try:
@@ -120,20 +116,30 @@ class _Rounds:
                 watched,
                 method.rtol,
                 stopping.steps,
-                most_steps=method.max_iterations - self._products,
+                most_steps=method.max_iterations - self.products,
                 to_tolerance=rule.to_tolerance,
             )
         except np.linalg.LinAlgError:  # an elastic half-space is positive definite
-            return trial, Outcome.STALLED, self._products
-        self._products += relaxation.steps
+            return trial, Outcome.STALLED
+        self.products += relaxation.steps
         stopping.choose_precision(relaxation, trial.length_scale)
         # 4. The exchange of wrong nodes.
-        return self._able(rule.applied(region, relaxation, watched), trial)
+        self._carriers = self._able(rule.applied(region, relaxation, watched), trial.gap)
+        return None
 
-    def _able(self, carriers: Carriers, trial: Trial) -> Carriers:
+    def _trial(self, *, rescale: bool = False) -> Trial:
+        self.products += 1
+        precision = self._stopping.residuals
+        trial = self.region.trial(self._load, self._carriers, precision, rescale=rescale)
+        self._carriers = trial.carriers
+        return trial
+
+    def _able(self, carriers: Carriers, gap: Real) -> Carriers:
         """Return carriers that can carry the load, joined by the nodes nearest to contact."""
-        gap = trial.gap if carriers.places.size else self._region.separation
-        return carriers.able_to_carry(self.total, self._region.bounds, gap)
+        region = self.region
+        total = self._load.total(region.problem.grid.cell_area)
+        gap = gap if carriers.places.size else region.separation
+        return carriers.able_to_carry(total, region.bounds, gap)
 
 
 def _within_bounds(carriers: Carriers, bounds: Bounds) -> Carriers:
@@ -319,16 +325,18 @@ class Sides:
     ) -> ConjugateGradients:
         """Return the equations of the touching nodes, with the displacement of the others."""
         operator, carriers = trial.region.operator, trial.carriers
-        touching = carriers.places[self.touching]
+        touching = carriers.without(~self.touching)
+        error = trial.gap[touching.places]
+        error += trial.approach if fixed_total else 0.0
         return ConjugateGradients(
             Patch(
                 operator.linear,
                 trial.region.problem.inverse,
-                operator.grid_nodes(touching),
+                operator.grid_nodes(touching.places),
                 operator.grid_nodes(self.places),
             ),
-            carriers.pressure[self.touching],
-            -trial.gap[touching] - (trial.approach if fixed_total else 0.0),
+            touching.pressure.copy(),
+            np.negative(error, out=error),
             self.gap + trial.approach,
             fixed_total=fixed_total,
             precision=precision,

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+from functools import cached_property
+
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse, preconditioner
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
@@ -34,21 +38,34 @@ class Patch:
         nodes: GridNodes,
         watched: GridNodes | None = None,
     ) -> None:
-        self._operator = operator
+        self._operator: Callable[..., Real] = operator.displacement
         self._nodes = nodes
         self.precondition = preconditioner(inverse, nodes)
-        self._targets = nodes
-        if watched is not None and watched.indices.size:
+        self._targets: GridNodes | None = nodes
+        self._parts: tuple[Indices, Indices] | tuple[Mask, Mask] | None = None
+        if watched is None or not watched.indices.size:
+            return
+        looked_at = nodes.indices.size + watched.indices.size
+        if isinstance(operator, Convolution) and 2 * looked_at > math.prod(operator.shape):
+            # a field takes less memory than a list of most of its nodes
+            self._targets, self._parts = None, (nodes.indices, watched.indices)
+        else:
             both, order = merged(nodes.indices, watched.indices)
-            self._targets = GridNodes.of(both, nodes.shape)
-            self._in_patch = order < nodes.indices.size
+            in_patch = order < nodes.indices.size
+            self._targets, self._parts = GridNodes.of(both, nodes.shape), (in_patch, ~in_patch)
+
+    @cached_property
+    def of_even(self) -> Real:
+        """What the preconditioner makes of an even displacement."""
+        return self.precondition(np.ones(self._nodes.indices.size))
 
     def displacement(self, pressure: Real, precision: Precision) -> tuple[Real, Real]:
         """Displacement of the nodes, and of the watched ones, under pressures on the nodes."""
-        displacement = self._operator.displacement(pressure, self._nodes, self._targets, precision)
-        if self._targets is self._nodes:
+        displacement = self._operator(pressure, self._nodes, self._targets, precision)
+        if self._parts is None:
             return displacement, displacement[:0]
-        return displacement[self._in_patch], displacement[~self._in_patch]
+        displacement = displacement.ravel()
+        return displacement[self._parts[0]], displacement[self._parts[1]]
 
 
 class ConjugateGradients:
@@ -78,6 +95,8 @@ class ConjugateGradients:
     ----------
     pressure, watched : ndarray
         Pressures, and displacements of the watched nodes, after the steps so far.
+    error : ndarray, shape (nodes,)
+        Displacement that is still missing. [length]
     level : float
         The uniform displacement that goes with a fixed total; zero where the total is free.
         [length]
@@ -107,48 +126,49 @@ class ConjugateGradients:
         precision: Precision,
     ) -> None:
         self.pressure = pressure
+        self.error = residual
         self.watched = watched
         self.level = 0.0
         self.steps = 0
-        self._patch = patch
-        self._precision = precision
-        self._residual = residual
-        self._ones = patch.precondition(np.ones_like(pressure)) if fixed_total else None
-        self._direction = np.zeros_like(pressure)
-        self.energy = np.inf
         self.gained = 0.0
-        self._project()
+        self._patch = patch
+        self._fixed_total = fixed_total
+        self._precision = precision
+        self._direction, self.energy = self._projected()
 
-    def _project(self) -> None:
-        """Precondition the residual; with a fixed total, so that the sum of the step is zero."""
-        self._step = self._patch.precondition(self._residual)
-        if self._ones is not None:
-            self.level = -float(self._step.sum() / self._ones.sum())
-            self._step += self.level * self._ones
-        self._energy_before, self.energy = self.energy, float(self.error @ self._step)
+    def _projected(self) -> tuple[Real, float]:
+        """Precondition the error; with a fixed total, so that the sum of the step is zero.
 
-    @property
-    def error(self) -> Real:
-        """Displacement that is still missing, shape (nodes,). [length]"""
-        return self._residual + self.level
+        Return the step, and the energy norm of the error by it, squared.
+        """
+        step = self._patch.precondition(self.error)
+        if self._fixed_total:
+            even = self._patch.of_even
+            rise = -float(step.sum() / even.sum())
+            step += rise * even
+            self.error += rise
+            self.level += rise
+        return step, float(self.error @ step)
 
     def advance(self) -> bool:
         """Do one step; return False if there is nothing more to gain."""
-        # 1. The new direction is conjugate to the last one, which is zero before the first step.
-        self._direction *= self.energy / self._energy_before
-        self._direction += self._step
-        # 2. The displacement that it causes, by one convolution.
+        # 1. The displacement that the direction causes, by one convolution.
         response, watched = self._patch.displacement(self._direction, self._precision)
         curvature = float(self._direction @ response)
         if not (curvature > 0 and self.energy > 0):
             return False
-        # 3. Go along it to the least energy.
+        # 2. Go along it to the least energy.
         length = self.energy / curvature
         self.pressure += length * self._direction
         self.watched += length * watched
-        self._residual -= length * response
+        response *= length
+        self.error -= response
+        del response, watched
         self.steps += 1
         self.gained += length * self.energy
-        # 4. Project and precondition what is left.
-        self._project()
+        # 3. The new direction is conjugate to this one.
+        before = self.energy
+        step, self.energy = self._projected()
+        self._direction *= self.energy / before
+        self._direction += step
         return True

@@ -21,7 +21,8 @@ from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.search.residuals import Residuals
 
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
-# epsilons of F / (E* sqrt(A_0)) on grids of 8 to 10^6 points.
+# epsilons of F / (E* side) on grids of 8 to 10^6 points. Rounded pressures displace most in the
+# longest wave, so the side is the shorter one.
 _ROUNDINGS = 2.0
 
 
@@ -161,9 +162,9 @@ class Method:
 
     def resolution(self, grid: Grid) -> float:
         """Rounding of displacements over the force, over the tolerance. [length / force]"""
-        length = math.sqrt(math.prod(grid.shape)) * math.sqrt(grid.cell_area)
+        side = min(n * spacing for n, spacing in zip(grid.shape, grid.spacing, strict=True))
         rounding = _ROUNDINGS * float(np.finfo(self.certificate).eps)
-        return rounding / (self.rtol * grid.half_space.E_star * length)
+        return rounding / (self.rtol * grid.half_space.E_star * side)
 
 
 @dataclass(frozen=True)

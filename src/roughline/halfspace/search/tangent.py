@@ -104,85 +104,82 @@ def _tangent(contact: Contact, follow: Mask, start: Real | None, method: Method)
 
     The stiffness is the energy form 1 / (w K w), so it errs upwards, by the square of the residual.
     """
-    operator = contact.problem.operator
-    cell_area, nodes = operator.cell_area, contact.nodes[follow]
+    operator, every = contact.problem.operator, bool(follow.all())
+    cell_area, nodes = operator.cell_area, contact.nodes if every else contact.nodes[follow]
     if not nodes.size:
         return Tangent(0.0, np.zeros(contact.nodes.size), 0, converged=True)
     if operator.mean_is_free and nodes.size == contact.separation.size:  # full contact is rigid
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
         return Tangent(np.inf, even, 0, converged=True)
     pressure = _unit_force(follow, cell_area, start, contact.pressure)
-    solved = _Solution.of(contact.problem, GridNodes.of(nodes, operator.shape), pressure, method)
-    pressure_per_force = np.zeros(contact.nodes.size)
-    pressure_per_force[follow] = solved.pressure
-    positive = solved.compliance > 0
-    stiffness = 1 / solved.compliance if positive else np.nan
-    return Tangent(
-        stiffness, pressure_per_force, solved.convolutions, solved.converged and positive
+    following = GridNodes.of(nodes, operator.shape)
+    compliance, convolutions, converged = _solve(contact.problem, following, pressure, method)
+    if not every:
+        pressure_per_force = np.zeros(contact.nodes.size)
+        pressure_per_force[follow] = pressure
+        pressure = pressure_per_force
+    stiffness = 1 / compliance if compliance > 0 else np.nan
+    return Tangent(stiffness, pressure, convolutions, converged and compliance > 0)
+
+
+def _solve(
+    problem: Problem, nodes: GridNodes, pressure: Real, method: Method
+) -> tuple[float, int, bool]:
+    """Lead pressures of unit force, which are overwritten, to those that displace all nodes alike.
+
+    In each turn, steps lessen the compliance from what the pressures so far have. The first turn
+    takes a restricted operator where it serves. Its steps err by a part of what they gain, which
+    shows in the gain of the next turn. Return the compliance, the convolutions, and whether the
+    equations are solved.
+    """
+    restricted = problem.inverse.restricted.on(nodes)
+    operator = CorrectedOperator(problem.operator, restricted, nodes)
+    patch = Patch(operator.linear, problem.inverse, nodes)
+    accuracy, gained, compliance, convolutions = _ENERGY_MARGIN * method.rtol, np.nan, np.nan, 0
+    for turn in range(_TURNS):
+        # 1. The turn is exact but for a first one with a restricted operator.
+        exact = turn > 0 or operator.restricted is None
+        if exact and operator.restricted is not None:
+            operator = operator.recentred(pressure, None, method.certificate)
+        aim = 0.1 * accuracy if exact else _ROUGHLY
+        gained_before = gained
+        before, gained, error, steps = _lessened(operator, patch, pressure, aim, method)
+        convolutions += exact + (steps if operator.restricted is None else 0)
+        # 2. By how much steps have lessened the compliance, and the part of that by which they err.
+        compliance = before - gained
+        part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
+        if exact and max(error, np.sqrt(part) * gained) <= accuracy * compliance:
+            return compliance, convolutions, True
+        slow = not (part <= _SLOW and error <= aim * before)
+        if exact and operator.restricted is not None and slow:
+            operator = CorrectedOperator(problem.operator, None, nodes)
+            patch, gained = Patch(operator.linear, problem.inverse, nodes), np.nan
+    return compliance, convolutions, False
+
+
+def _lessened(
+    operator: CorrectedOperator, patch: Patch, pressure: Real, aim: float, method: Method
+) -> tuple[float, float, float, int]:
+    """Lessen the compliance of pressures of unit force, until so small a part of it is an error.
+
+    Return the compliance before, what the steps have gained, what is left of the error, and the
+    number of steps.
+    """
+    cell_area = operator.exact.cell_area  # compliances count forces, energies count pressures
+    displacement = operator.displacement(pressure, None, method.certificate)
+    compliance = float(pressure @ displacement) * cell_area
+    gradients = ConjugateGradients(
+        patch,
+        pressure,
+        np.negative(displacement, out=displacement),
+        displacement[:0],
+        fixed_total=True,
+        precision=method.steps,
     )
-
-
-@dataclass(frozen=True, eq=False)
-class _Solution:
-    """Pressures of unit force that displace all nodes alike, and what their search has taken."""
-
-    pressure: Real
-    compliance: float
-    convolutions: int
-    converged: bool
-
-    @classmethod
-    def of(cls, problem: Problem, nodes: GridNodes, start: Real, method: Method) -> _Solution:
-        """Solve for the pressures in turns, the first with a restricted operator where it serves.
-
-        In each turn, steps lessen the compliance from what the pressures so far have. Steps of a
-        restricted operator err by a part of what they gain, which shows in the gain of the next
-        turn.
-        """
-        cell_area = problem.operator.cell_area
-        restricted = problem.inverse.restricted.on(nodes)
-        operator = CorrectedOperator(problem.operator, restricted, nodes)
-        pressure, gained, accuracy = start, np.nan, _ENERGY_MARGIN * method.rtol
-        convolutions, converged, compliance = 0, False, np.nan
-        patch = Patch(operator.linear, problem.inverse, nodes)
-        for turn in range(_TURNS):
-            # 1. The compliance of the pressures so far; exact but for a first restricted operator.
-            exact = turn > 0 or operator.restricted is None
-            if exact and operator.restricted is not None:
-                operator = operator.recentred(pressure, None, method.certificate)
-            displacement = operator.displacement(pressure, None, method.certificate)
-            compliance = float(pressure @ displacement) * cell_area
-            # 2. Steps that lessen it; it counts forces, energies of errors count pressures.
-            gradients = ConjugateGradients(
-                patch,
-                pressure.copy(),
-                -displacement,
-                displacement[:0],
-                fixed_total=True,
-                precision=method.steps,
-            )
-            aim = (0.1 * accuracy if exact else _ROUGHLY) * compliance
-            while gradients.energy * cell_area > aim and (
-                gradients.steps < _STEPS and gradients.advance()
-            ):
-                pass
-            pressure = gradients.pressure
-            convolutions += exact + (gradients.steps if operator.restricted is None else 0)
-            # 3. By how much they have, and the part of that by which they err.
-            gained_before, gained = gained, gradients.gained * cell_area
-            compliance -= gained
-            part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
-            energy = gradients.energy * cell_area
-            error = max(energy, np.sqrt(part) * gained)
-            converged = bool(exact and error <= accuracy * compliance)
-            if converged:
-                break
-            slow = not (part <= _SLOW and energy <= aim)
-            if exact and operator.restricted is not None and slow:
-                operator = CorrectedOperator(problem.operator, None, nodes)
-                patch = Patch(operator.linear, problem.inverse, nodes)
-                pressure, gained = start, np.nan
-        return cls(pressure, compliance, convolutions, converged)
+    while gradients.energy * cell_area > aim * compliance and gradients.steps < _STEPS:
+        if not gradients.advance():
+            break
+    return compliance, gradients.gained * cell_area, gradients.energy * cell_area, gradients.steps
 
 
 def _unit_force(follow: Mask, cell_area: float, start: Real | None, pressure: Real) -> Real:

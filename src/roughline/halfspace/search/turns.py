@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.halfspace.operators.grid_nodes import Precision
-from roughline.halfspace.search.active_set import AIM, SINGLE_ABOVE, search
+from roughline.halfspace.search.active_set import AIM, SINGLE_ABOVE, Search
 from roughline.halfspace.search.carriers import Carriers
 from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Outcome, Problem
 from roughline.halfspace.search.region import REACH, Region, Trial
@@ -70,7 +70,7 @@ class Turns:
         """Return a contact that is found roughly, by one search and with no certificate."""
         trial = self._trial(self._method.steps)
         near = trial.region.near(trial, REACH) or self._everywhere(trial.contact_set)
-        return search(*near, self._load, self._method)[0].contact_set
+        return Search(*near, self._load, self._method).found()[0].contact_set
 
     def _seen(self, precision: Precision) -> Contact | None:
         """Look wherever bodies can touch; return the contact if it is certified.
@@ -116,8 +116,9 @@ class Turns:
             self._problem.operator.workspace.rest()
             target = max(_GAIN * worst, AIM * method.rtol)
             rough = Method(target, max(1, min(self._left - 1, _PRODUCTS)), "float32")
-            found, _, products = search(region, carriers, self._load, rough)
-            self._products += products
+            search = Search(region, carriers, self._load, rough)
+            found, _ = search.found()
+            self._products += search.products
             self._start = found.contact_set
             expected = max(target, _GAIN * worst)
             if expected <= method.rtol or self._left <= 1:
@@ -145,6 +146,7 @@ class Turns:
         if rest.max_iterations == 1:  # no more than a certificate
             rest = replace(rest, precision=rest.certificate)
         assert self._start is not None
-        (region, carriers), self._start = self._everywhere(self._start), None
-        trial, outcome, products = search(region, carriers, self._load, rest)
-        return trial.contact(outcome, self._convolutions + products)
+        search = Search(*self._everywhere(self._start), self._load, rest)
+        self._start = None
+        trial, outcome = search.found()
+        return trial.contact(outcome, self._convolutions + search.products)
