@@ -415,9 +415,8 @@ class _ExchangeRule:
 
 
 def exchanged(region: Region, carriers: Carriers, watched: Indices, wrong: Wrong) -> Carriers:
-    """Return carriers after wrong nodes have changed sides; see :class:`_ExchangeRule`."""
-    bounds = region.bounds.at(carriers.places)
-    pressure = carriers.pressure.copy()
+    """Return carriers after wrong nodes have changed sides; their pressures are overwritten."""
+    bounds, pressure = region.bounds.at(carriers.places), carriers.pressure
     pressure[wrong.above] = bounds.at(wrong.above).high
     pressure[wrong.below] = bounds.at(wrong.below).low
     # a node that leaves its bound is relieved of what its own gap takes to close, but of little,

@@ -51,23 +51,25 @@ def overstated_cells(
        contact-area in mechanical contact of random rough surfaces", Tribol. Int. 114, 161-171
        (2017).
     """
-    bears = ~contact.pulling
-    nodes, pressure, plastic = contact.nodes[bears], contact.pressure[bears], contact.plastic[bears]
     shape = contact.separation.shape
-    touching = np.zeros(contact.separation.size, dtype=bool)
-    touching[nodes] = True
+    touching = np.zeros(shape, dtype=bool)
+    touching.flat[contact.nodes[~contact.pulling]] = True
     pairs, summits = 0, 0.0
     for axis in (0, 1):
         for step in (1, -1):
-            beyond, exist = _neighbours(nodes, shape, axis, step, periodic)
-            outer = exist & ~touching[beyond]
-            edge, gap = pressure[outer], contact.gap_at(beyond[outer])
-            within, loaded_too = _neighbours(nodes[outer], shape, axis, -step, periodic)
-            loaded_too &= touching[within]
+            outer = touching & ~np.roll(touching, -step, axis)
+            if not periodic:
+                np.moveaxis(outer, axis, 0)[-1 if step > 0 else 0] = False
+            outline = np.flatnonzero(outer)
+            beyond, _ = _neighbours(outline, shape, axis, step, periodic)
+            within, loaded_too = _neighbours(outline, shape, axis, -step, periodic)
+            at, gap = np.searchsorted(contact.nodes, outline), contact.gap_at(beyond)
+            edge = contact.pressure[at]
+            loaded_too &= touching.flat[within]
             rising = np.zeros(edge.size, dtype=bool)
-            inner = np.searchsorted(nodes, within[loaded_too])
-            rising[loaded_too] = edge[loaded_too] > pressure[inner] * (1 + _ALIKE)
-            rising |= plastic[outer]  # the body is cut off there, as at the edge of a plateau
+            inner = np.searchsorted(contact.nodes, within[loaded_too])
+            rising[loaded_too] = edge[loaded_too] > contact.pressure[inner] * (1 + _ALIKE)
+            rising |= contact.plastic[at]  # the body is cut off there, as at the edge of a plateau
             smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP, _STEEP_ALONE)
             steep = (rising | ~loaded_too) & (gap > smooth)
             pairs += edge.size
