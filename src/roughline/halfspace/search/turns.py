@@ -48,7 +48,8 @@ class Turns:
         self._method = method
         self._start: ContactSet | None = start
         self._near: tuple[Region, Carriers] | None = None
-        self._worst = np.inf  # residual of the last look
+        self._worst = np.inf  # residual of the last look wherever bodies can touch
+        self._worst_near = np.inf  # and of the last one near the contact
         self._convolutions = 0  # with the exact operator
         self._products = 0  # with restricted ones
 
@@ -62,7 +63,8 @@ class Turns:
         method = self._method
         contact = self._seen(method.steps)
         while contact is None and self._near is not None:
-            self._refine()
+            while self._refine():
+                pass
             contact = self._seen(method.certificate)
         return contact or self._with_exact_operator()
 
@@ -80,7 +82,8 @@ class Turns:
         trial, before = self._trial(precision), self._worst
         if precision == self._method.certificate and trial.certified(self._method.rtol):
             return trial.contact(Outcome.CONVERGED, self._convolutions)
-        self._start, self._worst = trial.contact_set, trial.residuals.worst
+        self._start = trial.contact_set
+        self._worst = self._worst_near = trial.residuals.worst
         helped = self._worst < 0.5 * before
         self._near = trial.region.near(trial, REACH) if helped and self._left > 1 else None
         return None
@@ -106,34 +109,36 @@ class Turns:
                 return trial
             start = trial.contact_set
 
-    def _refine(self) -> None:
-        """Search near the contact, and correct there, until a certificate is likely."""
+    def _refine(self) -> bool:
+        """Search near the contact, and look there; return whether that serves once more."""
+        method, worst = self._method, self._worst_near
+        # 1. Search with the restricted operator, while the exact one rests.
+        self._problem.operator.workspace.rest()
+        target = max(_GAIN * worst, AIM * method.rtol)
+        region, carriers = self._searched_near(target)
+        expected = max(target, _GAIN * worst)
+        if expected <= method.rtol or self._left <= 1:
+            return False
+        # 2. See, there, what the exact operator gives.
+        precision = method.steps if expected > SINGLE_ABOVE else method.certificate
+        region = region.recentred(carriers, precision)
+        trial = region.trial(self._load, carriers, "float32")
+        self._convolutions += 1
+        self._start, self._worst_near = trial.contact_set, trial.residuals.worst
+        if self._worst_near < 0.5 * worst:
+            self._near = region.near(trial, _NEARER)
+        return self._near is not None
+
+    def _searched_near(self, target: float) -> tuple[Region, Carriers]:
+        """Search among the nodes near the contact, to a target, and return what is found there."""
         assert self._near is not None
-        (region, carriers), self._near = self._near, None
-        method, worst = self._method, self._worst
-        while True:
-            # 1. Search with the restricted operator, while the exact one rests.
-            self._problem.operator.workspace.rest()
-            target = max(_GAIN * worst, AIM * method.rtol)
-            rough = Method(target, max(1, min(self._left - 1, _PRODUCTS)), "float32")
-            search = Search(region, carriers, self._load, rough)
-            found, _ = search.found()
-            self._products += search.products
-            self._start = found.contact_set
-            expected = max(target, _GAIN * worst)
-            if expected <= method.rtol or self._left <= 1:
-                return
-            # 2. See, there, what the exact operator gives.
-            precision = method.steps if expected > SINGLE_ABOVE else method.certificate
-            region = region.recentred(found.carriers, precision)
-            trial = region.trial(self._load, found.carriers, "float32")
-            self._convolutions += 1
-            self._start = trial.contact_set
-            before, worst = worst, trial.residuals.worst
-            near = region.near(trial, _NEARER)
-            if near is None or not worst < 0.5 * before:
-                return
-            region, carriers = near
+        rough = Method(target, max(1, min(self._left - 1, _PRODUCTS)), "float32")
+        search = Search(*self._near, self._load, rough)
+        self._near = None
+        found, _ = search.found()
+        self._products += search.products
+        self._start = found.contact_set
+        return found.region, found.carriers
 
     def _everywhere(self, contact_set: ContactSet) -> tuple[Region, Carriers]:
         """Return all of the grid with the exact operator, and a contact set as carriers in it."""
