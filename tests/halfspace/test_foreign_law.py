@@ -360,6 +360,18 @@ def test_a_cycle_of_pull_takes_work():
     assert touched[25:].sum() > touched[:25].sum()
 
 
+def test_beyond_full_contact_elastic_bodies_show_infinite_pressures():
+    """No finite pressures are so deep, so the law that follows is the one with a hardness."""
+    body, pressure = posed("H = 0.8", periodic=True)
+    hardness = pressure * np.linspace(0.5, 2.0, body.heights.size).reshape(body.heights.shape)
+    depths = np.array([1.2, 0.5, 1.5]) * float(np.mean(body.separation))
+    at_once, elastic_first = (
+        pressed(body, UnevenHardness(hardness, first), depths=depths) for first in (False, True)
+    )
+    for name in ("force", "stiffness", "unloading_stiffness", "indentation"):
+        assert getattr(elastic_first, name) == pytest.approx(getattr(at_once, name), rel=1e-6), name
+
+
 def maugis_pull_off(strength):
     """Least force on a sphere over pi w R (Maugis 1992, eqs. 6.10-6.13)."""
 

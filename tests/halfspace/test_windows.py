@@ -1,10 +1,11 @@
 """Light loads are solved where bodies can touch: nothing beyond that touches, or matters."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace.search import window
 from roughline.halfspace.search.window import Window
 
 
@@ -69,7 +70,16 @@ def test_what_is_found_in_a_window_is_found_on_the_whole_grid(monkeypatch, contr
 def test_a_start_that_foresees_too_little_depth_is_solved_again_on_the_whole_grid(monkeypatch):
     surface = next(surfaces())
     usual = pressed(surface, None, forces=[0.05])
-    monkeypatch.setattr(window, "_DEEPER", 0.2)
+    of = Window.of.__func__
+    monkeypatch.setattr(
+        Window,
+        "of",
+        classmethod(
+            lambda cls, problem, load, start: of(
+                cls, problem, load, replace(start, depth=start.depth and 0.2 * start.depth)
+            )
+        ),
+    )
     shallow = pressed(surface, None, forces=[0.05])
     assert shallow.area_fraction == usual.area_fraction
     assert shallow.stiffness == pytest.approx(usual.stiffness, rel=1e-6)

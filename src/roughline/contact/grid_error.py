@@ -241,15 +241,14 @@ def _softer(
 ) -> tuple[Curve, Curve]:
     """Return curves of n / 2 points that yield as the surface does, and as a finer grid will.
 
-    Where all surfaces of one shape answer alike, or where no slope is added, both are the curve of
-    n / 2 points.
+    Where pressures have no upper bound, or where no slope is added, both are the curve of n / 2
+    points.
     """
-    laws = [law.for_steeper(times) for times in (grids.step, grids.step * steepening)]
-    if steepening == 1:
+    if steepening == 1 or law.largest_force(1.0) == np.inf:
         return curve, curve
-    alike, softer = (
-        curve if each is None else _pressed_softer(curve, grids.half, each, press) for each in laws
-    )
+    # pressures and gaps of a surface so many times steeper, in units so many times larger
+    steeper = (law.scaled(times, times) for times in (grids.step, grids.step * steepening))
+    alike, softer = (_pressed_softer(curve, grids.half, each, press) for each in steeper)
     return alike, softer
 
 

@@ -89,9 +89,8 @@ class LoadResult:
             return cls(Status.UNKNOWN_SURFACE)
         if response is None:
             return cls(Status[contact.outcome.name], worst, of, contact.convolutions)
-        convolutions = contact.convolutions + response.convolutions
         if not response.converged:
-            return cls(Status.NO_TANGENT, worst, of, convolutions)
+            return cls(Status.NO_TANGENT, worst, of, contact.convolutions)
         cells, nodes = int(np.count_nonzero(~contact.pulling)), contact.separation.size
         most, overstated = _overstated(contact, scaled, law)
         dents = _dents(contact, scaled) if law.memory == "dents" else None
@@ -104,7 +103,7 @@ class LoadResult:
             status=Status.CONVERGED,
             residual=worst,
             residual_of=of,
-            convolutions=convolutions,
+            convolutions=contact.convolutions,
             resolved=cells >= RESOLVED_FROM,
             depth=contact.depth * scaled.height,
             force=contact.force * scaled.force,

@@ -59,7 +59,7 @@ class ContactLaw(ABC):
         Parameters
         ----------
         nodes : ndarray of int, or None
-            Flat indices in the grid; None for all of it.
+            Flat indices in the grid, so those of a field's ``ravel()``; None for all of it.
 
         Returns
         -------
@@ -77,8 +77,9 @@ class ContactLaw(ABC):
         Parameters
         ----------
         take : callable
-            Takes a field over this grid, shape (nx, ny), to one over the other. Only a law that
-            differs from node to node needs it.
+            Takes a field over this grid, shape (nx, ny), to one over the other. Fields are floats:
+            a mask is taken as one of ones and zeros, and may come back with what is between. Only
+            a law that differs from node to node needs it.
         """
         return self
 
@@ -138,22 +139,8 @@ class ContactLaw(ABC):
         Parameters
         ----------
         contact : Solved
-            The contact that obeys this law, in the law's units.
-        """
-        return None
-
-    def bounded(self) -> ContactLaw:
-        """The law to start with where no finite pressures are deep enough for unbounded ones."""
-        return self
-
-    def attainable(self, force: float, cell_area: float) -> float:
-        """Return the force to solve for: one that leaves a node between its bounds. [force]"""
-        return force
-
-    def for_steeper(self, times: float) -> ContactLaw | None:
-        """Return the law under which this surface answers as one so many times steeper would.
-
-        None if all surfaces of one shape answer alike.
+            The contact that obeys this law, in the law's units. Where a depth takes more than any
+            finite pressures, they are infinite on all nodes.
         """
         return None
 
@@ -163,13 +150,14 @@ class ContactLaw(ABC):
         Parameters
         ----------
         pressure, displacement : ndarray, shape (nodes,)
-            Pressures and displacements of the nodes in contact. [pressure] and [length]
+            Pressures and displacements of the nodes with a pressure. [pressure] and [length]
 
         Returns
         -------
         pressure, length : float
-            The mean magnitude of the pressures, and the largest displacement; that of largest
-            magnitude where bodies pull.
+            The mean magnitude of the pressures, which does not vanish where pushes and pulls
+            balance, and the largest displacement towards the half-space, or, where bodies pull,
+            in either direction. Both are positive. [pressure] and [length]
         """
         moved = displacement if self.only_pushes else np.abs(displacement)
         return float(np.abs(pressure).mean()), float(moved.max())

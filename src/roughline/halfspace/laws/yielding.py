@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -14,7 +14,6 @@ from roughline.halfspace.laws.law import ContactLaw, Solved
 
 # A guess whose pressures exceed the hardness so many times leaves no doubt that nodes yield.
 _BEYOND_DOUBT = 3.0
-_SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 
 
 @dataclass(frozen=True)
@@ -32,6 +31,8 @@ class Yielding(ContactLaw):
         The most that a node bears, H. [pressure]
     has_yielded : bool
         Whether a load before has indented the surface.
+    is_elastic : bool
+        Whether bodies are tried without the hardness, until a node exceeds it.
 
     Raises
     ------
@@ -46,6 +47,7 @@ class Yielding(ContactLaw):
 
     hardness: float
     has_yielded: bool = False
+    is_elastic: bool = False
     memory: ClassVar[Literal["none", "dents", "path"]] = "dents"
 
     def __post_init__(self) -> None:
@@ -56,12 +58,12 @@ class Yielding(ContactLaw):
             )
 
     def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
-        """Return zero and the hardness."""
-        return 0.0, self.hardness
+        """Return zero and the hardness, which elastic bodies do not have."""
+        return 0.0, math.inf if self.is_elastic else self.hardness
 
     def scaled(self, pressure: float, length: float) -> Yielding:
         """Return the law in other units."""
-        return Yielding(self.hardness / pressure, self.has_yielded)
+        return replace(self, hardness=self.hardness / pressure)
 
     def refuse(
         self, control: str, values: Real, heights: Real, area: float, mean_is_free: bool
@@ -76,54 +78,20 @@ class Yielding(ContactLaw):
                 "or a larger hardness"
             )
 
-    def start(self, value: float, last: float | None, largest: float | None) -> ContactLaw:
+    def start(self, value: float, last: float | None, largest: float | None) -> Yielding:
         """Start as elastic bodies, unless they have yielded and meet a larger load than ever."""
         beyond = largest is None or value > largest
-        return self if beyond and self.has_yielded else _ElasticSoFar(self)
+        return replace(self, is_elastic=not (beyond and self.has_yielded))
 
-    def attainable(self, force: float, cell_area: float) -> float:
-        """Return slightly less where nodes at the hardness alone would bear the force.
-
-        With no elastic node among them the depth would be open.
-        """
-        nodes = force / (self.hardness * cell_area)
-        whole = round(nodes)
-        same = bool(whole) and abs(nodes - whole) <= _SAME_FORCE * whole
-        return force * (1 - 2 * _SAME_FORCE) if same else force
-
-    def for_steeper(self, times: float) -> Yielding:
-        """Return bodies so many times softer: contact depends on H / (E* slope)."""
-        return Yielding(self.hardness / times)
-
-
-@dataclass(frozen=True)
-class _ElasticSoFar(ContactLaw):
-    """Bodies that yield, as long as no node exceeds the hardness."""
-
-    yielding: Yielding
-    memory: ClassVar[Literal["none", "dents", "path"]] = "dents"
-
-    def bounds(self, nodes: Indices | None) -> tuple[Real | float, Real | float]:
-        """Return that pressures only push."""
-        return 0.0, math.inf
-
-    def scaled(self, pressure: float, length: float) -> _ElasticSoFar:
-        """Return the law in other units."""
-        return _ElasticSoFar(self.yielding.scaled(pressure, length))
-
-    def start(self, value: float, last: float | None, largest: float | None) -> ContactLaw:
-        """Start as the bodies that yield do."""
-        return self.yielding.start(value, last, largest)
-
-    def foreseen(self, nodes: Indices, pressure: Real) -> ContactLaw:
+    def foreseen(self, nodes: Indices, pressure: Real) -> Yielding:
         """Yield at once where there is no doubt that nodes will."""
-        doubtless = np.any(pressure > _BEYOND_DOUBT * self.yielding.hardness)
-        return self.bounded() if doubtless else self
+        return self._beyond(_BEYOND_DOUBT, pressure) or self
 
-    def then(self, contact: Solved) -> ContactLaw | None:
-        """Yield where a node exceeds the hardness."""
-        return self.bounded() if np.any(contact.pressure > self.yielding.hardness) else None
+    def then(self, contact: Solved) -> Yielding | None:
+        """Yield where a node of the elastic bodies exceeds the hardness."""
+        return self._beyond(1.0, contact.pressure)
 
-    def bounded(self) -> ContactLaw:
-        """The bodies that yield."""
-        return Yielding(self.yielding.hardness, has_yielded=True)
+    def _beyond(self, times: float, pressure: Real) -> Yielding | None:
+        """Return bodies that yield, where elastic ones would bear so many times the hardness."""
+        beyond = self.is_elastic and np.any(pressure > times * self.hardness)
+        return Yielding(self.hardness, has_yielded=True) if beyond else None

@@ -36,7 +36,7 @@ from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.operators.grid_nodes import Precision
 from roughline.halfspace.search.carriers import Carriers, merged
-from roughline.halfspace.search.patch import ConjugateGradients, Patch
+from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Patch
 from roughline.halfspace.search.problem import Load, Method, Outcome
 from roughline.halfspace.search.region import Region, Trial
 
@@ -44,7 +44,6 @@ AIM = 0.3
 """Of the tolerance, at which conjugate gradients aim so that a certificate is not just missed."""
 SINGLE_ABOVE = 1e-4
 """Single precision serves while errors are above this part of what moves; its own are 1e-7."""
-_STEPS = 200  # on one set of nodes before it is looked at again
 # After more rounds than this without a new minimum of wrong nodes, the equations are solved to the
 # tolerance before nodes are exchanged. After twice as many, nodes are exchanged one by one.
 _PATIENCE = 8
@@ -251,7 +250,7 @@ def _relaxed(
         If the operator is not positive definite.
     """
     diagonal = trial.region.problem.inverse.diagonal
-    tolerance, most_steps = AIM * rtol * trial.length_scale, min(most_steps, _STEPS)
+    tolerance, most_steps = AIM * rtol * trial.length_scale, min(most_steps, MOST_STEPS)
     sides = Sides.of(trial, watched)
     if not trial.touching.any():  # under a given depth, all may be at a bound
         wrong = sides.wrong(trial.carriers.pressure[:0], sides.gap, tolerance)

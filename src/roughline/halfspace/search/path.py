@@ -17,8 +17,15 @@ from roughline.computing.arrays import Indices, Real
 from roughline.halfspace.laws.bounds import Bounds
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.search.cascade import first_guess
-from roughline.halfspace.search.problem import Contact, ContactSet, Load, Method, Outcome, Problem
-from roughline.halfspace.search.residuals import Residuals
+from roughline.halfspace.search.problem import (
+    Contact,
+    ContactSet,
+    Load,
+    Method,
+    Outcome,
+    Problem,
+    Residuals,
+)
 from roughline.halfspace.search.tangent import Response, Tangent, response
 from roughline.halfspace.search.turns import Turns
 from roughline.halfspace.search.window import Window
@@ -26,6 +33,9 @@ from roughline.halfspace.search.window import Window
 # Where the force changes by more than this, over the force so far, coarser grids guess better than
 # the tangent.
 _LARGEST_CHANGE = 1.0
+_SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
+
+_NONE: Real = np.empty(0)
 
 
 def solve_path(
@@ -52,6 +62,15 @@ def solve_path(
         yield path.under(load, next_load)
 
 
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """A load, the contact under it, and how that answers a change of load, if it is certified."""
+
+    load: Load
+    contact: Contact
+    response: Response | None
+
+
 class _Path:
     """The contact along a path of loads.
 
@@ -64,9 +83,9 @@ class _Path:
     def __init__(self, problem: Problem, method: Method) -> None:
         self._problem = problem
         self._method = method
-        self._start: ContactSet | None = None
-        self._last: _Tangents | None = None
-        self._before: float | None = None
+        self._start: ContactSet | None = None  # of the next search, which takes it
+        self._followed: tuple[Indices, Response] | None = None  # nodes and tangents that led to it
+        self._before: float | None = None  # the load before
         self._largest: float | None = None
         self._furthest: _Solved | None = None  # under the largest load, until a larger one follows
         self._unknown_below = -np.inf  # the largest load that was not solved
@@ -74,198 +93,155 @@ class _Path:
     def under(self, load: Load, next_load: Load | None) -> tuple[Contact, Response | None]:
         """Return the contact under a load, and prepare the next."""
         if load.value < self._unknown_below:
-            return _apart(self._problem, load, Outcome.UNKNOWN_SURFACE), None
+            return _unsearched(self._problem, load, Outcome.UNKNOWN_SURFACE), None
         if self._furthest is not None and load.value > self._furthest.load.value:
             self._furthest = None
         if self._furthest is not None and load == self._furthest.load:
-            self._prepare(next_load, self._furthest)
-            return self._furthest.again
-        found, window = self._found(load)
-        contact = window.contact(found)
+            contact = replace(self._furthest.contact, convolutions=0)
+            solved = self._furthest = replace(self._furthest, contact=contact)
+        else:
+            solved = self._solved(load)
         self._before = load.value
+        self._prepare(next_load, solved)
+        return solved.contact, solved.response
+
+    def _solved(self, load: Load) -> _Solved:
+        """Solve the contact under a load, and for its tangents."""
+        found, contact = self._found(load)
         if contact.outcome is not Outcome.CONVERGED:
-            self._last = None
             lost = {"none": -np.inf, "dents": load.value, "path": np.inf}
             self._unknown_below = lost[contact.problem.law.memory]
             self._problem = self._problem.obeying(contact.problem.law)
-            return contact, None
+            return _Solved(load, contact, None)
         self._largest = load.value if self._largest is None else max(self._largest, load.value)
         if contact.separation is not self._problem.separation:
             self._furthest = None
         self._problem = contact.problem
-        if not contact.nodes.size:
-            self._prepare(next_load, None)
-            return contact, _NO_RESPONSE
-        start = None if self._last is None else self._last.on(contact.nodes)
-        solved = _Solved(load, contact, response(found, start, self._method))
-        self._prepare(next_load, solved)
-        return contact, solved.response
+        answer = response(found, self._guesses(contact.nodes), self._method)
+        spent = contact.convolutions + answer.convolutions
+        return _Solved(load, replace(contact, convolutions=spent), answer)
 
-    def _found(self, load: Load) -> tuple[Contact, Window]:
+    def _found(self, load: Load) -> tuple[Contact, Contact]:
         """Solve the contact under a load, by one law after the other until one settles it.
 
-        The contact is that in a window.
+        Return the contact in a window, and the same on the grid.
         """
-        law = self._problem.law.start(load.value, self._before, self._largest)
-        if self._furthest is None and self._problem.is_beyond_full_contact(load):
-            law = law.bounded()
-        spent = 0
+        law, spent = self._problem.law.start(load.value, self._before, self._largest), 0
         while True:
-            found, window = self._settled(load, law, spent)
+            found, contact = self._settled(load, law, spent)
             # that bodies yield shows before their elastic contact is found
-            told = found.outcome is Outcome.CONVERGED or found.problem.law.memory == "dents"
-            following = window.problem.law.then(window.contact(found)) if told else None
+            told = contact.outcome is Outcome.CONVERGED or law.memory == "dents"
+            following = contact.problem.law.then(contact) if told else None
             if following is None:
-                return found, window
-            self._start, law = window.contact(found).contact_set, following
-            spent = found.convolutions
+                return found, contact
+            law, spent = following, found.convolutions
+            if np.isfinite(contact.force):
+                self._start = contact.contact_set
 
-    def _settled(self, load: Load, law: ContactLaw, spent: int) -> tuple[Contact, Window]:
+    def _settled(self, load: Load, law: ContactLaw, spent: int) -> tuple[Contact, Contact]:
         """Solve the contact by a law, in the window in which bodies can touch."""
-        problem = self._problem.obeying(law)
-        if _is_apart(problem, load):
-            return _apart(problem, load, Outcome.CONVERGED), Window.whole(problem)
+        problem, most = self._problem.obeying(law), self._method.max_iterations
+        if contact := _known(problem, load, for_first_time=self._furthest is None):
+            return contact, contact
         if load.force is not None:
-            load = Load(force=law.attainable(load.force, problem.grid.cell_area))
+            load = Load(force=_attainable(load.force, law, problem.grid.cell_area))
         if self._start is None:
-            problem = self._guess(problem, load)
-        assert self._start is not None
+            self._start, problem = first_guess(problem, load)
         window = Window.of(problem, load, self._start)
         self._start = window.inside(self._start)
         while True:
-            method = replace(
-                self._method, max_iterations=max(1, self._method.max_iterations - spent)
-            )
-            found = Turns(window.bodies, load, self._taken_start(), method).contact()
+            method = replace(self._method, max_iterations=max(1, most - spent))
+            turns = Turns(window.bodies, load, self._start, method)
+            self._start = None
+            found = turns.contact()
             spent += found.convolutions
-            if window.holds(found) or spent >= self._method.max_iterations:
-                held = found.outcome if window.holds(found) else Outcome.MAX_ITERATIONS
-                return replace(found, outcome=held, convolutions=spent), window
+            holds = window.holds(found)
+            if holds or spent >= most:
+                outcome = found.outcome if holds else Outcome.MAX_ITERATIONS
+                found = replace(found, outcome=outcome, convolutions=spent)
+                return found, window.contact(found)
             self._start, window = window.contact(found).contact_set, Window.whole(problem)
 
-    def _guess(self, problem: Problem, load: Load) -> Problem:
-        """Start from a first guess, and return the bodies under the law that it foresees."""
-        self._start, law = first_guess(problem, load)
-        if law is not problem.law:
-            problem = problem.obeying(law)
-            self._start, _ = first_guess(problem, load)
-        return problem
+    def _guesses(self, nodes: Indices) -> tuple[Real, Real] | None:
+        """Return dp/dF of the contact before, on loading and on unloading, on nodes of this one."""
+        if self._followed is None:
+            return None
+        before, answer = self._followed
+        places = np.minimum(np.searchsorted(before, nodes), before.size - 1)
+        known = before[places] == nodes
+        loading, unloading = (
+            np.where(known, each.pressure_per_force[places], 0.0)
+            for each in (answer.loading, answer.unloading)
+        )
+        return loading, unloading
 
-    def _taken_start(self) -> ContactSet:
-        """Return where a search starts, and hold it no longer."""
-        start, self._start = self._start, None
-        assert start is not None
-        return start
-
-    def _prepare(self, load: Load | None, solved: _Solved | None) -> None:
+    def _prepare(self, load: Load | None, solved: _Solved) -> None:
         """Choose the contact from which the next load starts, and follow its tangent.
 
         Parameters
         ----------
         load : Load or None
             The next load; None if there is none.
-        solved : _Solved or None
-            The last load; None where it left the bodies apart.
+        solved : _Solved
+            The last load.
         """
-        self._start, self._last = None, None
-        if load is None:
+        self._start = self._followed = None
+        if load is None or solved.response is None:
             return
         if self._problem.law.memory == "dents":
-            falls = solved is not None and load.value <= solved.load.value
-            if falls and self._furthest is None:
-                self._furthest = solved
-            if self._furthest is not None and load.value > self._furthest.load.value:
+            if load.value <= solved.load.value:
+                self._furthest = self._furthest or solved
+            elif self._furthest is not None and load.value > self._furthest.load.value:
                 solved = self._furthest
-        if solved is None or not solved.response.converged:
-            return
         contact, answer = solved.contact, solved.response
-        self._last = _Tangents.of(solved)
-        rises = load.value > solved.load.value
-        tangent = answer.loading if rises else answer.unloading
+        if answer is None or not answer.converged or not contact.nodes.size:
+            return
+        self._followed = contact.nodes, answer
+        tangent = answer.loading if load.value > solved.load.value else answer.unloading
         change = _change(contact, tangent, load)
         if tangent.stiffness > 0 and abs(change) < _LARGEST_CHANGE * abs(contact.force):
             self._start = _predicted(change, contact, tangent)
 
 
-@dataclass(frozen=True, eq=False)
-class _Solved:
-    """A load, the contact under it, and how that answers a change of load."""
+def _attainable(force: float, law: ContactLaw, cell_area: float) -> float:
+    """Return slightly less where nodes at an upper bound alone may bear a force.
 
-    load: Load
-    contact: Contact
-    response: Response
-
-    @property
-    def again(self) -> tuple[Contact, Response]:
-        """The same under the same load once more, which takes no convolutions."""
-        tangents = self.response.loading, self.response.unloading
-        loading, unloading = (replace(each, convolutions=0) for each in tangents)
-        return replace(self.contact, convolutions=0), Response(loading, unloading)
-
-
-@dataclass(frozen=True, eq=False)
-class _Tangents:
-    """Tangents of a contact, on its nodes, from which those of the next are sought.
-
-    Attributes
-    ----------
-    nodes : ndarray of int
-        Nodes in contact.
-    loading, unloading : ndarray, shape (nodes,)
-        dp/dF of both. [1 / area]
+    With no node below its bound the depth would be open.
     """
-
-    nodes: Indices
-    loading: Real
-    unloading: Real
-
-    @classmethod
-    def of(cls, solved: _Solved) -> _Tangents:
-        """Take what is needed of a solved load."""
-        answer = solved.response
-        return cls(
-            solved.contact.nodes,
-            answer.loading.pressure_per_force,
-            answer.unloading.pressure_per_force,
-        )
-
-    def on(self, nodes: Indices) -> tuple[Real, Real]:
-        """Return both on other nodes, zero on those that had none."""
-        where = np.searchsorted(self.nodes, nodes)
-        where[where == self.nodes.size] = 0
-        known = self.nodes[where] == nodes
-        transferred = np.zeros((2, nodes.size))
-        for values, before in zip(transferred, (self.loading, self.unloading), strict=True):
-            values[known] = before[where[known]]
-        return transferred[0], transferred[1]
+    nodes = force / law.largest_force(cell_area)
+    same = abs(nodes - np.round(nodes)) < _SAME_FORCE * nodes
+    return force * (1 - 2 * _SAME_FORCE) if same else force
 
 
-_APART = Tangent(0.0, np.empty(0), 0, converged=True)
-_NO_RESPONSE = Response(_APART, _APART)
+def _known(problem: Problem, load: Load, *, for_first_time: bool) -> Contact | None:
+    """Return the contact where it needs no search: bodies apart, or no finite pressures do."""
+    law, depth = problem.law, load.depth
+    pulls = not law.only_pushes and Bounds.of(law, None).pulled.size
+    if not pulls and (load.value == 0 if depth is None else depth <= problem.touch):
+        return _unsearched(problem, load, Outcome.CONVERGED)
+    # full contact is rigid where the mean is free; rounding counts where loads came back to it
+    rigid = depth is not None and problem.grid.half_space.mean_is_free and for_first_time
+    if rigid and load.value >= problem.separation.mean() and law.largest_force(1.0) == np.inf:
+        infinite = np.full(problem.separation.size, np.inf)
+        return _unsearched(problem, load, Outcome.STALLED, infinite)
+    return None
 
 
-def _is_apart(problem: Problem, load: Load) -> bool:
-    """Whether no node bears anything under a load: nothing touches, and nothing pulls."""
-    if not problem.law.only_pushes and Bounds.of(problem.law, None).pulled.size:
-        return False
-    return load.value == 0 if load.depth is None else load.depth <= problem.touch
-
-
-def _apart(problem: Problem, load: Load, outcome: Outcome) -> Contact:
-    """Return bodies that do not touch, or just touch, as a contact without nodes."""
+def _unsearched(problem: Problem, load: Load, outcome: Outcome, pressure: Real = _NONE) -> Contact:
+    """Return bodies that do not touch, or just touch, or the same pressure on all nodes."""
     depth = problem.touch if load.depth is None else load.depth
-    none, nowhere = np.empty(0), np.empty(0, dtype=bool)
+    gaps = problem.separation.ravel() - depth
     return Contact(
         problem=problem,
         depth=depth,
-        force=0.0,
-        nodes=np.empty(0, dtype=np.intp),
-        pressure=none,
-        plastic=nowhere,
-        pulling=nowhere,
+        force=float(pressure.sum()) * problem.grid.cell_area,
+        nodes=np.arange(pressure.size),
+        pressure=pressure,
+        plastic=np.zeros(pressure.size, dtype=bool),
+        pulling=np.zeros(pressure.size, dtype=bool),
         looked_at=None,
-        gaps=problem.separation.ravel() - depth,
-        residuals=Residuals(),
+        gaps=gaps,
+        residuals=Residuals(gap=float(pressure.max(initial=0.0))),
         outcome=outcome,
         convolutions=0,
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 import math
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 from typing import Literal
 
@@ -18,12 +18,12 @@ from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.discretisation import coarser_grid
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
-from roughline.halfspace.search.residuals import Residuals
 
 # Displacements by even pressures, which are zero on a periodic half-space, are up to 0.5 machine
 # epsilons of F / (E* side) on grids of 8 to 10^6 points. Rounded pressures displace most in the
 # longest wave, so the side is the shorter one.
 _ROUNDINGS = 2.0
+_DEEPER = 1.05  # times the approach of a start up to which bodies are looked at
 
 
 class Outcome(enum.Enum):
@@ -122,10 +122,10 @@ class Problem:
         pushed = self.law.only_pushes and self.grid.half_space.is_pushed_everywhere
         return max(0.0, depth - self.touch) if pushed else math.inf
 
-    def is_beyond_full_contact(self, load: Load) -> bool:
-        """Whether a load is deeper than full contact, where that is rigid."""
-        free = self.grid.half_space.mean_is_free and load.depth is not None
-        return free and load.value >= float(self.separation.mean())
+    def foreseen_reach(self, load: Load, start: ContactSet) -> float:
+        """Return the reach up to which nodes are looked at, from what a start foresees. [length]"""
+        depth = start.depth if load.depth is None else load.depth
+        return math.inf if depth is None else _DEEPER * self.reach(depth)
 
     def obeying(self, law: ContactLaw) -> Problem:
         """Return the same bodies under another law."""
@@ -216,6 +216,53 @@ class ContactSet:
     nodes: Indices
     pressure: Real
     depth: float | None = None
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Violations of the contact conditions, recomputed from the returned pressures.
+
+    Attributes
+    ----------
+    gap, penetration : float
+        Largest gap where the bodies touch and overlap elsewhere, over the length scale.
+    tension, excess : float
+        How far pressures are below and above their bounds at most, over the pressure scale.
+    load : float
+        Error of the force, over the sum of the forces on all nodes; zero under depth control.
+    rounding : float
+        Spacing of floating-point numbers at the depth, over the length scale: smaller gaps are
+        lost in it.
+    """
+
+    gap: float = 0.0
+    penetration: float = 0.0
+    tension: float = 0.0
+    excess: float = 0.0
+    load: float = 0.0
+    rounding: float = 0.0
+
+    @property
+    def worst(self) -> float:
+        """The largest of them; NaN if one is."""
+        return float(np.max(astuple(self)))
+
+    @property
+    def violation(self) -> float:
+        """The largest of them but for the rounding."""
+        return replace(self, rounding=0.0).worst
+
+    @property
+    def worst_is_of(self) -> str:
+        """What the largest of them is of, in words."""
+        return (
+            "the gap within the contact",
+            "the overlap outside the contact",
+            "tension",
+            "pressure above the hardness",
+            "the force",
+            "the rounding of the depth",
+        )[int(np.argmax(astuple(self)))]
 
 
 @dataclass(frozen=True, eq=False)

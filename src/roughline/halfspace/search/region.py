@@ -13,8 +13,14 @@ from roughline.halfspace.operators import loops
 from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.search.carriers import Carriers, merged
-from roughline.halfspace.search.problem import Contact, ContactSet, Load, Outcome, Problem
-from roughline.halfspace.search.residuals import Residuals
+from roughline.halfspace.search.problem import (
+    Contact,
+    ContactSet,
+    Load,
+    Outcome,
+    Problem,
+    Residuals,
+)
 
 # Nodes of a gap below so many times the error on contact may come into contact.
 REACH = 2.0

@@ -14,16 +14,14 @@ import numpy as np
 from roughline.computing.arrays import Mask, Real
 from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.operators.grid_nodes import GridNodes
-from roughline.halfspace.search.patch import ConjugateGradients, Patch
+from roughline.halfspace.search.patch import MOST_STEPS, ConjugateGradients, Patch
 from roughline.halfspace.search.problem import Contact, Method, Problem
 
 # The stiffness is the energy form 1 / (w K w). Conjugate gradients estimate the energy of their
 # error, and the bound on it is this part of the tolerance on residuals.
 _ENERGY_MARGIN = 0.01
-_STEPS = 300  # after which the energy form is computed afresh
-_ROUGHLY = 3e-8  # energy of the error, over the compliance, that an approximate operator leaves
 _SLOW = 0.01  # where a turn of a restricted operator gains more of the turn before, it is given up
-_TURNS = 8  # of so many steps, at most
+_TURNS = 8  # at most, each of which computes the energy form afresh
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,19 +32,16 @@ class Tangent:
     ----------
     stiffness : float
         k = dF/dd; infinite in full contact of the periodic half-space, zero where no node is
-        elastic. [force / length]
+        elastic, NaN where the linear equations were not solved. [force / length]
     pressure_per_force : ndarray, shape (nodes,)
         dp/dF on the contact nodes; zero on nodes that are not elastic. [1 / area]
     convolutions : int
         Convolutions spent.
-    converged : bool
-        Whether the linear equations were solved.
     """
 
     stiffness: float
     pressure_per_force: Real
-    convolutions: int
-    converged: bool
+    convolutions: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +68,7 @@ class Response:
     @property
     def converged(self) -> bool:
         """Whether both were solved."""
-        return self.loading.converged and self.unloading.converged
+        return not np.isnan([self.loading.stiffness, self.unloading.stiffness]).any()
 
 
 def response(contact: Contact, start: tuple[Real, Real] | None, method: Method) -> Response:
@@ -107,41 +102,38 @@ def _tangent(contact: Contact, follow: Mask, start: Real | None, method: Method)
     operator, every = contact.problem.operator, bool(follow.all())
     cell_area, nodes = operator.cell_area, contact.nodes if every else contact.nodes[follow]
     if not nodes.size:
-        return Tangent(0.0, np.zeros(contact.nodes.size), 0, converged=True)
+        return Tangent(0.0, np.zeros(contact.nodes.size))
     if operator.mean_is_free and nodes.size == contact.separation.size:  # full contact is rigid
         even = np.full(nodes.size, 1 / (nodes.size * cell_area))
-        return Tangent(np.inf, even, 0, converged=True)
+        return Tangent(np.inf, even)
     pressure = _unit_force(follow, cell_area, start, contact.pressure)
     following = GridNodes.of(nodes, operator.shape)
-    compliance, convolutions, converged = _solve(contact.problem, following, pressure, method)
+    compliance, convolutions = _solve(contact.problem, following, pressure, method)
     if not every:
         pressure_per_force = np.zeros(contact.nodes.size)
         pressure_per_force[follow] = pressure
         pressure = pressure_per_force
-    stiffness = 1 / compliance if compliance > 0 else np.nan
-    return Tangent(stiffness, pressure, convolutions, converged and compliance > 0)
+    return Tangent(1 / compliance if compliance > 0 else np.nan, pressure, convolutions)
 
 
-def _solve(
-    problem: Problem, nodes: GridNodes, pressure: Real, method: Method
-) -> tuple[float, int, bool]:
+def _solve(problem: Problem, nodes: GridNodes, pressure: Real, method: Method) -> tuple[float, int]:
     """Lead pressures of unit force, which are overwritten, to those that displace all nodes alike.
 
     In each turn, steps lessen the compliance from what the pressures so far have. The first turn
     takes a restricted operator where it serves. Its steps err by a part of what they gain, which
-    shows in the gain of the next turn. Return the compliance, the convolutions, and whether the
-    equations are solved.
+    shows in the gain of the next turn. Return the compliance, NaN where it is not found, and the
+    convolutions.
     """
     restricted = problem.inverse.restricted.on(nodes)
     operator = CorrectedOperator(problem.operator, restricted, nodes)
     patch = Patch(operator.linear, problem.inverse, nodes)
-    accuracy, gained, compliance, convolutions = _ENERGY_MARGIN * method.rtol, np.nan, np.nan, 0
+    accuracy, gained, convolutions = _ENERGY_MARGIN * method.rtol, np.nan, 0
     for turn in range(_TURNS):
         # 1. The turn is exact but for a first one with a restricted operator.
         exact = turn > 0 or operator.restricted is None
         if exact and operator.restricted is not None:
             operator = operator.recentred(pressure, None, method.certificate)
-        aim = 0.1 * accuracy if exact else _ROUGHLY
+        aim = 0.1 * accuracy if exact else accuracy
         gained_before = gained
         before, gained, error, steps = _lessened(operator, patch, pressure, aim, method)
         convolutions += exact + (steps if operator.restricted is None else 0)
@@ -149,12 +141,12 @@ def _solve(
         compliance = before - gained
         part = min(gained / gained_before, 1.0) if gained_before > 0 else 1.0
         if exact and max(error, np.sqrt(part) * gained) <= accuracy * compliance:
-            return compliance, convolutions, True
+            return compliance, convolutions
         slow = not (part <= _SLOW and error <= aim * before)
         if exact and operator.restricted is not None and slow:
             operator = CorrectedOperator(problem.operator, None, nodes)
             patch, gained = Patch(operator.linear, problem.inverse, nodes), np.nan
-    return compliance, convolutions, False
+    return np.nan, convolutions
 
 
 def _lessened(
@@ -176,7 +168,7 @@ def _lessened(
         fixed_total=True,
         precision=method.steps,
     )
-    while gradients.energy * cell_area > aim * compliance and gradients.steps < _STEPS:
+    while gradients.energy * cell_area > aim * compliance and gradients.steps < MOST_STEPS:
         if not gradients.advance():
             break
     return compliance, gradients.gained * cell_area, gradients.energy * cell_area, gradients.steps

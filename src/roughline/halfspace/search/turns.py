@@ -21,7 +21,6 @@ from roughline.halfspace.search.region import REACH, Region, Trial
 _GAIN = 2e-3  # of residuals by a search near the contact, and what its operator leaves, about
 _NEARER = 30.0  # reach of later searches, which leave a smaller error than they find
 _PRODUCTS = 200  # with the restricted operator in one search, at most; a sound one takes some 20
-_DEEPER = 1.05  # times the depth of the start up to which nodes are looked at
 
 
 class Turns:
@@ -93,10 +92,9 @@ class Turns:
         problem, load, start = self._problem, self._load, self._start
         assert start is not None
         total = load.total(problem.grid.cell_area)
-        depth = start.depth if load.depth is None else load.depth
-        reach = np.inf if depth is None else problem.reach(depth)
+        reach = problem.foreseen_reach(load, start)
         while True:
-            region = Region.possible(problem, start.nodes, _DEEPER * reach)
+            region = Region.possible(problem, start.nodes, reach)
             carriers = region.carriers(start)
             carriers = carriers.able_to_carry(total, region.bounds, region.separation)
             if region.reach < np.inf and not carriers.can_carry(total, region.bounds):
@@ -104,10 +102,10 @@ class Turns:
                 continue
             trial = region.trial(load, carriers, precision, rescale=not self._convolutions)
             self._convolutions += 1
-            reach = problem.reach(trial.depth)
-            if reach <= region.reach:
+            if problem.reach(trial.depth) <= region.reach:
                 return trial
             start = trial.contact_set
+            reach = problem.foreseen_reach(load, start)
 
     def _refine(self) -> bool:
         """Search near the contact, and look there; return whether that serves once more."""

@@ -16,7 +16,6 @@ from roughline.computing.arrays import Indices
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.search.problem import Contact, ContactSet, Load, Problem
 
-_DEEPER = 1.05  # times the approach of a start up to which bodies are looked at
 _ROOM = 2.0  # times the force that a window must be able to bear
 _SMALLEST = 32  # points along a side, where that has so many
 _HALVINGS = 5  # of a side, at most; there are few shapes, so that their tables serve again
@@ -44,8 +43,7 @@ class Window:
     @classmethod
     def of(cls, problem: Problem, load: Load, start: ContactSet) -> Window:
         """Return the window for a load: all of the grid, if the bodies may touch all over it."""
-        depth = start.depth if load.depth is None else load.depth
-        reach = np.inf if depth is None else _DEEPER * problem.reach(depth)
+        reach = problem.foreseen_reach(load, start)
         if reach == np.inf:
             return cls.whole(problem)
         shape = problem.separation.shape
