@@ -65,12 +65,11 @@ def test_pressures_are_scaled_to_a_total_up_to_their_bounds():
     assert pulled.tolist() == [-2.0, 2.0, 2.0, 4.0]
 
 
-def sides(touching, plastic, bounds, watched, at_bounds, at_upper):
+def sides(touching, bounds, watched, at_bounds, at_upper):
     """Sides of some nodes: watched ones come first, then those at a bound."""
     gap = np.concatenate([watched, at_bounds])
     return Sides(
         touching,
-        plastic,
         bounds,
         np.arange(gap.size),
         np.arange(gap.size) < len(watched),
@@ -82,7 +81,7 @@ def sides(touching, plastic, bounds, watched, at_bounds, at_upper):
 def test_nodes_that_pull_and_nodes_that_overlap_are_wrong():
     every, none = np.ones(3, dtype=bool), np.zeros(0, dtype=bool)
     watched, pressure = np.array([0.5, -0.5, 0.0, -3.0]), np.array([1.0, -0.5, 0.0])
-    beside = sides(every, ~every, ELASTIC, watched, np.empty(0), none)
+    beside = sides(every, ELASTIC, watched, np.empty(0), none)
     wrong = beside.wrong(pressure, beside.gap, slack=0.0)
     assert wrong.below.tolist() == [False, True, False]
     assert wrong.overlapping.tolist() == [False, True, False, True]
@@ -93,7 +92,7 @@ def test_nodes_that_pull_and_nodes_that_overlap_are_wrong():
 def test_nodes_above_the_hardness_and_nodes_at_it_that_come_apart_are_wrong():
     touching = np.array([True, False, True, False, False])
     held, pressure = np.array([0.5, 0.05, -1.0]), np.array([4.5, 3.0])
-    beside = sides(touching, ~touching, YIELDING, np.empty(0), held, np.ones(3, dtype=bool))
+    beside = sides(touching, YIELDING, np.empty(0), held, np.ones(3, dtype=bool))
     wrong = beside.wrong(pressure, beside.gap, slack=0.1)
     assert wrong.above.tolist() == [True, False, False, False, False]
     assert wrong.leaving.tolist() == [False, True, False, False, False]
@@ -106,7 +105,7 @@ def test_nodes_at_a_lower_bound_that_overlap_are_wrong():
     touching = np.array([True, False, False])
     held, pressure = np.array([0.5, -0.5]), np.array([-2.5])
     bounds = Bounds(np.full(1, -2.0), np.inf)
-    beside = sides(touching, touching & False, bounds, np.empty(0), held, np.zeros(2, dtype=bool))
+    beside = sides(touching, bounds, np.empty(0), held, np.zeros(2, dtype=bool))
     wrong = beside.wrong(pressure, beside.gap, slack=0.1)
     assert wrong.below.tolist() == [True, False, False]
     assert wrong.leaving.tolist() == [False, False, True]

@@ -150,26 +150,13 @@ def _within_bounds(carriers: Carriers, bounds: Bounds) -> Carriers:
 
 @dataclass(frozen=True, eq=False)
 class Wrong:
-    """Nodes on the wrong side of a set.
+    """Nodes on the wrong side of a set."""
 
-    Attributes
-    ----------
-    below, above : ndarray of bool, shape (carriers,)
-        Touching nodes whose pressure is beyond its lower bound, or its upper one.
-    leaving : ndarray of bool, shape (carriers,)
-        Nodes at a bound at which the gap has the wrong sign: above zero at the upper bound, below
-        it at a lower one.
-    overlapping : ndarray of bool, shape (watched,)
-        Nodes without pressure at which the bodies overlap.
-    off : ndarray, shape (leaving nodes,)
-        The gap there. [length]
-    """
-
-    below: Mask
-    above: Mask
-    leaving: Mask
-    overlapping: Mask
-    off: Real
+    below: Mask  # touching carriers whose pressure is beyond its lower bound
+    above: Mask  # and beyond its upper one
+    leaving: Mask  # carriers at a bound at which the gap has the wrong sign
+    overlapping: Mask  # watched nodes, without pressure, at which the bodies overlap
+    off: Real  # gap at those that leave, by its size [length]
 
     @property
     def count(self) -> int:
@@ -193,28 +180,13 @@ class Wrong:
 
 @dataclass(frozen=True, eq=False)
 class _Relaxation:
-    """Where conjugate gradients on the touching nodes of a trial ended.
+    """Where conjugate gradients on the touching nodes of a trial ended."""
 
-    Attributes
-    ----------
-    carriers : Carriers
-        The carriers of the trial, with the pressures after the steps.
-    wrong : Wrong
-        Nodes on the wrong side.
-    level : float
-        Approach since touch that goes with the pressures. [length]
-    largest_error : float
-        Largest displacement that is missing on the touching nodes; a pressure out of its bounds
-        counts as the displacement that it causes at its own node. [length]
-    steps : int
-        Steps done; each takes one product with the operator.
-    """
-
-    carriers: Carriers
+    carriers: Carriers  # with the pressures after the steps
     wrong: Wrong
-    level: float
-    largest_error: float
-    steps: int
+    level: float  # approach since touch that goes with the pressures [length]
+    largest_error: float  # displacement that is missing on the touching nodes [length]
+    steps: int  # each takes one product with the operator
 
 
 def _relaxed(
@@ -229,25 +201,9 @@ def _relaxed(
 ) -> _Relaxation:
     """Lead the pressures of a trial towards those that close the gap where bodies touch.
 
-    Parameters
-    ----------
-    trial, load : Trial, Load
-        The trial, and what is prescribed.
-    watched : ndarray of int
-        Nodes without pressure at which overlap is looked for.
-    rtol : float
-        Bound on the residuals.
-    precision : {"float64", "float32"}
-        Precision of the products.
-    most_steps : int
-        Bound on the steps.
-    to_tolerance : bool
-        Whether to go on to the tolerance, whatever is wrong with the sets of nodes.
-
-    Raises
-    ------
-    numpy.linalg.LinAlgError
-        If the operator is not positive definite.
+    Overlap is looked for at the watched nodes. With `to_tolerance` the steps go on to the
+    tolerance, whatever is wrong with the sets of nodes. LinAlgError is raised if the operator is
+    not positive definite.
     """
     diagonal = trial.region.problem.inverse.diagonal
     tolerance, most_steps = AIM * rtol * trial.length_scale, min(most_steps, MOST_STEPS)
@@ -272,6 +228,7 @@ def _relaxed(
     if not trial.touching.all():
         pressure = trial.carriers.pressure.copy()
         pressure[trial.touching] = gradients.pressure
+    # a pressure out of its bounds counts as the displacement that it causes at its own node
     largest = max(error, max(sides.bounds.missed(gradients.pressure)) * diagonal)
     carriers = Carriers(trial.carriers.places, pressure)
     return _Relaxation(carriers, wrong, level, largest, gradients.steps)
@@ -279,29 +236,14 @@ def _relaxed(
 
 @dataclass(frozen=True, eq=False)
 class Sides:
-    """The nodes of a trial beside its touching ones, and on which side each belongs.
+    """The nodes of a trial beside its touching ones, and on which side each belongs."""
 
-    Attributes
-    ----------
-    touching, plastic : ndarray of bool, shape (carriers,)
-        Which carriers are between their bounds, and at the upper one; the others are at a lower.
-    bounds : Bounds
-        Of the touching nodes.
-    places : ndarray of int
-        The nodes without pressure that are watched, and the carriers at a bound.
-    is_watched, is_plastic : ndarray of bool, shape (places,)
-        Which of them are watched, and which are at the upper bound.
-    gap : ndarray, shape (places,)
-        Gaps there, negative where bodies overlap. [length]
-    """
-
-    touching: Mask
-    plastic: Mask
-    bounds: Bounds
-    places: Indices
-    is_watched: Mask
-    is_plastic: Mask
-    gap: Real
+    touching: Mask  # carriers between their bounds
+    bounds: Bounds  # of the touching nodes
+    places: Indices  # nodes without pressure that are watched, and carriers at a bound
+    is_watched: Mask  # which of these places are watched
+    is_plastic: Mask  # and which are at the upper bound
+    gap: Real  # there, negative where bodies overlap [length]
 
     @classmethod
     def of(cls, trial: Trial, watched: Indices) -> Sides:
@@ -310,14 +252,14 @@ class Sides:
         bounds = trial.region.bounds.at(carriers.places[touching])
         if touching.all():
             every = np.ones(watched.size, dtype=bool)
-            return cls(touching, plastic, bounds, watched, every, ~every, trial.gap[watched])
+            return cls(touching, bounds, watched, every, ~every, trial.gap[watched])
         places, order = merged(watched, carriers.places[~touching])
         is_watched = order < watched.size
         is_plastic = np.zeros(places.size, dtype=bool)
         is_plastic[~is_watched] = plastic[~touching]
         gap = trial.gap[places]
         gap[is_plastic] -= trial.overlap
-        return cls(touching, plastic, bounds, places, is_watched, is_plastic, gap)
+        return cls(touching, bounds, places, is_watched, is_plastic, gap)
 
     def gradients(
         self, trial: Trial, precision: Precision, *, fixed_total: bool
@@ -352,15 +294,7 @@ class Sides:
         return float(outside @ outside + wrong @ wrong)
 
     def wrong(self, pressure: Real, gap: Real, slack: float) -> Wrong:
-        """Return the nodes on the wrong side of a set.
-
-        Parameters
-        ----------
-        pressure, gap : ndarray
-            Pressures on the touching nodes, and gaps of the others. [pressure] and [length]
-        slack : float
-            Gap up to which a node stays at its bound. [length]
-        """
+        """Return the nodes on the wrong side of a set; up to a slack, nodes stay at their bound."""
         below, above, leaving = np.zeros((3, self.touching.size), dtype=bool)
         below[self.touching] = pressure < self.bounds.low
         above[self.touching] = pressure > self.bounds.high
@@ -375,20 +309,10 @@ class _ExchangeRule:
 
     As long as their number falls, all of them do. Where it has not fallen for many rounds, only
     the wrong node of highest place does, which cannot cycle [4]_.
-
-    Parameters
-    ----------
-    points : int
-        Nodes of the region.
-
-    Attributes
-    ----------
-    wrong : int
-        Number of wrong nodes in the last round.
     """
 
     def __init__(self, points: int) -> None:
-        self.wrong = points
+        self.wrong = points  # in the last round
         self._fewest = points + 1
         self._rounds = 0  # since the last new minimum of wrong nodes
 
@@ -428,18 +352,9 @@ def exchanged(region: Region, carriers: Carriers, watched: Indices, wrong: Wrong
 
 
 class _StoppingRule:
-    """When a search is over, and the precisions of its products.
+    """When a search is over, and the precisions of its next residuals and of its next steps.
 
-    Parameters
-    ----------
-    method : Method
-        Tolerance and precision.
-
-    Attributes
-    ----------
-    residuals, steps : {"float64", "float32"}
-        Precision of the next residuals and of the next steps. Both may rise to the precision of
-        the certificate.
+    Both may rise to the precision of the certificate.
     """
 
     def __init__(self, method: Method) -> None:
@@ -455,17 +370,7 @@ class _StoppingRule:
         self.residuals = self._method.steps if rough else self._method.certificate
 
     def outcome(self, trial: Trial, rule: _ExchangeRule, *, spent: bool) -> Outcome | None:
-        """Say how the search ends with a trial, or None where it goes on.
-
-        Parameters
-        ----------
-        trial : Trial
-            With residuals in the precision of this rule.
-        rule : _ExchangeRule
-            How the exchange of nodes goes on.
-        spent : bool
-            Whether no more products are allowed.
-        """
+        """Say how the search ends with a trial, or None where it goes on."""
         if self.residuals != self._method.certificate:
             return None
         worst = trial.residuals.violation

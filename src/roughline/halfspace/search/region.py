@@ -31,26 +31,14 @@ _LARGEST = 0.4  # part of the grid that is a region by itself
 class Region:
     """Nodes among which a contact is sought; each is given by its place among them.
 
-    Attributes
-    ----------
-    problem : Problem
-        The bodies.
-    operator : CorrectedOperator
-        The displacements of the nodes.
-    separation : ndarray, shape (nodes,)
-        Distance of the bodies there. [length]
-    bounds : Bounds
-        Of the pressures there.
-    reach : float
-        All nodes are here where the bodies, as they are now, are nearer than this at first touch.
-        [length]
+    All nodes are here where the bodies, as they are now, are nearer than its reach at first touch.
     """
 
     problem: Problem
-    operator: CorrectedOperator
-    separation: Real
-    bounds: Bounds
-    reach: float
+    operator: CorrectedOperator  # for the displacements of the nodes
+    separation: Real  # distance of the bodies there [length]
+    bounds: Bounds  # of the pressures there
+    reach: float  # [length]
 
     @classmethod
     def whole(cls, problem: Problem) -> Region:
@@ -96,12 +84,8 @@ class Region:
     def near(self, trial: Trial, reach: float) -> tuple[Region, Carriers] | None:
         """Return the nodes near the contact of a trial as a region; None if that costs more.
 
-        Parameters
-        ----------
-        trial : Trial
-            A trial in this region, with the exact operator.
-        reach : float
-            Nodes off the contact are in it whose gap is below so many times the error on contact.
+        The trial is one in this region with the exact operator. Nodes off the contact are near
+        whose gap is below so many times the error on contact.
         """
         problem, carriers, grid = self.problem, trial.carriers, self.problem.grid.shape
         most = max(0, int(_LARGEST * math.prod(grid)) - carriers.places.size)
@@ -136,16 +120,8 @@ class Region:
     ) -> Trial:
         """Compute the gaps that pressures leave, and their residuals.
 
-        Parameters
-        ----------
-        load : Load
-            What is prescribed. Under a given force the pressures are scaled to it.
-        carriers : Carriers
-            The nodes under pressure.
-        precision : {"float64", "float32"}
-            Precision of the convolution.
-        rescale : bool
-            Whether to scale the pressures under a given depth, too, to those of least energy.
+        Under a given force the pressures are scaled to it. With `rescale` they are scaled under a
+        given depth, too, to those of least energy.
         """
         places, pressure = carriers.places, carriers.pressure
         bounds, touch = self.bounds.at(places), self.problem.touch
@@ -174,37 +150,17 @@ class Region:
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """Pressures in a region under a load, and what follows from them.
-
-    Attributes
-    ----------
-    region : Region
-        The region.
-    carriers : Carriers
-        The nodes under pressure.
-    touching, plastic : ndarray of bool, shape (carriers,)
-        Which of them are between their bounds, and at the upper one.
-    approach, force : float
-        Approach since the surfaces, as they are now, touch [length] and total force [force].
-    gap : ndarray, shape (nodes,)
-        Gap on the surface as the load indents it. [length]
-    overlap : ndarray, shape (plastic carriers,)
-        By how much it indents these. [length]
-    length_scale : float
-        Gaps are compared with this. [length]
-    residuals : Residuals
-        Violations of the contact conditions.
-    """
+    """Pressures in a region under a load, and what follows from them."""
 
     region: Region
-    carriers: Carriers
-    touching: Mask
-    plastic: Mask
-    approach: float
+    carriers: Carriers  # the nodes under pressure
+    touching: Mask  # those between their bounds
+    plastic: Mask  # those at the upper one
+    approach: float  # since the surfaces, as they are now, touch [length]
     force: float
-    gap: Real
-    overlap: Real
-    length_scale: float
+    gap: Real  # of all nodes of the region, on the surface as the load indents it [length]
+    overlap: Real  # by which it indents the plastic ones [length]
+    length_scale: float  # with which gaps are compared [length]
     residuals: Residuals
 
     @classmethod
@@ -288,12 +244,7 @@ class Trial:
     def close(self, reach: float, most: int) -> Indices:
         """Return the nodes without pressure whose gap is small, at most so many.
 
-        Parameters
-        ----------
-        reach : float
-            Small is less than so many times the error where the bodies touch.
-        most : int
-            How many nodes there may be.
+        Small is less than `reach` times the error where the bodies touch.
         """
         places = self.carriers.places
         on_contact = self.gap[places[self.touching | self.plastic]]
