@@ -94,7 +94,7 @@ def test_working_memory_is_kept_unless_it_is_much_or_may_be_half_at_work(monkeyp
     with pytest.raises(KeyboardInterrupt), working_memory():
         raise KeyboardInterrupt
     assert not workspace.nbytes
-    monkeypatch.setattr(kept, "_MOST_MEMORY", 95)
+    monkeypatch.setattr(kept, "MUCH", 95)
     with working_memory():
         workspace.zeros("grid", (3, 4), float)
         workspace.zeros("grid", (2, 2), float)

@@ -12,11 +12,10 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse import kept
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.operators import convolution
-from roughline.halfspace.operators.coarse_grid import CoarseGrid
+from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
 from roughline.halfspace.operators.grid_nodes import GridNodes
-from roughline.halfspace.operators.padded_grid import PaddedGrid
 from roughline.halfspace.operators.restricted import RestrictedOperator, RestrictedOperators
 from roughline.halfspace.search.region import Region
 from roughline.halfspace.search.turns import Turns

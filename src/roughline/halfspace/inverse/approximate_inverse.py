@@ -19,22 +19,19 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.linalg import blas, lapack
 
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Integers, Real, Single
 from roughline.halfspace.inverse import block_loops as loops
-from roughline.halfspace.inverse.blocks import BlockKernel, EvenOnBlocks
-from roughline.halfspace.inverse.direct import Direct
-from roughline.halfspace.inverse.even_sums import Lags, even_sums
 from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.even_sums import even_sums
 from roughline.halfspace.operators.grid_nodes import GridNodes, unit_in_single
 from roughline.halfspace.operators.loops import ROUNDING
 from roughline.halfspace.operators.restricted import RestrictedOperators
 
-_RADIUS = 2  # of the stencil in cells, where these are square
 _BLOCK = 16  # cells along the side of a block, where these are square
 _DIRECT = 300  # nodes or fewer, whose equations are solved directly
-_STRETCH = 4.0  # up to which stencil and blocks follow the shape of oblong cells
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,13 +48,13 @@ class ApproximateInverse:
         Coefficients of the stencil. All but the central one are negative, and together they weigh
         less than it, so the stencil cut to any set of nodes is positive definite.
         [pressure / length]
-    block_sides : tuple of int
-        Cells along the sides of the sides blocks.
     diagonal : float
         Diagonal of the operator: displacement of a node by the pressure on itself.
         [length / pressure]
-    block_kernel : BlockKernel
-        The kernel averaged over blocks.
+    block_sides : tuple of int
+        Cells along the sides of a block.
+    block_kernel : ndarray, shape of the lattice of blocks
+        The kernel averaged over two blocks, by their distance. [length / pressure]
     restricted : RestrictedOperators
         Forms of the operator that cost what the contact costs.
     """
@@ -65,9 +62,9 @@ class ApproximateInverse:
     operator: Convolution
     offsets: Indices
     taps: Real
-    block_sides: tuple[int, int]
     diagonal: float
-    block_kernel: BlockKernel
+    block_sides: tuple[int, int]
+    block_kernel: Real
     restricted: RestrictedOperators
 
     @classmethod
@@ -75,28 +72,26 @@ class ApproximateInverse:
         """Derive it from the operator's spectrum."""
         raised = _raised(operator)
         dx, dy = operator.spacing
-        stretch = float(np.clip(np.sqrt(dy / dx), 1 / _STRETCH, _STRETCH))
+        stretch = float(np.clip(np.sqrt(dy / dx), 0.25, 4.0))  # of stencil and blocks along x
         nx, ny = operator.shape
         sides = (
             min(max(1, round(_BLOCK * stretch)), nx),
             min(max(1, round(_BLOCK / stretch)), ny),
         )
-        lattice = -(-nx // sides[0]), -(-ny // sides[1])
+        corners = np.arange(0, nx, sides[0]), np.arange(0, ny, sides[1])
         offsets = _stencil_cells(operator, stretch)
         margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
         whole = operator.spectrum, operator.periods
-        reach = Lags((margins[0] + 1, margins[1] + 1))
+        reach = np.arange(margins[0] + 1), np.arange(margins[1] + 1)
         inverse = even_sums(*whole, reach, inverse=True)
         inverse /= float(operator.periods[0] * operator.periods[1]) ** 2
         return cls(
             operator,
             offsets,
             _stencil_taps(offsets, inverse),
+            float(even_sums(*whole, (np.zeros(1), np.zeros(1)))[0, 0]) + raised,
             sides,
-            float(even_sums(*whole, Lags((1, 1)))[0, 0]) + raised,
-            BlockKernel(
-                even_sums(*whole, Lags(lattice, sides)) + raised, operator.periods == operator.shape
-            ),
+            even_sums(*whole, corners, sides) + raised,
             RestrictedOperators(operator, (margins[0], margins[1] + ROUNDING)),
         )
 
@@ -109,6 +104,19 @@ class ApproximateInverse:
     def block_of_column(self) -> Integers:
         """Which block along a row of blocks each column of the grid belongs to."""
         return (np.arange(self.operator.shape[1]) // self.block_sides[1]).astype(np.int32)
+
+    @cached_property
+    def block_inverse(self) -> tuple[Real, tuple[int, int]]:
+        """Half of the spectrum of the inverse of the kernel of blocks, and its periods.
+
+        Cut short, the kernel may have eigenvalues that are too small.
+        """
+        (mx, my), kernel = self.block_kernel.shape, self.block_kernel
+        if self.operator.periods != self.operator.shape:
+            mx, my = max(1, 2 * mx - 2), max(1, 2 * my - 2)
+        x, y = (np.minimum(np.arange(n), -np.arange(n) % n) for n in (mx, my))
+        spectrum = fft.half_spectrum(kernel[x[:, np.newaxis], y]).real
+        return 1 / (np.maximum(spectrum, 0.1 * np.median(spectrum)) * mx * my), (mx, my)
 
     @cached_property
     def stencil(self) -> tuple[Integers, Single]:
@@ -143,7 +151,7 @@ def _raised(operator: Convolution) -> float:
 
 def _stencil_cells(operator: Convolution, stretch: float) -> Indices:
     """Return the cells of the stencil, counted from its centre."""
-    radii = _RADIUS * stretch, _RADIUS / stretch
+    radii = 2 * stretch, 2 / stretch
     reach = [
         np.arange(-min(int(radius), (period - 1) // 2), min(int(radius), (period - 1) // 2) + 1)
         for radius, period in zip(radii, operator.periods, strict=True)
@@ -168,24 +176,39 @@ Preconditioner = Callable[[Real], Real]
 
 def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> Preconditioner:
     """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
-    if nodes.indices.size <= _DIRECT:
-        return Direct(inverse.kernel, nodes)
-    return _TwoLevels(inverse, nodes)
+    return (_Direct if nodes.indices.size <= _DIRECT else _TwoLevels)(inverse, nodes)
+
+
+class _Direct:
+    """The inverse on few nodes, by a Cholesky factor.
+
+    LAPACK and BLAS are called without detours, for there are many such matrices and most are small.
+    """
+
+    def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
+        rows = np.repeat(nodes.rows, np.diff(nodes.starts))
+        matrix = np.empty((rows.size, rows.size))
+        loops.fill_triangle(inverse.kernel, rows, nodes.columns, matrix)
+        self._factor, failed = lapack.dpotrf(matrix.T, lower=1, clean=0, overwrite_a=1)
+        if failed:
+            raise np.linalg.LinAlgError("the matrix is not positive definite")
+
+    def __call__(self, residual: Real) -> Real:
+        """Return the change of pressure that causes the displacement `residual`."""
+        if not residual.size:
+            return residual
+        half = blas.dtrsv(self._factor, residual, lower=1)
+        return blas.dtrsv(self._factor, half, lower=1, trans=1, overwrite_x=1)
 
 
 class _TwoLevels:
     """The approximate inverse on many contact nodes."""
 
     def __init__(self, inverse: ApproximateInverse, nodes: GridNodes) -> None:
-        grid, sides, kernel = (
-            inverse.restricted.grid,
-            inverse.block_sides,
-            inverse.block_kernel.values,
-        )
+        grid, sides, kernel = inverse.restricted.grid, inverse.block_sides, inverse.block_kernel
         width = grid.values.shape[1]
-        bands = np.arange(kernel.shape[0] + 1) * sides[0]
         self._at = loops.Layout(
-            np.searchsorted(nodes.rows, bands),
+            np.searchsorted(nodes.rows, np.arange(len(kernel) + 1) * sides[0]),
             inverse.block_of_column,
             nodes.rows,
             nodes.starts,
@@ -194,31 +217,35 @@ class _TwoLevels:
             grid.margins[0] * width + grid.margins[1],
             width,
         )
-        self._grid = grid.values.reshape(-1)
-        self._stencil = inverse.stencil
-        nodes_of_band = nodes.indices.size / kernel.shape[0]
-        self._bands_at_a_time = max(1, int(fft.VALUES_AT_A_TIME / nodes_of_band))
-        count = np.empty(kernel.shape)
+        self._nodes, self._grid, self._stencil = nodes, grid, inverse.stencil
+        self._bands_at_a_time = max(1, fft.VALUES_AT_A_TIME * len(kernel) // nodes.indices.size)
+        count, full = np.empty(kernel.shape), float(kernel[0, 0])
         self._share_out(lambda first, last: loops.count_nodes(self._at, first, last, count))
         self._per_node = 1 / np.maximum(count, 1.0)
-        energy = count**2 * kernel[0, 0]
-        # as if the nodes of a block lay at random in it
-        energy += count * (1 - count / (sides[0] * sides[1])) * (inverse.diagonal - kernel[0, 0])
-        self._even = EvenOnBlocks(inverse.block_kernel, count, energy)
+        if not full > 0:
+            raise np.linalg.LinAlgError("the half-space is not positive definite")
+        # Each block counts by the energy of even pressure on its nodes, as if they lay at random.
+        alone = (1 - count / (sides[0] * sides[1])) * max(0.0, inverse.diagonal - full)
+        self._scale = 1 / np.sqrt(np.maximum(count * (count + alone / full), 1.0))
+        self._block_inverse = inverse.block_inverse
 
     def _share_out(self, work: Callable[[int, int], None]) -> None:
         """Do some work on all bands."""
-        bands = self._at.bands.size - 1
-        if self._bands_at_a_time >= bands:
-            work(0, bands)
-        else:
-            fft.share_out_blocks(work, bands, self._bands_at_a_time)
+        fft.share_out_blocks(work, self._at.bands.size - 1, self._bands_at_a_time)
+
+    def _even(self, sums: Real) -> Real:
+        """Return the pressure on the nodes of each block, from the sums of their residuals."""
+        (mx, my), (spectrum, periods) = sums.shape, self._block_inverse
+        padded = np.zeros(periods)
+        padded[:mx, :my] = sums * self._scale
+        modes = fft.half_spectrum(padded) * spectrum
+        return fft.synthesise(modes, periods[1])[:mx, :my] * self._scale
 
     def __call__(self, residual: Real) -> Real:
         """Return the change of pressure that causes the displacement `residual`, about."""
         if (unit := unit_in_single(residual)) != 1:
             return unit * self(residual / unit)
-        at, grid, per_node = self._at, self._grid, self._per_node
+        at, grid, per_node = self._at, self._grid.values.reshape(-1), self._per_node
         sums, result = np.empty(per_node.shape), np.empty(residual.size)
 
         def scatter(first: int, last: int) -> None:
@@ -230,5 +257,5 @@ class _TwoLevels:
         self._share_out(scatter)
         even = self._even(sums), per_node
         self._share_out(apply)
-        self._share_out(lambda first, last: loops.clear_nodes(at, first, last, grid))
+        self._grid.clear(self._nodes)
         return result

@@ -11,29 +11,17 @@ from roughline.computing.compiled import compiled
 
 
 class Layout(NamedTuple):
-    """Where contact nodes lie: in a flat grid with margins, and in blocks.
+    """Where contact nodes lie: in a flat grid with margins, and in blocks."""
 
-    Attributes
-    ----------
-    bands : ndarray of int, shape (bands + 1,)
-        Where in `rows` each band begins.
-    blocks : ndarray of int
-        The block of its band to which each column belongs.
-    rows, starts, columns : ndarray of int
-        As those of :class:`roughline.halfspace.operators.grid_nodes.GridNodes`.
-    first_run, runs : ndarray of int
-        Its runs.
-    corner, width : int
-        Place of the first row and column in the flat grid, and the places from one row to the next.
-    """
-
-    bands: Indices
-    blocks: Integers
+    bands: Indices  # where in `rows` each band begins, and one more
+    blocks: Integers  # of a band, for each column
+    # as those of the nodes, and their runs
     rows: Indices
     starts: Indices
     columns: Integers
     first_run: Indices
     runs: Integers
+    # place of the first node in the flat grid, and the places from one row to the next
     corner: int
     width: int
 
@@ -115,9 +103,12 @@ def apply_stencil(
 
 
 @compiled
-def clear_nodes(at: Layout, first: int, last: int, grid: Floats) -> None:
-    """Set a flat grid to zero at the nodes of some bands."""
-    for k in range(at.bands[first], at.bands[last]):
-        for run in range(at.first_run[k], at.first_run[k + 1]):
-            place = at.corner + at.rows[k] * at.width + at.columns[at.runs[run, 0]]
-            grid[place : place + at.runs[run, 2]] = 0
+def fill_triangle(kernel: Floats, rows: Integers, columns: Integers, matrix: Real) -> None:
+    """Fill the upper triangle with the kernel at the distances of nodes.
+
+    Its diagonal is raised, as the kernel comes in single precision.
+    """
+    for i in range(rows.size):
+        for j in range(i + 1, rows.size):
+            matrix[i, j] = kernel[abs(rows[i] - rows[j]), abs(columns[i] - columns[j])]
+        matrix[i, i] = (1 + 1e-6) * kernel[0, 0]

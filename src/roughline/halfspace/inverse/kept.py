@@ -9,12 +9,9 @@ from contextlib import contextmanager
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
 from roughline.halfspace.operators.discretisation import on_grid
-from roughline.halfspace.operators.workspace import Workspace
+from roughline.halfspace.operators.workspace import MUCH, Workspace
 
-# Working memory that is kept after a press, and tables of all grids that are: enough for
-# 1024 x 1024 points and the coarser grids that lead them. [bytes]
-_MOST_MEMORY = 2**26
-_MOST_TABLES = 2**25
+_MOST_TABLES = 2**25  # enough for 1024 x 1024 points and the coarser grids that lead them [bytes]
 
 
 class _Kept(threading.local):
@@ -37,13 +34,13 @@ def working_memory() -> Iterator[None]:
 
     After an exception it is given up in any case, as it may be half at work.
     """
-    sound = False
     try:
         yield
-        sound = True
-    finally:
-        if not sound or _kept.workspace.nbytes > _MOST_MEMORY:
-            _kept.workspace.give_up()
+    except BaseException:
+        _kept.workspace.give_up()
+        raise
+    if _kept.workspace.nbytes > MUCH:
+        _kept.workspace.give_up()
 
 
 def inverse_on(
@@ -51,32 +48,23 @@ def inverse_on(
 ) -> ApproximateInverse:
     """Return the approximate inverse of a grid's operator, and with it the operator.
 
-    They work in the memory of this thread. They are kept for the next who asks for the same grid,
-    as far as they have room.
-
-    Parameters
-    ----------
-    half_space, shape, spacing
-        As for :func:`roughline.halfspace.operators.discretisation.on_grid`.
+    They work in the memory of this thread, and are kept for the next who asks for the same grid, as
+    far as they have room. Those of a half-space that holds an array, and so has no hash, are not.
     """
     kept, grid = _kept.inverses, (half_space, shape, spacing)
-    inverse = kept.pop(grid, None) if _has_hash(half_space) else None
-    if inverse is None:
-        inverse = ApproximateInverse.of(on_grid(half_space, shape, spacing, _kept.workspace))
-    if _has_hash(half_space) and inverse.nbytes <= _MOST_TABLES:
+    try:
+        hash(grid)
+    except TypeError:
+        return _made(*grid)
+    inverse = kept.pop(grid, None) or _made(*grid)
+    if inverse.nbytes <= _MOST_TABLES:
         kept[grid] = inverse
-        room = _MOST_TABLES
-        for other in reversed(list(kept)):
-            room -= kept[other].nbytes
-            if room < 0:
-                del kept[other]
+        while sum(each.nbytes for each in kept.values()) > _MOST_TABLES:
+            del kept[next(iter(kept))]
     return inverse
 
 
-def _has_hash(half_space: HalfSpace) -> bool:
-    """Whether an equal half-space can be found again; one that holds an array cannot."""
-    try:
-        hash(half_space)
-    except TypeError:
-        return False
-    return True
+def _made(
+    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+) -> ApproximateInverse:
+    return ApproximateInverse.of(on_grid(half_space, shape, spacing, _kept.workspace))

@@ -15,14 +15,43 @@ from typing import Any
 import numpy as np
 
 from roughline.computing import fft
-from roughline.computing.arrays import Indices, Real, Single
+from roughline.computing.arrays import Real, Single
 from roughline.halfspace.operators import restricted_loops as loops
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes
-from roughline.halfspace.operators.padded_grid import PaddedGrid
+from roughline.halfspace.operators.workspace import Workspace
 
 _SMALL = 2**18  # modes, up to which one thread transforms all sooner than two share them
 _BEYOND = 3  # coarse nodes that splines reach beyond the grid
+
+
+@dataclass(frozen=True, eq=False)
+class PaddedGrid:
+    """Memory for values on a grid with a margin along x and y; zero when not in use."""
+
+    values: Single
+    margins: tuple[int, int]
+
+    @classmethod
+    def of(
+        cls, shape: tuple[int, int], margins: tuple[int, int], workspace: Workspace
+    ) -> PaddedGrid:
+        """Put a margin around a grid."""
+        padded = shape[0] + 2 * margins[0], shape[1] + 2 * margins[1]
+        return cls(workspace.zeros("padded grid", padded, np.float32), margins)
+
+    def wrap(self) -> None:
+        """Fill the margin with what lies a period away."""
+        for values, margin in zip((self.values, self.values.T), self.margins, strict=True):
+            values[:margin] = values[-2 * margin : -margin]
+            values[-margin:] = values[margin : 2 * margin]
+
+    def clear(self, nodes: GridNodes, *, wrapped: bool = False) -> None:
+        """Set the nodes to zero, and the margin where it was filled."""
+        loops.clear_runs(nodes.rows, nodes.columns, *nodes.runs, self.values, self.margins)
+        if wrapped:
+            for values, margin in zip((self.values, self.values.T), self.margins, strict=True):
+                values[:margin] = values[-margin:] = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,8 +116,8 @@ class CoarseGrid:
         along, across = self.weights[1], self.weights[0]
 
         def spread_along(first: int, last: int) -> None:
-            rows = first, last
-            loops.spread_along_rows(pressure, sources.listed, along, rows, *grid.parts, lines)
+            parts = (first, last), grid.values, grid.margins, lines
+            loops.spread_along_rows(pressure, sources.listed, along, *parts)
 
         def spread_across(first: int, last: int) -> None:
             loops.spread_across_rows(lines, place, across, first, last, spread)
@@ -116,19 +145,6 @@ class CoarseGrid:
         result: Any = out
         self.convolution.displacement(values, self._everywhere, None, "float32", result)
         return out
-
-
-def at_cells(
-    spectrum: Real, periods: tuple[int, int], ratios: tuple[int, int], lags: list[Indices]
-) -> Real:
-    """Transform the quarter of an even spectrum back, to cells of a finer grid along x and y."""
-    result = spectrum
-    for axis, period in enumerate(periods):
-        modes = np.arange(period // 2 + 1)
-        weights = np.where((modes == 0) | (2 * modes == period), 1.0, 2.0)
-        cosines = np.cos(2 * np.pi / (period * ratios[axis]) * np.outer(lags[axis], modes))
-        result = np.moveaxis(np.tensordot(weights * cosines, result, axes=(1, axis)), 0, axis)
-    return result
 
 
 def _folded(values: Single) -> Single:

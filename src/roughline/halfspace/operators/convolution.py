@@ -126,6 +126,7 @@ class Convolution:
             assert self.half_space is not None
             out[:] = displaced_by_pairs(self.half_space, self.spacing, pressure, sources, targets)
         else:
+            out[:] = 0
             for odd in range(self._parts(precision)):
                 self._transform(pressure, sources, targets, precision, out, odd)
         return out
@@ -139,7 +140,7 @@ class Convolution:
         result: Real,
         odd: int,
     ) -> None:
-        """Write to `result` what all modes along y displace, or the even ones; add odd ones.
+        """Add to `result` what all modes along y displace, or the even ones, or the odd ones.
 
         Rows without pressure or targets are not transformed. Two real rows make one complex row.
         Rows come first, then columns block by block (separate, pad, transform, multiply, transform
@@ -153,7 +154,7 @@ class Convolution:
         turns = np.exp(2j * np.pi / my * np.arange(ny)).astype(modes.dtype) if odd else None
 
         def transform_rows(first: int, last: int) -> None:
-            loops.scatter_pairs(pressure, sources.starts, sources.columns, first, last, real_modes)
+            loops.scatter_pairs(pressure, *sources.listed[:2], first, last, real_modes)
             if turns is not None:
                 modes[first:last, :ny] *= turns.conj()
             fft.fft_rows(modes[first:last, :period], forward=True)
@@ -172,10 +173,9 @@ class Convolution:
             if turns is not None:
                 modes[first:last, :ny] *= turns
             if targets is None:
-                loops.gather_rows(real_modes, first, last, bool(odd), result)
+                loops.gather_rows(real_modes, first, last, result)
             else:
-                places = targets.starts, targets.columns
-                loops.gather_pairs(real_modes, *places, first, last, bool(odd), result)
+                loops.gather_pairs(real_modes, *targets.listed[:2], first, last, result)
 
         at_a_time = max(mx, my) if mx * my <= _SMALL else fft.LINES_AT_A_TIME
         pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2

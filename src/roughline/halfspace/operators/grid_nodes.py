@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.operators.loops import find_runs, list_rows
+from roughline.halfspace.operators.loops import ROUNDING, list_rows
 
 Precision = Literal["float32", "float64"]
 
-_APART = 8  # columns between nodes that belong to one run, at most
 _SMALL_IN_SINGLE = 1e-20  # single precision ends at 1e-38, and transforms divide by their size
 
 
@@ -72,13 +71,16 @@ class GridNodes:
         """Where the runs of neighbouring nodes of each row begin, and the runs.
 
         For each run: its first node, the node after its last one, and the columns that it takes,
-        rounded up to eight.
+        rounded up. Neighbours in a run are no further apart than that.
         """
-        most = self.rows.size + int(np.count_nonzero(np.diff(self.columns) > _APART))
-        runs = np.empty((most, 3), dtype=np.int32)
-        first_run = np.empty(self.rows.size + 1, dtype=np.intp)
-        find_runs(self.starts, self.columns, _APART, runs, first_run)
-        return first_run, runs[: first_run[-1]].copy()
+        is_last = np.ones(self.columns.size, dtype=bool)
+        is_last[:-1] = np.diff(self.columns) > ROUNDING
+        is_last[self.starts[1:] - 1] = True
+        ends = np.flatnonzero(is_last) + 1
+        begins = np.append(0, ends)[:-1]
+        widths = (self.columns[ends - 1] - self.columns[begins]) // ROUNDING * ROUNDING + ROUNDING
+        runs = np.stack([begins, ends, widths], axis=1).astype(np.int32)
+        return np.searchsorted(begins, self.starts), runs
 
 
 def unit_in_single(values: Real) -> float:

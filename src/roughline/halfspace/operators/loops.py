@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
 
@@ -31,28 +33,6 @@ def list_rows(
 
 
 @compiled
-def find_runs(
-    starts: Integers, columns: Integers, apart: int, runs: Integers, first_run: Integers
-) -> None:
-    """List runs of nodes in a row of which neighbours are no further apart.
-
-    For each run its first node, the node after the last one, and the columns from the first node to
-    the last, rounded up, are written, and where the runs of each row begin.
-    """
-    count = 0
-    for row in range(starts.size - 1):
-        first_run[row] = count
-        begin = starts[row]
-        for i in range(starts[row], starts[row + 1]):
-            if i + 1 == starts[row + 1] or columns[i + 1] - columns[i] > apart:
-                runs[count, 0], runs[count, 1] = begin, i + 1
-                runs[count, 2] = (columns[i] - columns[begin] + ROUNDING) // ROUNDING * ROUNDING
-                begin = i + 1
-                count += 1
-    first_run[starts.size - 1] = count
-
-
-@compiled
 def scatter_pairs(
     values: Floats, starts: Integers, columns: Integers, first: int, last: int, pairs: Floats
 ) -> None:
@@ -72,43 +52,25 @@ def scatter_pairs(
 
 @compiled
 def gather_pairs(
-    pairs: Floats,
-    starts: Integers,
-    columns: Integers,
-    first: int,
-    last: int,
-    added: bool,
-    values: Floats,
+    pairs: Floats, starts: Integers, columns: Integers, first: int, last: int, values: Floats
 ) -> None:
-    """Read back the values that scatter_pairs wrote, or add them to others."""
+    """Add to values what stands where scatter_pairs would write them."""
     for row in range(2 * first, min(2 * last, starts.size - 1)):
         for i in range(starts[row], starts[row + 1]):
-            value = pairs[row // 2, columns[i], row % 2]
-            values[i] = values[i] + value if added else value
+            values[i] += pairs[row // 2, columns[i], row % 2]
 
 
 @compiled
-def gather_rows(pairs: Floats, first: int, last: int, added: bool, field: Floats) -> None:
-    """Read back whole rows, cropped to the field, or add them to it."""
+def gather_rows(pairs: Floats, first: int, last: int, field: Floats) -> None:
+    """Add to a field whole rows, cropped to its columns."""
     for row in range(2 * first, min(2 * last, field.shape[0])):
         for column in range(field.shape[1]):
-            value = pairs[row // 2, column, row % 2]
-            field[row, column] = field[row, column] + value if added else value
+            field[row, column] += pairs[row // 2, column, row % 2]
 
 
 @compiled
 def leave_gaps(field: Floats, separation: Floats, touch: float, approach: float) -> None:
-    """Turn displacements into the gaps that are left of a separation, node by node.
-
-    Parameters
-    ----------
-    field : ndarray, shape (nodes,)
-        Displacements, overwritten with gaps. [length]
-    separation : ndarray, shape (nodes,)
-        Distance of the bodies before. [length]
-    touch, approach : float
-        Least separation, and approach beyond it. [length]
-    """
+    """Turn displacements into gaps, for a separation, its least value, and an approach from it."""
     for i in range(field.size):
         field[i] = field[i] + (separation[i] - touch) - approach
 
@@ -161,33 +123,18 @@ def weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
 
 
 @compiled
-def fold_rows(rows: Floats, weights: Floats, places: Integers, sums: Floats) -> None:
-    """Add the weighted values of each row to the places of its sums."""
-    for i in range(rows.shape[0]):
-        for j in range(rows.shape[1]):
-            sums[i, places[j]] += weights[j] * rows[i, j]
-
-
-@compiled
 def store_columns(
     columns: Floats, rows: Integers, first: int, odd: int, pairs: Floats, period: int
 ) -> None:
     """Join two real rows into each complex one: the inverse of load_columns, for some rows."""
+    none = np.zeros_like(columns[0])
     for pair in range((rows.size + 1) // 2):
         z = pairs[pair]
         a = columns[rows[2 * pair]]
-        if 2 * pair + 1 < rows.size:
-            b = columns[rows[2 * pair + 1]]
-            for j in range(columns.shape[1]):
-                mirror = period - odd - first - j if first + j + odd else 0
-                z[mirror, 0] = a[j, 0] + b[j, 1]
-                z[mirror, 1] = b[j, 0] - a[j, 1]
-                z[first + j, 0] = a[j, 0] - b[j, 1]
-                z[first + j, 1] = a[j, 1] + b[j, 0]
-        else:
-            for j in range(columns.shape[1]):
-                mirror = period - odd - first - j if first + j + odd else 0
-                z[mirror, 0] = a[j, 0]
-                z[mirror, 1] = -a[j, 1]
-                z[first + j, 0] = a[j, 0]
-                z[first + j, 1] = a[j, 1]
+        b = columns[rows[2 * pair + 1]] if 2 * pair + 1 < rows.size else none
+        for j in range(columns.shape[1]):
+            mirror = period - odd - first - j if first + j + odd else 0
+            z[mirror, 0] = a[j, 0] + b[j, 1]
+            z[mirror, 1] = b[j, 0] - a[j, 1]
+            z[first + j, 0] = a[j, 0] - b[j, 1]
+            z[first + j, 1] = a[j, 1] + b[j, 0]

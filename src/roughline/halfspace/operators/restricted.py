@@ -24,11 +24,11 @@ from scipy.special import erfc
 from roughline.computing import fft
 from roughline.computing.arrays import Indices, Real, Single
 from roughline.halfspace.operators import restricted_loops as loops
-from roughline.halfspace.operators.coarse_grid import CoarseGrid, at_cells
+from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
 from roughline.halfspace.operators.convolution import Convolution
+from roughline.halfspace.operators.even_sums import even_sums
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.operators.loops import ROUNDING
-from roughline.halfspace.operators.padded_grid import PaddedGrid
 
 _WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
 _RADIUS = 2.25  # of the near part, in cells of the coarse grid
@@ -80,9 +80,9 @@ class RestrictedOperator:
         q_small = np.array([_NEARLY_EVEN * 2 * np.pi / max(px * dx, py * dy)])
         limit = float((q_small * operator.half_space.spectrum(q_small))[0]) / (px * py)
         smooth[0, 0] -= limit * _WIDTH * side / np.sqrt(np.pi)
-        lags = [np.arange(int(_RADIUS * side / spacing) + 1) for spacing in (dx, dy)]
-        near = at_cells(operator.spectrum, operator.periods, (1, 1), lags)
-        near -= at_cells(smooth, coarse, ratios, lags)
+        lags = np.arange(int(_RADIUS * side / dx) + 1), np.arange(int(_RADIUS * side / dy) + 1)
+        near = even_sums(operator.spectrum, operator.periods, lags)
+        near -= even_sums(smooth, coarse, (lags[0] / rx, lags[1] / ry))
         inside = np.hypot(lags[0][:, np.newaxis] * dx, lags[1] * dy) <= _RADIUS * side
         near[~inside] = 0
         # what the cut leaves out, far more where the body has a length of its own, is smooth
@@ -123,14 +123,13 @@ class RestrictedOperator:
         result = np.empty(targets.indices.size, dtype=np.float32)
 
         def add(first: int, last: int) -> None:
-            near, rows = (self.taps, self.reach), (first, last)
-            loops.add_near_and_far(*grid.parts, near, moved, self.far.weights, nodes, rows, result)
+            near, far = (self.taps, self.reach), (moved, self.far.weights)
+            parts = grid.values, grid.margins, near, *far, nodes, (first, last), result
+            loops.add_near_and_far(*parts)
 
         rows_at_a_time = targets.rows_of(_SUMS_AT_A_TIME // self.taps.size)
         fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
-        loops.clear_grid(sources.listed, *grid.parts)
-        if self.far.periodic:
-            grid.clear_margin()
+        grid.clear(sources, wrapped=self.far.periodic)
         return np.multiply(result, unit, out=out)
 
 

@@ -42,13 +42,20 @@ def spread_along_rows(
 
 
 @compiled
-def clear_grid(nodes: Nodes, grid: Floats, margins: Margins) -> None:
-    """Set to zero what :func:`spread_along_rows` wrote to the grid."""
-    starts, columns, rows = nodes
+def clear_runs(
+    rows: Integers,
+    columns: Integers,
+    first_run: Integers,
+    runs: Integers,
+    grid: Floats,
+    margins: Margins,
+) -> None:
+    """Set a grid with margins to zero where there are runs of nodes."""
     for k in range(rows.size):
         places = grid[rows[k] + margins[0]]
-        for i in range(starts[k], starts[k + 1]):
-            places[columns[i] + margins[1]] = 0.0
+        for run in range(first_run[k], first_run[k + 1]):
+            start = columns[runs[run, 0]] + margins[1]
+            places[start : start + runs[run, 2]] = 0
 
 
 @compiled
