@@ -24,6 +24,13 @@ _PATIENCE = 10  # exchanges of whole sets that may not help
 LOW, BETWEEN, HIGH = 0, 1, 2  # where a pressure is between its bounds
 
 
+def love_matrix(shape: tuple[int, int], spacing: tuple[float, float]) -> np.ndarray:
+    """Displacements of all cells of a grid under unit pressures on single ones, for E* = 1."""
+    x, y = (each.ravel() for each in np.indices(shape))
+    table = love(np.arange(shape[0]), np.arange(shape[1]), *spacing)
+    return table[abs(x[:, None] - x), abs(y[:, None] - y)]
+
+
 @dataclass(frozen=True)
 class Body:
     """Heights on a grid over a half-space."""
@@ -49,8 +56,7 @@ class Body:
         index = [each.ravel() for each in np.indices(shape)]
         dx, dy = (size / n for size, n in zip(self.sizes, shape, strict=True))
         if not self.periodic:
-            x, y = index[0] * dx, index[1] * dy
-            return love(x[:, None] - x, y[:, None] - y, dx, dy) / self.E_star
+            return love_matrix(shape, (dx, dy)) / self.E_star
         q = [2 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(shape, (dx, dy), strict=True)]
         magnitude = np.hypot(q[0][:, None], q[1])
         magnitude[0, 0] = np.inf

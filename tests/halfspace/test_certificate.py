@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.halfspace.elasticity.kernel import love
+from halfspace.dense_contact import love_matrix
 from roughline.halfspace.operators import discretisation
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.search import active_set
@@ -18,8 +18,7 @@ FORCES = [0.05, 0.5, 3.0]
 
 
 def dense_kernel():
-    x, y = (s * i.ravel() for s, i in zip(SURFACE.spacing, np.indices((24, 24)), strict=True))
-    return love(x[:, None] - x, y[:, None] - y, *SURFACE.spacing)
+    return love_matrix((24, 24), SURFACE.spacing)
 
 
 def assert_true_where_certified(curve):

@@ -11,7 +11,7 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import brentq, nnls
 
 import roughline as rl
-from roughline.halfspace.elasticity.kernel import love
+from halfspace.dense_contact import love_matrix
 
 N = 16
 SIZES = (1.0, 1.6)
@@ -43,8 +43,7 @@ BODIES = {
 
 
 def free_matrix():
-    x, y = ((i * s / N).ravel() for i, s in zip(np.indices((N, N)), SIZES, strict=True))
-    return love(x[:, None] - x, y[:, None] - y, SIZES[0] / N, SIZES[1] / N) / E_STAR
+    return love_matrix((N, N), (SIZES[0] / N, SIZES[1] / N)) / E_STAR
 
 
 def periodic_matrix():

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
@@ -53,9 +55,10 @@ class Homogeneous(HalfSpace):
     def kernel(self, first: int, spacing: tuple[float, float], rows: Real) -> None:
         """Fill rows of the table of displacements under unit pressure on one cell."""
         # here because compiled loops load slowly
-        from roughline.halfspace.elasticity.kernel import love_rows
+        from roughline.halfspace.elasticity.kernel import love
 
-        love_rows(first, *spacing, 1 / self.E_star, rows)
+        along_x, along_y = (np.arange(n) for n in rows.shape)
+        love(first + along_x, along_y, *spacing, 1 / self.E_star, rows)
 
     def in_units(self, pressure: float, length: float) -> Homogeneous:
         """Return the same half-space in other units; it has no length of its own to be scaled."""

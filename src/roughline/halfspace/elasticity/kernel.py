@@ -28,47 +28,33 @@ _FAR = 16.0
 _MULTIPOLES = 5  # beside the first
 
 
-def love(x: ArrayLike, y: ArrayLike, dx: float, dy: float) -> Real:
+def love(
+    x: ArrayLike, y: ArrayLike, dx: float, dy: float, factor: float = 1.0, out: Real | None = None
+) -> Real:
     """Displacement per unit pressure on one cell, for E* = 1.
 
     Parameters
     ----------
-    x, y : array_like
-        Offsets from the centre of the loaded cell; broadcast together. [length]
+    x, y : array_like, 1-D
+        Offsets along x and along y from the centre of the loaded cell, in cells; not negative, and
+        those along y ascending.
     dx, dy : float
         Sides of the loaded cell. [length]
+    factor : float, optional
+        Factor on the displacements.
+    out : ndarray, optional
+        Where to write the result.
 
     Returns
     -------
-    ndarray
+    ndarray, shape (x.size, y.size)
         ``(1 / pi) * integral of 1/r over the cell``, accurate to about 1e-15. [length]
     """
-    unit = max(dx, dy)
-    x, y = np.broadcast_arrays(
-        np.abs(x).astype(np.float64) / unit, np.abs(y).astype(np.float64) / unit
-    )
-    result, sides = np.empty(x.shape), (dx / unit, dy / unit)
-    _fill_points(x.ravel(), y.ravel(), *sides, _multipoles(*sides), result.reshape(-1))
-    return result * (unit / np.pi)
-
-
-def love_rows(first: int, dx: float, dy: float, factor: float, rows: Real) -> None:
-    """Fill rows of a table with displacements by the offset in cells, times a factor.
-
-    Parameters
-    ----------
-    first : int
-        Offset along x of the first of the rows, in cells.
-    dx, dy : float
-        Sides of the loaded cell. [length]
-    factor : float
-        Factor on :func:`love`.
-    rows : ndarray
-        Overwritten.
-    """
-    unit = max(dx, dy)
+    x, y, unit = np.asarray(x, np.float64), np.asarray(y, np.float64), max(dx, dy)
+    out = np.empty((x.size, y.size)) if out is None else out
     sides = dx / unit, dy / unit
-    _fill_rows(first, *sides, _multipoles(*sides), factor * unit / np.pi, rows)
+    _fill(x * sides[0], y * sides[1], *sides, _multipoles(*sides), factor * unit / np.pi, out)
+    return out
 
 
 @lru_cache
@@ -101,28 +87,18 @@ def _multipoles(dx: float, dy: float) -> Real:
 
 
 @compiled
-def _fill_points(
-    x: Floats, y: Floats, dx: float, dy: float, multipoles: Floats, out: Floats
+def _fill(
+    x: Floats, y: Floats, dx: float, dy: float, multipoles: Floats, factor: float, rows: Floats
 ) -> None:
-    for i in range(out.size):
-        if x[i] ** 2 + y[i] ** 2 < _FAR**2:
-            out[i] = _near(x[i], y[i], dx, dy)
-        else:
-            out[i] = dx * dy * _series(_in_powers(x[i], multipoles), x[i], y[i])
-
-
-@compiled
-def _fill_rows(
-    first: int, dx: float, dy: float, multipoles: Floats, factor: float, rows: Floats
-) -> None:
-    for i in range(rows.shape[0]):
-        x, row = (first + i) * dx, rows[i]
-        near = math.ceil(math.sqrt(max(_FAR**2 - x**2, 0.0)) / dy)
-        for j in range(min(near, row.size)):
-            row[j] = factor * _near(x, j * dy, dx, dy)
-        powers, share = _in_powers(x, multipoles), factor * dx * dy
-        for j in range(near, row.size):
-            row[j] = share * _series(powers, x, j * dy)
+    for i in range(x.size):
+        row = rows[i]
+        near = np.searchsorted(y, math.sqrt(max(_FAR**2 - x[i] ** 2, 0.0)))
+        for j in range(near):
+            row[j] = factor * _near(x[i], y[j], dx, dy)
+        powers, share = _in_powers(x[i], multipoles), factor * dx * dy
+        beyond, far = y[near:], row[near:]
+        for j in range(far.size):
+            far[j] = share * _series(powers, x[i], beyond[j])
 
 
 @compiled
