@@ -42,15 +42,12 @@ class ApproximateInverse:
     ----------
     operator : Convolution
         Displacement under pressures on the whole grid.
-    offsets : ndarray of int, shape (taps, 2)
-        Cells from the centre of the stencil.
-    taps : ndarray, shape (taps,)
-        Coefficients of the stencil. All but the central one are negative, and together they weigh
-        less than it, so the stencil cut to any set of nodes is positive definite.
-        [pressure / length]
+    offsets, taps : ndarray, shapes (taps, 2) and (taps,)
+        Cells from the centre of the stencil, and its coefficients. All but the central one are
+        negative, and together they weigh less than it, so the stencil cut to any set of nodes is
+        positive definite. [pressure / length]
     diagonal : float
-        Diagonal of the operator: displacement of a node by the pressure on itself.
-        [length / pressure]
+        Displacement of a node by the pressure on itself. [length / pressure]
     block_sides : tuple of int
         Cells along the sides of a block.
     block_kernel : ndarray, shape of the lattice of blocks
@@ -70,40 +67,27 @@ class ApproximateInverse:
     @classmethod
     def of(cls, operator: Convolution) -> ApproximateInverse:
         """Derive it from the operator's spectrum."""
-        raised = _raised(operator)
-        dx, dy = operator.spacing
+        (nx, ny), (dx, dy) = operator.shape, operator.spacing
         stretch = float(np.clip(np.sqrt(dy / dx), 0.25, 4.0))  # of stencil and blocks along x
-        nx, ny = operator.shape
-        sides = (
-            min(max(1, round(_BLOCK * stretch)), nx),
-            min(max(1, round(_BLOCK / stretch)), ny),
-        )
+        offsets, taps = _stencil(operator, stretch)
+        reach_x, reach_y = (int(each) for each in abs(offsets).max(axis=0))
+        sides = min(round(_BLOCK * stretch), nx), min(round(_BLOCK / stretch), ny)
         corners = np.arange(0, nx, sides[0]), np.arange(0, ny, sides[1])
-        offsets = _stencil_cells(operator, stretch)
-        margins = int(abs(offsets[:, 0]).max()), int(abs(offsets[:, 1]).max())
-        whole = operator.spectrum, operator.periods
-        reach = np.arange(margins[0] + 1), np.arange(margins[1] + 1)
-        inverse = even_sums(*whole, reach, inverse=True)
-        inverse /= float(operator.periods[0] * operator.periods[1]) ** 2
+        whole, origin = (operator.spectrum, operator.periods), (np.zeros(1), np.zeros(1))
         return cls(
             operator,
             offsets,
-            _stencil_taps(offsets, inverse),
-            float(even_sums(*whole, (np.zeros(1), np.zeros(1)))[0, 0]) + raised,
+            taps,
+            float(even_sums(*whole, origin)[0, 0]) + _raised(operator),
             sides,
-            even_sums(*whole, corners, sides) + raised,
-            RestrictedOperators(operator, (margins[0], margins[1] + ROUNDING)),
+            even_sums(*whole, corners, sides) + _raised(operator),
+            RestrictedOperators(operator, (reach_x, reach_y + ROUNDING)),
         )
 
     @property
     def nbytes(self) -> int:
         """Memory of its tables and those of the operator, the kernel among them. [bytes]"""
         return self.operator.spectrum.nbytes + 4 * self.operator.shape[0] * self.operator.shape[1]
-
-    @cached_property
-    def block_of_column(self) -> Integers:
-        """Which block along a row of blocks each column of the grid belongs to."""
-        return (np.arange(self.operator.shape[1]) // self.block_sides[1]).astype(np.int32)
 
     @cached_property
     def block_inverse(self) -> tuple[Real, tuple[int, int]]:
@@ -149,25 +133,20 @@ def _raised(operator: Convolution) -> float:
     return float(operator.spectrum.max()) if operator.mean_is_free else 0.0
 
 
-def _stencil_cells(operator: Convolution, stretch: float) -> Indices:
-    """Return the cells of the stencil, counted from its centre."""
-    radii = 2 * stretch, 2 / stretch
-    reach = [
-        np.arange(-min(int(radius), (period - 1) // 2), min(int(radius), (period - 1) // 2) + 1)
-        for radius, period in zip(radii, operator.periods, strict=True)
-    ]
-    x, y = (cells.ravel() for cells in np.meshgrid(*reach, indexing="ij"))
+def _stencil(operator: Convolution, stretch: float) -> tuple[Indices, Real]:
+    """Return the inverse convolution cut short: cells from its centre, and their coefficients."""
+    radii, periods = (2 * stretch, 2 / stretch), operator.periods
+    reach = [min(int(r), (period - 1) // 2) for r, period in zip(radii, periods, strict=True)]
+    x, y = (cells.ravel() for cells in np.mgrid[tuple(slice(-r, r + 1) for r in reach)])
     within = (x / radii[0]) ** 2 + (y / radii[1]) ** 2 <= 1
-    return np.stack([x[within], y[within]], axis=1)
-
-
-def _stencil_taps(offsets: Indices, inverse: Real) -> Real:
-    """Return the coefficients of the inverse convolution, cut short."""
-    taps = inverse[abs(offsets[:, 0]), abs(offsets[:, 1])]
+    offsets = np.stack([x[within], y[within]], axis=1)
+    lags = np.arange(reach[0] + 1), np.arange(reach[1] + 1)
+    inverse = even_sums(operator.spectrum, periods, lags, inverse=True)
+    taps = inverse[abs(offsets[:, 0]), abs(offsets[:, 1])] / float(periods[0] * periods[1]) ** 2
     centre = (offsets == 0).all(axis=1)
     around = np.minimum(taps, 0.0)
     around *= min(1.0, 0.99 * taps[centre].item() / max(-around.sum(), 1e-300))
-    return np.where(centre, taps, around)
+    return offsets, np.where(centre, taps, around)
 
 
 Preconditioner = Callable[[Real], Real]
@@ -209,7 +188,7 @@ class _TwoLevels:
         width = grid.values.shape[1]
         self._at = loops.Layout(
             np.searchsorted(nodes.rows, np.arange(len(kernel) + 1) * sides[0]),
-            inverse.block_of_column,
+            (np.arange(nodes.shape[1]) // sides[1]).astype(np.int32),
             nodes.rows,
             nodes.starts,
             nodes.columns,

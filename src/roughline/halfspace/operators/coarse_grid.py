@@ -88,9 +88,8 @@ class CoarseGrid:
         nx, ny = (-(-n // ratio) + _BEYOND for n, ratio in zip(operator.shape, ratios, strict=True))
         dx, dy = (ratio * side for ratio, side in zip(ratios, operator.spacing, strict=True))
         shape = (px, py) if periodic else (nx, ny)
-        convolution = Convolution(
-            shape, (dx, dy), (px, py), corrected, workspace=operator.workspace
-        )
+        work = operator.workspace
+        convolution = Convolution(shape, (dx, dy), (px, py), corrected, workspace=work)
         return cls(convolution, (_spline_weights(ratios[0]), _spline_weights(ratios[1])), periodic)
 
     @cached_property
@@ -126,7 +125,10 @@ class CoarseGrid:
         fft.share_out_blocks(spread_across, len(spread), 1 + fft.VALUES_AT_A_TIME // len(spread))
         if self.periodic:
             grid.wrap()
-            inner = np.ascontiguousarray(_folded(_folded(spread).T).T)
+            for values in (spread, spread.T):  # what lies beyond a period, to a period away
+                values[-_BEYOND] += values[0]
+                values[1:_BEYOND] += values[-2:]
+            inner = np.ascontiguousarray(spread[1:-2, 1:-2])
             moved[:] = np.pad(self._convolved(inner, inner), (1, 2), mode="wrap")
             return moved
         return self._convolved(spread, moved)
@@ -145,15 +147,6 @@ class CoarseGrid:
         result: Any = out
         self.convolution.displacement(values, self._everywhere, None, "float32", result)
         return out
-
-
-def _folded(values: Single) -> Single:
-    """Add the rows that splines reach beyond a period to those a period away."""
-    inner = values[1:-2].copy()
-    inner[-1] += values[0]
-    inner[0] += values[-2]
-    inner[1] += values[-1]
-    return inner
 
 
 def _spline_weights(ratio: int) -> Single:

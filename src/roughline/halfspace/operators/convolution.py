@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -12,13 +11,11 @@ from roughline.computing.arrays import Real
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators import loops
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision, unit_in_single
-from roughline.halfspace.operators.pair_sums import ROWS_AT_A_TIME, displaced_by_pairs
 from roughline.halfspace.operators.workspace import Workspace
 
 _PAIRS = 4.0  # of nodes for each mode, up to which sums over pairs take less time ...
 _MANY = 2**20  # ... where there are so many modes
-_SPARE = 8  # modes at the end of each row, as caches hold few rows a power of two apart
-_SMALL = 2**16  # modes, which a thread transforms before another has begun
+_ROWS_AT_A_TIME = 32  # of the kernel, over which pairs are summed before others
 _LARGE = 2**22  # points of the padded rows, from which on memory counts
 
 
@@ -62,31 +59,6 @@ class Convolution:
         """Whether displacements count from their mean, so that even pressure displaces nothing."""
         return bool(self.spectrum[0, 0] == 0)
 
-    def _parts(self, precision: Precision) -> int:
-        """Return in how many parts modes along y are taken: all, or even ones, then odd ones.
-
-        Double precision needs no more memory than single precision so, where rows are padded.
-        """
-        padded = self.periods[1] >= 2 * self.shape[1] and self.periods[1] % 2 == 0
-        large = self.shape[0] * self.periods[1] > _LARGE
-        return 2 if padded and large and precision == "float64" else 1
-
-    def _rows(self, precision: Precision) -> tuple[Any, Any]:
-        """Complex rows, two rows of the grid in each, and the same memory as real numbers."""
-        shape = (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision) + _SPARE
-        modes = self.workspace.empty(
-            "rows", shape, np.complex128 if precision == "float64" else np.complex64
-        )
-        return modes, modes.view(modes.real.dtype).reshape(*shape, 2)
-
-    def sums_are_cheap(self, sources: int, targets: int) -> bool:
-        """Whether sums over pairs take less time than transforms, and no more memory than rows."""
-        modes = self.periods[0] * self.periods[1]
-        fit = targets <= ROWS_AT_A_TIME * self.shape[1]
-        few = sources * targets <= _PAIRS * modes
-        free = self.half_space is not None and not self.half_space.periodic
-        return free and modes >= _MANY and fit and few
-
     def displacement(
         self,
         pressure: Real,
@@ -122,14 +94,45 @@ class Convolution:
             return result
         if out is None:
             out = np.empty(self.shape if targets is None else targets.indices.size)
-        if targets is not None and self.sums_are_cheap(sources.indices.size, targets.indices.size):
-            assert self.half_space is not None
-            out[:] = displaced_by_pairs(self.half_space, self.spacing, pressure, sources, targets)
-        else:
-            out[:] = 0
-            for odd in range(self._parts(precision)):
-                self._transform(pressure, sources, targets, precision, out, odd)
+        out[:] = 0
+        if targets is not None and self._sums_are_cheap(sources.indices.size, targets.indices.size):
+            return self._summed(pressure, sources, targets, out)
+        for odd in range(self._parts(precision)):
+            self._transform(pressure, sources, targets, precision, out, odd)
         return out
+
+    def _sums_are_cheap(self, sources: int, targets: int) -> bool:
+        """Whether sums over pairs take less time than transforms, and no more memory than rows."""
+        modes = self.periods[0] * self.periods[1]
+        fit = targets <= _ROWS_AT_A_TIME * self.shape[1]
+        few = sources * targets <= _PAIRS * modes
+        free = self.half_space is not None and not self.half_space.periodic
+        return free and modes >= _MANY and fit and few
+
+    def _summed(self, pressure: Real, sources: GridNodes, targets: GridNodes, result: Real) -> Real:
+        """Sum over pairs of nodes. Rows of the kernel are made for all pairs so far apart."""
+        assert self.half_space is not None
+        kernel_rows, (nx, ny) = self.half_space.kernel, self.shape
+        loaded = sources.starts, sources.columns, sources.place_of_rows
+        parts = np.zeros((-(-nx // _ROWS_AT_A_TIME), result.size))
+
+        def add(first: int, last: int) -> None:
+            table = np.empty((last - first, ny))
+            kernel_rows(first, self.spacing, table)
+            part = parts[first // _ROWS_AT_A_TIME]
+            loops.add_pairs(table, first, pressure, loaded, targets.listed, part)
+
+        fft.share_out_blocks(add, nx, _ROWS_AT_A_TIME)
+        return parts.sum(axis=0, out=result)
+
+    def _parts(self, precision: Precision) -> int:
+        """Return in how many parts modes along y are taken: all, or even ones, then odd ones.
+
+        Double precision needs no more memory than single precision so, where rows are padded.
+        """
+        padded = self.periods[1] >= 2 * self.shape[1] and self.periods[1] % 2 == 0
+        large = self.shape[0] * self.periods[1] > _LARGE
+        return 2 if padded and large and precision == "float64" else 1
 
     def _transform(
         self,
@@ -148,8 +151,11 @@ class Convolution:
         transform of half the period. Odd ones are that of the row turned by one mode.
         """
         (nx, ny), (mx, my), parts = self.shape, self.periods, self._parts(precision)
-        modes, real_modes = self._rows(precision)
         period, spectrum = my // parts, self.spectrum[:, odd::parts]
+        # two rows of the grid in each; longer than needed, as caches hold few rows 2^n apart
+        rows, kind = (nx + 1) // 2, np.complex128 if precision == "float64" else np.complex64
+        modes = self.workspace.empty("rows", (rows, period + 8), kind)
+        real_modes = modes.view(modes.real.dtype).reshape(*modes.shape, 2)
         rows_out = np.arange(nx) if targets is None else targets.rows
         turns = np.exp(2j * np.pi / my * np.arange(ny)).astype(modes.dtype) if odd else None
 
@@ -177,7 +183,8 @@ class Convolution:
             else:
                 loops.gather_pairs(real_modes, *targets.listed[:2], first, last, result)
 
-        at_a_time = max(mx, my) if mx * my <= _SMALL else fft.LINES_AT_A_TIME
+        # a thread does small transforms before another has begun
+        at_a_time = max(mx, my) if mx * my <= 2**16 else fft.LINES_AT_A_TIME
         pairs, pairs_out = (sources.rows.size + 1) // 2, (rows_out.size + 1) // 2
         fft.share_out_blocks(transform_rows, pairs, at_a_time)
         fft.share_out_blocks(convolve_columns, spectrum.shape[1], at_a_time)

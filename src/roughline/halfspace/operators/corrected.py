@@ -52,22 +52,7 @@ class CorrectedOperator:
         return GridNodes.of(self.on_grid(places), self.exact.shape)
 
     def displacement(self, pressure: Real, places: Indices | None, precision: Precision) -> Real:
-        """Return the displacement of all nodes under the pressure on some, or on all of them.
-
-        Parameters
-        ----------
-        pressure : ndarray
-            Pressures. [pressure]
-        places : ndarray of int, or None
-            Where they act; None: on all nodes.
-        precision : {"float64", "float32"}
-            Precision of the exact operator.
-
-        Returns
-        -------
-        ndarray, shape (nodes,)
-            Displacements. [length]
-        """
+        """Return the displacement of all nodes under the pressure on some; None: on all."""
         if self.restricted is None:
             return self._exactly(pressure, places, precision)
         assert self.nodes is not None
@@ -79,7 +64,7 @@ class CorrectedOperator:
     def recentred(
         self, pressure: Real, places: Indices | None, precision: Precision
     ) -> CorrectedOperator:
-        """Return the operator that is exact for the pressure on some nodes."""
+        """Return the operator that is exact for the pressure on some nodes; None: on all."""
         moved = self._exactly(pressure, places, precision)
         before = np.zeros_like(moved)
         before[slice(None) if places is None else places] = pressure

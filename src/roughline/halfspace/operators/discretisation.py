@@ -10,8 +10,6 @@ from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.workspace import Workspace
 
-_LONG = 64  # points along a side, from which on it has as many periods to choose from
-
 
 def on_grid(
     half_space: HalfSpace,
@@ -84,7 +82,7 @@ def _free(
 
 def _padded(n: int) -> int:
     """Return a period of at least twice a side; a long one can be halved three times."""
-    return fft.good_size(2 * n, 8 if n >= _LONG else 2)
+    return fft.good_size(2 * n, 8 if n >= 64 else 2)
 
 
 def _periodic(

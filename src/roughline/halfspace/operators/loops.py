@@ -15,10 +15,9 @@ ROUNDING = 8
 def list_rows(
     indices: Integers, width: int, rows: Integers, starts: Integers, columns: Integers
 ) -> int:
-    """List nodes, given by ascending flat indices in a grid so many columns wide, row by row.
+    """List nodes of ascending flat indices row by row, and return how many rows hold any.
 
-    Return how many rows hold any. These rows, where they begin, and the column of each node are
-    written; one more start follows.
+    These rows, where they begin, and the column of each node are written; one more start follows.
     """
     found, begin, end = 0, 0, 0
     for i in range(indices.size):
@@ -138,3 +137,33 @@ def store_columns(
             z[mirror, 1] = b[j, 0] - a[j, 1]
             z[first + j, 0] = a[j, 0] - b[j, 1]
             z[first + j, 1] = a[j, 1] + b[j, 0]
+
+
+@compiled
+def add_pairs(
+    table: Floats,
+    first: int,
+    pressure: Floats,
+    sources: tuple[Integers, Integers, Integers],
+    targets: tuple[Integers, Integers, Integers],
+    result: Floats,
+) -> None:
+    """Add what pressures displace at some distances of rows, for which there is a table.
+
+    Sources are starts, columns and the places of all rows; targets starts, columns and rows.
+    """
+    source_starts, source_columns, place = sources
+    target_starts, target_columns, target_rows = targets
+    for k in range(target_rows.size):
+        for distance in range(first, first + table.shape[0]):
+            kernel = table[distance - first]
+            for side in range(2 if distance else 1):
+                row = target_rows[k] + (distance if side else -distance)
+                if 0 <= row < place.size and place[row] >= 0:
+                    source = place[row]
+                    for i in range(target_starts[k], target_starts[k + 1]):
+                        total = 0.0
+                        for j in range(source_starts[source], source_starts[source + 1]):
+                            apart = abs(target_columns[i] - source_columns[j])
+                            total += kernel[apart] * pressure[j]
+                        result[i] += total

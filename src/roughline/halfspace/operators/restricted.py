@@ -32,11 +32,10 @@ from roughline.halfspace.operators.loops import ROUNDING
 
 _WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
 _RADIUS = 2.25  # of the near part, in cells of the coarse grid
-_SIDES = 2, 4, 8  # cells along the side of a coarse cell, where these are square
-_REACH = int(_RADIUS * _SIDES[-1])  # of the near part, at most
-_SHARES = 0.6, 0.35, 0.025  # of the grid, up to which the coarse cells of each size serve best
-_NEARLY_EVEN = 1e-3  # wavenumber, over that of the longest wave, that stands for q = 0
-_FEWEST_POINTS = 64  # along the shorter side of the grid
+# Cells along the side of a coarse cell, where these are square, and the part of the grid up to
+# which they serve best.
+_SIDES = (8, 0.025), (4, 0.35), (2, 0.6)
+_REACH = int(_RADIUS * _SIDES[0][0])  # of the near part, at most
 _SUMS_AT_A_TIME = 2**21  # near sums; for fewer, starting a thread does not pay
 
 
@@ -77,7 +76,7 @@ class RestrictedOperator:
         smooth = spectrum * share
         # the spectrum of the near part goes on to q = 0, whatever the operator does with the mean
         assert operator.half_space is not None
-        q_small = np.array([_NEARLY_EVEN * 2 * np.pi / max(px * dx, py * dy)])
+        q_small = np.array([1e-3 * 2 * np.pi / max(px * dx, py * dy)])
         limit = float((q_small * operator.half_space.spectrum(q_small))[0]) / (px * py)
         smooth[0, 0] -= limit * _WIDTH * side / np.sqrt(np.pi)
         lags = np.arange(int(_RADIUS * side / dx) + 1), np.arange(int(_RADIUS * side / dy) + 1)
@@ -108,15 +107,11 @@ class RestrictedOperator:
         sources: GridNodes,
         targets: GridNodes,
         precision: Precision = "float32",
-        out: Real | None = None,
     ) -> Real:
         """Return the displacement of some nodes under the pressure on some, in single precision."""
-        if out is None:
-            out = np.empty(targets.indices.size)
         unit = np.abs(pressure).max(initial=0.0)
         if unit == 0:
-            out[:] = 0
-            return out
+            return np.zeros(targets.indices.size)
         grid = PaddedGrid.of(self.shape, self.margins, self.far.convolution.workspace)
         moved = self.far.displacement((pressure / unit).astype(np.float32), sources, grid)
         nodes = targets.rows, targets.columns, *targets.runs
@@ -130,7 +125,7 @@ class RestrictedOperator:
         rows_at_a_time = targets.rows_of(_SUMS_AT_A_TIME // self.taps.size)
         fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
         grid.clear(sources, wrapped=self.far.periodic)
-        return np.multiply(result, unit, out=out)
+        return np.multiply(result, unit, dtype=np.float64)
 
 
 class RestrictedOperators:
@@ -154,30 +149,20 @@ class RestrictedOperators:
 
     def on(self, nodes: GridNodes) -> RestrictedOperator | None:
         """Return the cheapest one for some nodes, or None where the exact operator is cheaper."""
-        if not self._ratios:
-            return None
-        points = self._operator.shape[0] * self._operator.shape[1]
-        part = int(nodes.runs[1][:, 2].sum()) / points
-        ratios = next((each for share, each in reversed(self._ratios) if part <= share), None)
-        if ratios is None:
-            return None
-        if ratios not in self._made:
-            made = RestrictedOperator.of(self._operator, ratios, self._margins)
-            self._made[ratios] = made
-        return self._made[ratios]
+        part = nodes.runs[1][:, 2].sum() / np.prod(self._operator.shape) if self._ratios else 1.0
+        ratios = next((each for each, share in self._ratios if part <= share), None)
+        if ratios and ratios not in self._made:
+            self._made[ratios] = RestrictedOperator.of(self._operator, ratios, self._margins)
+        return self._made[ratios] if ratios else None
 
 
-def _ratios(operator: Convolution) -> list[tuple[float, tuple[int, int]]]:
+def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
     """List possible coarse cells, about square, and up to which part of the grid they serve."""
-    possible: list[tuple[float, tuple[int, int]]] = []
-    if min(operator.shape) < _FEWEST_POINTS:
-        return []
-    dx, dy = operator.spacing
-    longer = max(dx, dy)
-    for ratio, share in zip(_SIDES, _SHARES, strict=True):
-        ratios = ratio * 2 ** round(np.log2(longer / dx)), ratio * 2 ** round(np.log2(longer / dy))
-        radius = _RADIUS * max(ratios[0] * dx, ratios[1] * dy) / min(dx, dy)
-        divides = all(p % r == 0 for p, r in zip(operator.periods, ratios, strict=True))
-        if divides and radius < _REACH + 1:
-            possible.append((share, ratios))
+    (dx, dy), possible = operator.spacing, []
+    for side, share in _SIDES:
+        rx, ry = (side * 2 ** round(np.log2(max(dx, dy) / each)) for each in (dx, dy))
+        radius = _RADIUS * max(rx * dx, ry * dy) / min(dx, dy)
+        divide = operator.periods[0] % rx == operator.periods[1] % ry == 0
+        if min(operator.shape) >= 64 and divide and radius < _REACH + 1:
+            possible.append(((rx, ry), share))
     return possible

@@ -7,27 +7,21 @@ import numpy as np
 from roughline.computing.arrays import Floats, Integers
 from roughline.computing.compiled import compiled
 
-Nodes = tuple[Integers, Integers, Integers]
-"""Where each row begins in the list of nodes, their columns, and the rows that hold any."""
-
-Margins = tuple[int, int]
-"""Cells of the margin of a grid along x and y."""
-
 
 @compiled
 def spread_along_rows(
     values: Floats,
-    nodes: Nodes,
+    nodes: tuple[Integers, Integers, Integers],
     weights: Floats,
     block: tuple[int, int],
     grid: Floats,
-    margins: Margins,
+    margins: tuple[int, int],
     lines: Floats,
 ) -> None:
     """Write the values of a block of rows to the grid, and spread them over the coarse columns.
 
-    Each of the lines gets a row, spread by the weights of the four coarse columns around a column,
-    which go by its place between two of them. The grid has margins, and is zero elsewhere.
+    Nodes are starts, columns and rows. Each of the lines gets a row, spread by the weights of the
+    four coarse columns around a column, which go by its place between two of them.
     """
     starts, columns, rows = nodes
     ratio = weights.shape[0]
@@ -48,7 +42,7 @@ def clear_runs(
     first_run: Integers,
     runs: Integers,
     grid: Floats,
-    margins: Margins,
+    margins: tuple[int, int],
 ) -> None:
     """Set a grid with margins to zero where there are runs of nodes."""
     for k in range(rows.size):
@@ -82,7 +76,7 @@ def spread_across_rows(
 @compiled
 def add_near_and_far(
     grid: Floats,
-    margins: Margins,
+    margins: tuple[int, int],
     near: tuple[Floats, Integers],
     coarse: Floats,
     weights: tuple[Floats, Floats],
@@ -94,8 +88,7 @@ def add_near_and_far(
 
     The near part is the kernel by the distance in cells, each row followed by seven zeros, and the
     columns to which each row of it reaches, to both sides. Weights are those of the coarse rows and
-    columns. Nodes are rows that hold any, the column of each, where the runs of each row begin, and
-    the runs of :func:`roughline.halfspace.operators.loops.find_runs`.
+    columns. Nodes are rows, columns, where the runs of each row begin, and the runs.
     """
     rows, columns, first_run, runs = nodes
     ratio, radius = weights[1].shape[0], near[0].shape[0] // 2
