@@ -53,9 +53,10 @@ def cells(n, boundary, forces, pressure_over_hardness=None):
     """Press a surface; return the cells of its row."""
     periodic = boundary == "periodic"
     spectrum = rl.SelfAffine(hurst=0.8, rms_height=1.0)
-    small = spectrum.surface(64, 0)
-    rl.press(small, E_star=1.0, forces=[0.01], periodic=periodic, hardness=1.0)  # compiles
-    rl.press(small, E_star=1.0, forces=[0.01], periodic=periodic)
+    small = spectrum.surface(128, 0)
+    for law in (rl.Yielding(30.0), rl.Unilateral()):  # compiles, whatever the contact needs
+        half_space = rl.Homogeneous(1.0, periodic)
+        rl.press(small, half_space=half_space, law=law, forces=[0.01, 1.0, 20.0])
     interpreter = peak()
     surface = spectrum.surface(n, 7)
     hardness = None
