@@ -11,7 +11,7 @@ from roughline.computing import fft
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse import kept
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
-from roughline.halfspace.operators import convolution
+from roughline.halfspace.operators import coarse_grid, convolution
 from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
@@ -72,6 +72,18 @@ def test_it_is_the_exact_operator_to_a_fiftieth_for_any_pressure(shape, spacing,
         exact, split = (each + operator.spectrum.max() for each in (exact, split))
     factors = eigh((split + split.T) / 2, exact, eigvals_only=True)
     assert np.abs(factors - 1).max() <= 0.02
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_coarse_grids_that_threads_share_give_the_same(monkeypatch, periodic):
+    operator = on_grid(Homogeneous(1.0, periodic), (96, 64), (1.0, 1.0))
+    nodes = GridNodes.of(contact_nodes((96, 64), 3, 0.3), (96, 64))
+    pressure = np.random.default_rng(1).random(nodes.indices.size)
+    split = made(operator, (2, 2))
+    alone = split.displacement(pressure, nodes, nodes)
+    monkeypatch.setattr(coarse_grid, "_SMALL", 0)
+    shared = split.displacement(pressure, nodes, nodes)
+    assert np.abs(shared - alone).max() <= 1e-5 * np.abs(alone).max()
 
 
 def test_its_memory_is_clean_after_use():

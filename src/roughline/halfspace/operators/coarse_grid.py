@@ -129,7 +129,7 @@ class CoarseGrid:
                 values[-_BEYOND] += values[0]
                 values[1:_BEYOND] += values[-2:]
             inner = np.ascontiguousarray(spread[1:-2, 1:-2])
-            moved[:] = np.pad(self._convolved(inner, inner), (1, 2), mode="wrap")
+            moved[:] = np.pad(self._convolved(inner, np.empty_like(inner)), (1, 2), mode="wrap")
             return moved
         return self._convolved(spread, moved)
 
