@@ -88,12 +88,6 @@ def law_of(hardness: float | None) -> ContactLaw:
     return Unilateral() if hardness is None else Yielding(hardness)
 
 
-def refuse_other_progress(progress: Any) -> None:
-    """Refuse what cannot be called with the progress."""
-    if progress is not None and not callable(progress):
-        refuse("progress", progress, "a function of (loads done, loads in all) is needed")
-
-
 def checked_shape(shape: Any) -> tuple[int, int]:
     """Return the points of a surface along x and y."""
     sides = several(shape)

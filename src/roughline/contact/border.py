@@ -27,16 +27,9 @@ def border_share(contact: Contact) -> float:
 
 
 def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:
-    """Say at which loads the border carries too much.
+    """Say under which forces the border of a surface that was cut out carries too large a share.
 
-    Parameters
-    ----------
-    surface : Surface
-        The surface; there are warnings only if it was cut out of a larger one.
-    force : ndarray, shape (loads,)
-        Total force. [force]
-    shares : ndarray, shape (loads,)
-        Share of the force that the border carries; NaN where a load was not solved. [1]
+    Shares are NaN where a load was not solved.
     """
     beyond = np.flatnonzero(shares > BORDER_SHARE)
     if not surface.is_cut_out or not beyond.size:

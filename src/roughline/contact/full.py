@@ -34,30 +34,15 @@ from roughline.topography.settings import as_body
 
 def press_surface(
     surface: Surface,
-    half_space: HalfSpace,
     loads: Loads,
-    method: Method,
-    *,
     law: ContactLaw,
-    kept: frozenset[int],
-    progress: Callable[[int, int], None] | None,
+    *,
+    half_space: HalfSpace,
+    method: Method,
+    kept: frozenset[int] = frozenset(),
+    progress: Callable[[int, int], None] | None = None,
 ) -> Curve:
-    """Press a surface.
-
-    Parameters
-    ----------
-    surface : Surface
-        The surface. [length]
-    half_space : HalfSpace
-        What it is pressed into.
-    loads : Loads
-        Checked loads.
-    method : Method
-        Tolerance, bound on the convolutions and precision.
-    kept : frozenset of int
-        Numbers of the loads whose fields are kept.
-    law, progress
-        As for :func:`roughline.press`.
+    """Press a surface, as :func:`roughline.press` does; keep the fields of loads by their numbers.
 
     Raises
     ------
@@ -111,8 +96,10 @@ def _results(
 ) -> Iterator[LoadResult]:
     """Solve the contact under each load in turn."""
     scaled = ScaledSurface.of(surface, half_space, loads)
-    unit = scaled.force if loads.control == "forces" else scaled.height
-    path = [Load.of(loads.control, value) for value in (loads.values / unit).tolist()]
+    if loads.control == "forces":
+        path = [Load(force=value) for value in (loads.values / scaled.force).tolist()]
+    else:
+        path = [Load(depth=value) for value in (loads.values / scaled.height).tolist()]
     with working_memory():
         solved = solve_path(_problem(scaled, law, method), path, method)
         dents: Indentation | None = None

@@ -39,28 +39,17 @@ _FEWEST_POINTS = 4  # along a side of the coarsest grid
 Press = Callable[[Surface, Loads, ContactLaw], Curve]
 """Presses another surface under some loads, by a contact law."""
 
-
 Coarsen = Callable[[Surface], Surface]
 """Takes a surface to a coarser grid."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Grids:
-    """A surface and its coarser selves.
+    """A surface and its coarser selves."""
 
-    Attributes
-    ----------
-    quarter, half : Surface
-        Means of four by four and of two by two points.
-    thinned : Surface
-        Every other point along both sides.
-    full : Surface
-        The surface.
-    """
-
-    quarter: Surface
-    half: Surface
-    thinned: Surface
+    quarter: Surface  # means of four by four points
+    half: Surface  # means of two by two
+    thinned: Surface  # every other point along both sides
     full: Surface
 
     @classmethod
@@ -118,23 +107,9 @@ def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) 
     as a count does, by 1 / sqrt(N).
 
     The error under a load does not depend on the other loads. The errors cover grids four times
-    finer, but no noise that begins at the spacing.
-
-    Parameters
-    ----------
-    curve : Curve
-        Curve of the surface.
-    surface, loads : Surface, Loads
-        Its surface and its loads.
-    press : callable
-        Presses another surface.
-
-    Returns
-    -------
-    Curve
-        With ``stiffness_error``, ``unloading_stiffness_error`` and ``area_fraction_error``: a value
-        v with error e lies between v / (1 + e / v) and v + e. NaN where a grid did not converge,
-        and where the surface is in full contact and coarser grids are not.
+    finer, but no noise that begins at the spacing. A value v with error e lies between
+    v / (1 + e / v) and v + e. Errors are NaN where a grid did not converge, and where the surface
+    is in full contact and coarser grids are not.
 
     References
     ----------

@@ -28,17 +28,6 @@ class LoadResult:
     """Quantities of the curve under one load by their names, and more.
 
     The defaults are those of a load that was not solved.
-
-    Attributes
-    ----------
-    residual_of : str
-        What the largest residual is of.
-    border_share : float
-        Share of the force that the border carries. [1]
-    fields : Fields or None
-        Fields on the grid, if they are kept.
-    dents : Indentation or None
-        Where the surface is indented; None if it is not.
     """
 
     status: Status = Status.INTERRUPTED
@@ -57,9 +46,9 @@ class LoadResult:
     indentation: float = math.nan
     work: float = math.nan
     dissipated_work: float = math.nan
-    border_share: float = math.nan
-    fields: Fields | None = None
-    dents: Indentation | None = None
+    border_share: float = math.nan  # of the force
+    fields: Fields | None = None  # if they are kept
+    dents: Indentation | None = None  # if the surface is indented
 
     @classmethod
     def of(
@@ -71,18 +60,9 @@ class LoadResult:
         *,
         with_fields: bool,
     ) -> LoadResult:
-        """Return what one load gives.
+        """Return what one load gives, by the contact in the units of a scaled, untouched surface.
 
-        Parameters
-        ----------
-        contact : Contact
-            The contact under the load, in the units of `scaled`.
-        response : Response or None
-            Its stiffness and its change with the load; None if the contact was not certified.
-        scaled, law : ScaledSurface, ContactLaw
-            The untouched surface, and what its pressures and gaps obey.
-        with_fields : bool
-            Whether the fields are kept.
+        There is no response where the contact was not certified.
         """
         worst, of = contact.residuals.worst, contact.residuals.worst_is_of
         if contact.outcome is Outcome.UNKNOWN_SURFACE:
@@ -134,25 +114,20 @@ def columns(results: Sequence[LoadResult]) -> dict[str, Any]:
 
 
 def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tuple[float, float]:
-    """Return by how many cells the outline overstates the area, at most and as estimated."""
+    """Return by how many cells the outline overstates the area, at most and as estimated.
+
+    An area that bears at most the hardness does not get below the middle between F / H and that of
+    the cells: at F / H itself all of the contact would yield. Where nothing yields, it is that of
+    elastic bodies if that is possible.
+    """
     most, overstated = overstated_cells(contact, scaled.spacing, scaled.half_space.periodic)
     most_of_cell = float(np.max(law.bounds(None)[1])) * scaled.cell_area
     if math.isfinite(most_of_cell):
         borne = contact.force * scaled.force / most_of_cell
-        overstated = _of_yielding(overstated, max(contact.nodes.size - borne, 0.0), contact)
+        possible = max(contact.nodes.size - borne, 0.0)
+        if overstated >= possible or contact.plastic.any():
+            overstated = min(overstated, possible / 2)
     return most, overstated
-
-
-def _of_yielding(overstated: float, possible: float, contact: Contact) -> float:
-    """Cells by which the count exceeds an area that bears at most the hardness, F / H or more.
-
-    The area does not get below the middle between F / H and that of the cells: at F / H itself all
-    of the contact would yield. Where nothing yields, it is that of elastic bodies if that is
-    possible.
-    """
-    if overstated < possible and not contact.plastic.any():
-        return overstated
-    return min(overstated, possible / 2)
 
 
 def _elastic_energy(contact: Contact) -> float:

@@ -32,36 +32,19 @@ _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few 
 
 @dataclass(frozen=True, eq=False)
 class Loads:
-    """Checked loads.
+    """Checked loads, in the order in which they are applied."""
 
-    Attributes
-    ----------
-    control : {"depths", "forces"}
-        What is prescribed.
-    values : ndarray, shape (loads,)
-        In the order in which they are applied; not negative, the first one positive.
-        [length] or [force]
-    """
-
-    control: Control
-    values: Real
+    control: Control  # what is prescribed
+    values: Real  # [length] or [force]
 
 
 @dataclass(frozen=True)
 class GivenLoads:
-    """The loads as the caller gave them, not checked yet; exactly one may be other than None.
-
-    Attributes
-    ----------
-    depths, forces : array_like or None
-        Values one by one. [length] or [force]
-    n_loads : int or None
-        How many forces to space evenly on a logarithmic scale.
-    """
+    """The loads as the caller gave them, not checked yet; exactly one may be other than None."""
 
     depths: ArrayLike | None
     forces: ArrayLike | None
-    n_loads: int | None
+    n_loads: int | None  # forces, evenly spaced on a logarithmic scale
 
 
 def line_loads(line: Line, springs: Springs, given: GivenLoads) -> Loads:
@@ -103,29 +86,31 @@ def surface_loads(
             'best: give a larger rtol, or precision="mixed"'
         )
     if given.n_loads is None:
-        loads = _checked_loads(given)
-        free = half_space.mean_is_free
+        loads, free = _checked_loads(given), half_space.mean_is_free
         law.refuse(loads.control, loads.values, surface.heights, surface.area, free)
-        _refuse_beyond_precision(surface, half_space.E_star, loads, rtol, single)
-        return loads
-    _refuse_constant(surface, given)
-    E_star = half_space.E_star
-    if half_space.periodic:
-        # Persson: 95 % contact at a mean pressure of E* times the rms slope
-        highest = E_star * surface.rms_slope * surface.area
     else:
-        highest = _SATURATED_FORCE_BAR * E_star * surface.rms_height * surface.length
-    highest = min(highest, _LARGEST_YIELDING * law.largest_force(surface.area))
-    separation = np.sort(surface.heights.max() - surface.heights, axis=None)
-    few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
-    lowest = highest
-    if few < separation.size:
-        # so many cells as one disc, pressed down to the last of them
-        radius = np.sqrt(few * surface.spacing[0] * surface.spacing[1] / np.pi)
-        lowest = half_space.disc_stiffness(float(radius)) * separation[few]
-    loads = _spaced_loads(given, float(lowest), highest)
+        _refuse_constant(surface, given)
+        loads = _spaced_loads(given, *_range_of_forces(surface, half_space, law))
     _refuse_beyond_precision(surface, half_space.E_star, loads, rtol, single)
     return loads
+
+
+def _range_of_forces(
+    surface: Surface, half_space: HalfSpace, law: ContactLaw
+) -> tuple[float, float]:
+    """Return the forces from about ten cells in contact to saturation."""
+    E_star, area = half_space.E_star, surface.area
+    # Persson: 95 % contact at a mean pressure of E* times the rms slope
+    saturated = _SATURATED_FORCE_BAR * E_star * surface.rms_height * surface.length
+    highest = E_star * surface.rms_slope * area if half_space.periodic else saturated
+    highest = min(highest, _LARGEST_YIELDING * law.largest_force(area))
+    separation = np.sort(surface.heights.max() - surface.heights, axis=None)
+    few = max(RESOLVED_FROM, int(np.count_nonzero(separation == 0)))
+    if few >= separation.size:
+        return highest, highest
+    # so many cells as one disc, pressed down to the last of them
+    radius = np.sqrt(few * surface.spacing[0] * surface.spacing[1] / np.pi)
+    return float(half_space.disc_stiffness(float(radius)) * separation[few]), highest
 
 
 def _checked_loads(given: GivenLoads) -> Loads:

@@ -17,7 +17,6 @@ from roughline.contact.arguments import (
     given_half_space,
     kept_loads,
     law_of,
-    refuse_other_progress,
 )
 from roughline.contact.curve import Curve
 from roughline.contact.estimates import expected_area_fraction, memory_for
@@ -151,13 +150,14 @@ def press(
     [0.308]
     """
     half_space = given_half_space(half_space, E_star, periodic)
-    law = _checked_law(law, _checked_hardness(hardness, body), body)
+    law = _given_law(law, hardness, body)
     rtol = checked_number("rtol", rtol, "a tolerance from 1e-12 to 0.1", 1e-12, 0.1)
     max_iterations = checked_count("max_iterations", max_iterations, 1)
     grid_error = checked_flag("grid_error", grid_error)
     throw = checked_flag("throw", throw)
     one_of("precision", precision, ("mixed", "float64", "float32"))
-    refuse_other_progress(progress)
+    if progress is not None and not callable(progress):
+        refuse("progress", progress, "a function of (loads done, loads in all) is needed")
     if isinstance(body, Line):
         if half_space.periodic or grid_error or fields is not False:
             raise InputError(
@@ -176,14 +176,8 @@ def press(
             "Surface(heights, sizes=(Lx, Ly)) or Line(heights, length=L), and a topography of "
             "SurfaceTopography as Surface(topography)"
         )
-    loads = surface_loads(
-        body,
-        half_space,
-        GivenLoads(depths, forces, n_loads),
-        rtol,
-        single=precision == "float32",
-        law=law,
-    )
+    given, single = GivenLoads(depths, forces, n_loads), precision == "float32"
+    loads = surface_loads(body, half_space, given, rtol, single=single, law=law)
     kept = kept_loads(fields, loads.values.size)
     _refuse_beyond_memory(body, half_space, loads, law, len(kept))
     if grid_error:
@@ -194,17 +188,10 @@ def press(
 
     method = Method(rtol, max_iterations, precision)
     pressed = partial(press_surface, half_space=half_space, method=method)
-    curve = pressed(body, loads=loads, law=law, kept=kept, progress=progress)
+    curve = pressed(body, loads, law, kept=kept, progress=progress)
     if grid_error:
         try:
-            curve = with_grid_error(
-                curve,
-                body,
-                loads,
-                lambda other, loads, law: pressed(
-                    other, loads=loads, law=law, kept=frozenset(), progress=None
-                ),
-            )
+            curve = with_grid_error(curve, body, loads, pressed)
         except KeyboardInterrupt:
             raise Interrupted(curve) from None
     if throw and not curve.converged.all():
@@ -239,25 +226,18 @@ def _refuse_beyond_memory(
     )
 
 
-def _checked_hardness(hardness: float | None, body: Body) -> float | None:
-    """Return the hardness; None if it is infinite, as bodies are elastic then."""
-    if hardness is None:
-        return None
-    allowed = "a positive pressure, or none for elastic bodies,"
-    hardness = checked_number("hardness", hardness, allowed, most=np.inf)
-    if hardness == np.inf:
-        return None
-    if isinstance(body, Line):
+def _given_law(law: ContactLaw | None, hardness: float | None, body: Body) -> ContactLaw:
+    """Return the law that bodies obey; a hardness is short for one, unless it is infinite."""
+    if hardness is not None:
+        allowed = "a positive pressure, or none for elastic bodies,"
+        hardness = checked_number("hardness", hardness, allowed, most=np.inf)
+        hardness = None if hardness == np.inf else hardness
+    if hardness is not None and isinstance(body, Line):
         raise InputError(
             "hardness belongs to the full model; the reduced model of a Line has no yield: leave "
             "it out, and trust the line only while mean contact pressures stay below about 0.4 "
             "of the hardness (rms slopes below 0.8 H / E*), or press a Surface"
         )
-    return hardness
-
-
-def _checked_law(law: ContactLaw | None, hardness: float | None, body: Body) -> ContactLaw:
-    """Return the law that bodies obey; a hardness is short for one."""
     if law is None:
         return law_of(hardness)
     if not isinstance(law, ContactLaw):

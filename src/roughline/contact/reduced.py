@@ -18,16 +18,7 @@ from roughline.topography.settings import as_body
 
 
 def press_line(line: Line, half_space: Homogeneous, given: GivenLoads) -> Curve:
-    """Press a reduced line.
-
-    Parameters
-    ----------
-    line : Line
-        The line. [length]
-    half_space : Homogeneous
-        Whose contact modulus the springs have.
-    given : GivenLoads
-        The loads as the caller gave them.
+    """Press a reduced line on springs with the modulus of a half-space.
 
     Raises
     ------

@@ -18,27 +18,14 @@ class ScaledSurface:
     """A surface in units in which E* is 1, a cell has unit area and the roughness unit rms.
 
     The problem is solved in these units, so that no scale is too small or too large for it.
-
-    Attributes
-    ----------
-    surface : Surface
-        The untouched surface.
-    height, length : float
-        Units of lengths across and along the surface. [length]
-    E_star : float
-        Unit of pressures where both lengths are equal. [pressure]
-    spacing : tuple of float
-        Sides of a cell over `length`. [1]
-    half_space : HalfSpace
-        The half-space in units of `E_star` and `length`.
     """
 
-    surface: Surface
-    height: float
+    surface: Surface  # untouched
+    height: float  # units of lengths across and along the surface
     length: float
-    E_star: float
-    spacing: tuple[float, float]
-    half_space: HalfSpace
+    E_star: float  # unit of pressures where both lengths are equal
+    spacing: tuple[float, float]  # sides of a cell over the unit of lengths along the surface
+    half_space: HalfSpace  # in units of this modulus and of lengths along the surface
 
     @classmethod
     def of(cls, surface: Surface, half_space: HalfSpace, loads: Loads) -> ScaledSurface:

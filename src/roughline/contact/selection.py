@@ -21,15 +21,7 @@ def at_loads(curve: Curve, loads: Indices) -> Curve:
 
 
 def among_loads(curve: Curve, solved: Mask) -> Curve:
-    """Extend a curve to all loads, of which only these were solved: NaN at the others.
-
-    Parameters
-    ----------
-    curve : Curve
-        Of as many loads as were solved.
-    solved : ndarray of bool, shape (loads,)
-        Which of all loads these are.
-    """
+    """Extend a curve to all loads, of which only these were solved: NaN at the others."""
     spread: dict[str, Any] = {}
     for name, values in _over_loads(curve).items():
         if values.dtype.kind == "f":

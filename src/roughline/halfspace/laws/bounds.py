@@ -9,8 +9,6 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.halfspace.laws.law import ContactLaw
 
-_NONE: Indices = np.empty(0, dtype=np.intp)
-
 
 @dataclass(frozen=True, eq=False)
 class Bounds:
@@ -18,11 +16,6 @@ class Bounds:
 
     A node at a bound bears exactly that. One without pressure, whose lower bound is zero, counts
     as between its bounds as long as it is listed as one in contact.
-
-    Attributes
-    ----------
-    low, high : float or ndarray, shape (nodes,)
-        The bounds. [pressure]
     """
 
     low: Real | float
@@ -42,7 +35,7 @@ class Bounds:
     @property
     def pulled(self) -> Indices:
         """The nodes that cannot be without pressure, as far as bounds differ from node to node."""
-        return np.flatnonzero(self.low) if isinstance(self.low, np.ndarray) else _NONE
+        return np.flatnonzero(self.low if isinstance(self.low, np.ndarray) else ())
 
     def pulling(self, pressure: Real) -> Mask:
         """Return which nodes are at a lower bound that is not zero."""

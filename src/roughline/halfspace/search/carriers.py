@@ -12,15 +12,7 @@ from roughline.halfspace.laws.bounds import Bounds
 
 @dataclass(frozen=True, eq=False)
 class Carriers:
-    """Nodes that carry pressure.
-
-    Attributes
-    ----------
-    places : ndarray of int
-        Their places in a region, ascending.
-    pressure : ndarray, shape (carriers,)
-        Pressures on them. [pressure]
-    """
+    """Nodes that carry pressure, by their ascending places in a region, and the pressures."""
 
     places: Indices
     pressure: Real
@@ -49,14 +41,8 @@ class Carriers:
     def able_to_carry(self, total: float | None, bounds: Bounds, gap: Real) -> Carriers:
         """Return the carriers, joined by nodes of smallest gap if they cannot bear the load.
 
-        Parameters
-        ----------
-        total : float or None
-            What the pressures of all carriers have to sum to; None: anything. [pressure]
-        bounds : Bounds
-            Of the pressures of all nodes of the region.
-        gap : ndarray, shape (nodes,)
-            Gap at all of them, from any datum. [length]
+        Pressures have to sum to a total, if it is not None. The gaps are those of all nodes of the
+        region, from any datum.
         """
         if self.can_carry(total, bounds) or self.places.size == gap.size:
             return self
@@ -72,10 +58,7 @@ class Carriers:
 def merged(places: Indices, others: Indices) -> tuple[Indices, Indices]:
     """Merge two ascending lists without common entries.
 
-    Returns
-    -------
-    merged, order : ndarray of int
-        The ascending list, and where each of its entries stood in the chain of the two lists.
+    Return with the list where each of its entries stood in the chain of the two.
     """
     chain = np.concatenate([places, others])
     order = np.argsort(chain, kind="stable")

@@ -61,9 +61,10 @@ def _halved(field: Real) -> Real:
     """Means over two by two nodes; fewer at the end of an odd side."""
     for axis, n in enumerate(field.shape):
         along = np.moveaxis(field, axis, 0)
-        if n % 2:
-            along = np.concatenate([along, along[-1:]])
-        field = np.moveaxis(np.add(along[::2], along[1::2], dtype=np.float64) / 2, 0, axis)
+        means = along[::2].astype(np.float64)
+        means[: n // 2] += along[1::2]
+        means[: n // 2] /= 2
+        field = np.moveaxis(means, 0, axis)
     return np.ascontiguousarray(field)
 
 

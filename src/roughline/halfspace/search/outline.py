@@ -31,19 +31,8 @@ def overstated_cells(
     understate it, and the count is right. There the pressure rises towards the outline, and the gap
     beyond it is steep. Where both are so, a pair has 2 p spacing / (E* gap) of the correction.
 
-    Parameters
-    ----------
-    contact : Contact
-        In units in which E* is 1.
-    spacing : tuple of float
-        Cell sizes. [length]
-    periodic : bool
-        Whether opposite sides are neighbours.
-
-    Returns
-    -------
-    most, estimate : float
-        As if all of the outline were under summits, and with plateaus told apart. [1]
+    The contact is in units in which E* is 1, and opposite sides are neighbours if it is periodic.
+    The first of the two counts is as if all of the outline were under summits.
 
     References
     ----------

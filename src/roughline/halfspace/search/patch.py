@@ -22,16 +22,7 @@ MOST_STEPS = 200
 class Patch:
     """The elastic equations on a set of nodes; all vectors run over these nodes only.
 
-    Parameters
-    ----------
-    operator : Convolution
-        Displacement under pressures on the whole grid.
-    inverse : ApproximateInverse
-        Approximate inverse of the operator, for the preconditioner.
-    nodes : GridNodes
-        The nodes.
-    watched : GridNodes, optional
-        Other nodes whose displacement is computed as well.
+    The displacement of other nodes, which are watched, is computed as well.
     """
 
     def __init__(
@@ -79,37 +70,9 @@ class ConjugateGradients:
     the sum. These are the conjugate gradients of Polonsky and Keer [1]_ with a preconditioner, and
     without their corrections of single nodes, which are left to the active set.
 
-    Parameters
-    ----------
-    patch : Patch
-        The equations.
-    pressure : ndarray, shape (nodes,)
-        Pressures to start from; overwritten. [pressure]
-    residual : ndarray, shape (nodes,)
-        The target less the displacement that they cause; overwritten. [length]
-    watched : ndarray, shape (watched,)
-        Displacement of the watched nodes, from any datum; overwritten. [length]
-    fixed_total : bool
-        Whether the total load or the level is prescribed.
-    precision : {"float64", "float32"}
-        Precision of the convolutions.
-
-    Attributes
-    ----------
-    pressure, watched : ndarray
-        Pressures, and displacements of the watched nodes, after the steps so far.
-    error : ndarray, shape (nodes,)
-        Displacement that is still missing. [length]
-    level : float
-        The uniform displacement that goes with a fixed total; zero where the total is free.
-        [length]
-    energy : float
-        Estimate of the energy norm of the error, squared. [pressure length]
-    gained : float
-        By how much the steps so far have lessened the energy norm of the error, squared.
-        [pressure length]
-    steps : int
-        Steps done; each takes one convolution.
+    They start from pressures, what these miss of the target, and the displacements of the watched
+    nodes from any datum, and overwrite all three. What is gained is by how much they have lessened
+    the energy norm of the error, squared.
 
     References
     ----------
@@ -131,9 +94,9 @@ class ConjugateGradients:
         self.pressure = pressure
         self.error = residual
         self.watched = watched
-        self.level = 0.0
-        self.steps = 0
-        self.gained = 0.0
+        self.level = 0.0  # goes with a fixed total [length]
+        self.steps = 0  # each takes one convolution
+        self.gained = 0.0  # [pressure length]
         self._patch = patch
         self._fixed_total = fixed_total
         self._precision = precision

@@ -35,8 +35,6 @@ from roughline.halfspace.search.window import Window
 _LARGEST_CHANGE = 1.0
 _SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 
-_NONE: Real = np.empty(0)
-
 
 def solve_path(
     problem: Problem, loads: Sequence[Load], method: Method
@@ -72,13 +70,7 @@ class _Solved:
 
 
 class _Path:
-    """The contact along a path of loads.
-
-    Parameters
-    ----------
-    problem, method
-        As for :func:`solve_path`.
-    """
+    """The contact along a path of loads."""
 
     def __init__(self, problem: Problem, method: Method) -> None:
         self._problem = problem
@@ -135,7 +127,7 @@ class _Path:
             if following is None:
                 return found, contact
             law, spent = following, found.convolutions
-            if np.isfinite(contact.force):
+            if np.isfinite(contact.force):  # else there is nothing to start from
                 self._start = contact.contact_set
 
     def _settled(self, load: Load, law: ContactLaw, spent: int) -> tuple[Contact, Contact]:
@@ -176,15 +168,7 @@ class _Path:
         return loading, unloading
 
     def _prepare(self, load: Load | None, solved: _Solved) -> None:
-        """Choose the contact from which the next load starts, and follow its tangent.
-
-        Parameters
-        ----------
-        load : Load or None
-            The next load; None if there is none.
-        solved : _Solved
-            The last load.
-        """
+        """Choose the contact from which the next load starts, if any, and follow its tangent."""
         self._start = self._followed = None
         if load is None or solved.response is None:
             return
@@ -222,26 +206,26 @@ def _known(problem: Problem, load: Load, *, for_first_time: bool) -> Contact | N
     # full contact is rigid where the mean is free; rounding counts where loads came back to it
     rigid = depth is not None and problem.grid.half_space.mean_is_free and for_first_time
     if rigid and load.value >= problem.separation.mean() and law.largest_force(1.0) == np.inf:
-        infinite = np.full(problem.separation.size, np.inf)
-        return _unsearched(problem, load, Outcome.STALLED, infinite)
+        return _unsearched(problem, load, Outcome.STALLED, problem.separation.size)
     return None
 
 
-def _unsearched(problem: Problem, load: Load, outcome: Outcome, pressure: Real = _NONE) -> Contact:
-    """Return bodies that do not touch, or just touch, or the same pressure on all nodes."""
+def _unsearched(problem: Problem, load: Load, outcome: Outcome, loaded: int = 0) -> Contact:
+    """Return bodies that do not touch, or just touch, or infinite pressures on all their nodes."""
     depth = problem.touch if load.depth is None else load.depth
-    gaps = problem.separation.ravel() - depth
+    nowhere = np.zeros(loaded, dtype=bool)
+    largest = np.inf if loaded else 0.0
     return Contact(
         problem=problem,
         depth=depth,
-        force=float(pressure.sum()) * problem.grid.cell_area,
-        nodes=np.arange(pressure.size),
-        pressure=pressure,
-        plastic=np.zeros(pressure.size, dtype=bool),
-        pulling=np.zeros(pressure.size, dtype=bool),
+        force=largest,
+        nodes=np.arange(loaded),
+        pressure=np.full(loaded, np.inf),
+        plastic=nowhere,
+        pulling=nowhere,
         looked_at=None,
-        gaps=gaps,
-        residuals=Residuals(gap=float(pressure.max(initial=0.0))),
+        gaps=np.zeros(loaded) if loaded else problem.separation.ravel() - depth,
+        residuals=Residuals(gap=largest),
         outcome=outcome,
         convolutions=0,
     )

@@ -37,25 +37,15 @@ class Outcome(enum.Enum):
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """A half-space divided into cells; its operator is made when it is needed.
-
-    Attributes
-    ----------
-    half_space : HalfSpace
-        The half-space.
-    shape : tuple of int
-        Points, (nx, ny).
-    spacing : tuple of float
-        Sides of a cell, (dx, dy). [length]
-    """
+    """A half-space divided into cells; its operator is made when it is needed."""
 
     half_space: HalfSpace
     shape: tuple[int, int]
-    spacing: tuple[float, float]
+    spacing: tuple[float, float]  # sides of a cell [length]
 
     @cached_property
     def inverse(self) -> ApproximateInverse:
-        """Approximate inverse of the operator."""
+        """Approximate inverse of the operator, which it has with it."""
         return inverse_on(self.half_space, self.shape, self.spacing)
 
     @property
@@ -72,28 +62,16 @@ class Grid:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A rough body over a half-space on a grid, as the loads so far have left their surfaces.
-
-    Attributes
-    ----------
-    grid : Grid
-        The half-space and the grid.
-    separation : ndarray, shape (nx, ny)
-        Distance of the bodies at first touch of the untouched surfaces; zero at the highest point
-        until that is indented. [length]
-    rms_height : float
-        Gaps are compared with this, or with what the load moves where that is less; zero for a
-        flat punch. [length]
-    resolution : float
-        Gaps are compared with no less than this times the sum of the forces on all nodes; see
-        :meth:`Method.resolution`. [length / force]
-    law : ContactLaw
-        What pressures and gaps obey.
-    """
+    """A rough body over a half-space on a grid, as the loads so far have left their surfaces."""
 
     grid: Grid
+    # distance of the bodies at first touch of the untouched surfaces; zero at the highest point
+    # until that is indented [length]
     separation: Real
+    # gaps are compared with this, or with what the load moves where that is less; zero for a flat
+    # punch [length]
     rms_height: float
+    # but with no less than this times the sum of the forces on all nodes, :meth:`Method.resolution`
     resolution: float
     law: ContactLaw
 
@@ -134,20 +112,10 @@ class Problem:
 
 @dataclass(frozen=True)
 class Method:
-    """How a contact is solved.
+    """How a contact is solved. Mixed precision takes steps in single, residuals in double."""
 
-    Attributes
-    ----------
-    rtol : float
-        Bound on every residual.
-    max_iterations : int
-        Bound on the convolutions that find the contact of one load.
-    precision : {"mixed", "float64", "float32"}
-        Precision of the convolutions. Mixed: steps in single precision, residuals in double.
-    """
-
-    rtol: float
-    max_iterations: int
+    rtol: float  # bound on every residual
+    max_iterations: int  # bound on the convolutions that find the contact of one load
     precision: Literal["mixed", "float64", "float32"] = "mixed"
 
     @property
@@ -169,18 +137,10 @@ class Method:
 
 @dataclass(frozen=True)
 class Load:
-    """One load, by depth or by force; the other is None.
+    """One load, by depth or by force; the other is None."""
 
-    Attributes
-    ----------
-    depth : float or None
-        Approach since first touch. [length]
-    force : float or None
-        Total force. [force]
-    """
-
-    depth: float | None = None
-    force: float | None = None
+    depth: float | None = None  # approach since first touch [length]
+    force: float | None = None  # total force [force]
 
     @property
     def value(self) -> float:
@@ -193,53 +153,29 @@ class Load:
         """Return the sum of all pressures under a given force; None under a given depth."""
         return None if self.force is None else self.force / cell_area
 
-    @classmethod
-    def of(cls, control: Literal["depths", "forces"], value: float) -> Load:
-        """Prescribe one value of the quantity under control."""
-        return cls(force=value) if control == "forces" else cls(depth=value)
-
 
 @dataclass(frozen=True, eq=False)
 class ContactSet:
-    """Nodes in contact and the pressures on them.
-
-    Attributes
-    ----------
-    nodes : ndarray of int
-        Ascending flat indices in the grid.
-    pressure : ndarray, shape (nodes,)
-        Pressures on them. [pressure]
-    depth : float or None
-        Approach that goes with them, about; None where it is not known. [length]
-    """
+    """Nodes in contact, ascending flat indices in the grid, and the pressures on them."""
 
     nodes: Indices
     pressure: Real
-    depth: float | None = None
+    depth: float | None = None  # that goes with them, about; None where it is not known [length]
 
 
 @dataclass(frozen=True)
 class Residuals:
-    """Violations of the contact conditions, recomputed from the returned pressures.
+    """Violations of the contact conditions, recomputed from the returned pressures."""
 
-    Attributes
-    ----------
-    gap, penetration : float
-        Largest gap where the bodies touch and overlap elsewhere, over the length scale.
-    tension, excess : float
-        How far pressures are below and above their bounds at most, over the pressure scale.
-    load : float
-        Error of the force, over the sum of the forces on all nodes; zero under depth control.
-    rounding : float
-        Spacing of floating-point numbers at the depth, over the length scale: smaller gaps are
-        lost in it.
-    """
-
+    # largest gap where the bodies touch, and overlap elsewhere, over the length scale
     gap: float = 0.0
     penetration: float = 0.0
+    # how far pressures are below and above their bounds at most, over the pressure scale
     tension: float = 0.0
     excess: float = 0.0
+    # error of the force, over the sum of the forces on all nodes; zero under depth control
     load: float = 0.0
+    # spacing of numbers at the depth, over the length scale: smaller gaps are lost in it
     rounding: float = 0.0
 
     @property
@@ -267,45 +203,24 @@ class Residuals:
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """State of the contact under one load.
+    """State of the contact under one load."""
 
-    Attributes
-    ----------
-    problem : Problem
-        The bodies, as this load leaves them: with the same separation if it leaves that as it was.
-    depth, force : float
-        Approach since first touch [length] and total force [force].
-    nodes : ndarray of int
-        Nodes under pressure, ascending flat indices.
-    pressure : ndarray, shape (nodes,)
-        Pressures on them. [pressure]
-    plastic, pulling : ndarray of bool, shape (nodes,)
-        Which of them are at the upper bound, and at a lower bound that is not zero. At the other
-        ones the bodies touch, and the pressure follows the load.
-    looked_at : GridNodes or None
-        The nodes that can touch, and the neighbours of the contact; None: all of the grid.
-    gaps : ndarray, shape (nodes looked at,)
-        Gaps there. [length]
-    residuals : Residuals
-        Violations of the contact conditions by the fields above.
-    outcome : Outcome
-        How the search ended.
-    convolutions : int
-        Convolutions spent on this load.
-    """
-
+    # the bodies, as this load leaves them: with the same separation if it leaves that as it was
     problem: Problem
-    depth: float
+    depth: float  # approach since first touch [length]
     force: float
-    nodes: Indices
+    nodes: Indices  # with a pressure, ascending flat indices
     pressure: Real
+    # which of them are at the upper bound, and at a lower bound that is not zero; at the other ones
+    # the bodies touch, and the pressure follows the load
     plastic: Mask
     pulling: Mask
+    # the nodes that can touch, and the neighbours of the contact; None: all of the grid
     looked_at: GridNodes | None
-    gaps: Real
+    gaps: Real  # there [length]
     residuals: Residuals
     outcome: Outcome
-    convolutions: int
+    convolutions: int  # spent on this load
 
     @property
     def touching(self) -> Mask:

@@ -28,36 +28,21 @@ _TURNS = 8  # at most, each of which computes the energy form afresh
 class Tangent:
     """Linear response of a contact to a change of load.
 
-    Attributes
-    ----------
-    stiffness : float
-        k = dF/dd; infinite in full contact of the periodic half-space, zero where no node is
-        elastic, NaN where the linear equations were not solved. [force / length]
-    pressure_per_force : ndarray, shape (nodes,)
-        dp/dF on the contact nodes; zero on nodes that are not elastic. [1 / area]
-    convolutions : int
-        Convolutions spent.
+    Its stiffness is infinite in full contact of the periodic half-space, zero where no node is
+    elastic, and NaN where the linear equations were not solved.
     """
 
-    stiffness: float
-    pressure_per_force: Real
-    convolutions: int = 0
+    stiffness: float  # k = dF/dd [force / length]
+    pressure_per_force: Real  # dp/dF on the contact nodes; zero where they are not elastic [1/area]
+    convolutions: int = 0  # spent
 
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """How a contact answers a change of load, further up and back down.
+    """How a contact answers a change of load; without yield both tangents are the same."""
 
-    Attributes
-    ----------
-    loading : Tangent
-        Under more load; nodes at the hardness bear no more.
-    unloading : Tangent
-        Under less load: all nodes spring back. Without yield that is the same.
-    """
-
-    loading: Tangent
-    unloading: Tangent
+    loading: Tangent  # under more load; nodes at the upper bound bear no more
+    unloading: Tangent  # under less load; all nodes spring back
 
     @property
     def convolutions(self) -> int:
@@ -75,17 +60,8 @@ def response(contact: Contact, start: tuple[Real, Real] | None, method: Method) 
     """Solve for the exact stiffness of a contact, on further loading and on unloading.
 
     Nodes at a bound bear no more on loading. On unloading, those at the upper one follow, too, as
-    their overlap stays in the surface.
-
-    Parameters
-    ----------
-    contact : Contact
-        The contact, whose set of nodes is held fixed.
-    start : tuple of ndarray, shape (nodes,), or None
-        Guesses of dp/dF on loading and on unloading, such as those of the load before; None: the
-        pressures themselves. [1 / area]
-    method : Method
-        The stiffness is sought to a hundredth of its tolerance.
+    their overlap stays in the surface. The start are guesses of dp/dF on loading and on unloading,
+    such as those of the load before; without any, it is the pressures themselves.
     """
     loading, unloading = start or (None, None)
     back = _tangent(contact, ~contact.pulling, unloading, method)

@@ -27,18 +27,7 @@ class Turns:
     """The search for the contact set and the pressures under one load.
 
     It holds what the next step needs and nothing else, so that the memory of a step is free for
-    the one after.
-
-    Parameters
-    ----------
-    problem : Problem
-        The bodies.
-    load : Load
-        What is prescribed.
-    start : ContactSet
-        Where to start from.
-    method : Method
-        Tolerance, bound on the convolutions and products together, and precision.
+    the one after. The bound on iterations is one on convolutions and products together.
     """
 
     def __init__(self, problem: Problem, load: Load, start: ContactSet, method: Method) -> None:

@@ -23,22 +23,12 @@ _HALVINGS = 5  # of a side, at most; there are few shapes, so that their tables 
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """A rectangle of the grid.
-
-    Attributes
-    ----------
-    problem : Problem
-        The bodies.
-    rows, columns : slice
-        The rectangle.
-    reach : float
-        All nodes are in it where the bodies, as they are now, are nearer than this. [length]
-    """
+    """A rectangle of the grid, which holds all nodes where the bodies are nearer than a reach."""
 
     problem: Problem
     rows: slice
     columns: slice
-    reach: float
+    reach: float  # beyond the least separation of the bodies as they are now [length]
 
     @classmethod
     def of(cls, problem: Problem, load: Load, start: ContactSet) -> Window:
