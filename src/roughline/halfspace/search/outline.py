@@ -9,9 +9,6 @@ import numpy as np
 from roughline.computing.arrays import Indices, Mask
 from roughline.halfspace.search.problem import Contact
 
-# Cells by which the area is overstated, for each pair of neighbours of which one is in contact.
-_PER_PAIR = (math.pi - 1 + math.log(2)) / 24
-
 # Gap beyond the outline over (pressure within it times spacing over E*). On a summit it is of order
 # one: 4/3 s^(3/2) / (1 - s)^(1/2) if the edge of the contact is at the share s of the way between
 # the two nodes. At the edge of a plateau, where the body itself falls away, it has no bound.
@@ -63,7 +60,8 @@ def overstated_cells(
             steep = (rising | ~loaded_too) & (gap > smooth)
             pairs += edge.size
             summits += edge.size - float((1 - smooth[steep] / gap[steep]).sum())
-    return _PER_PAIR * pairs, _PER_PAIR * summits
+    of_pair = (math.pi - 1 + math.log(2)) / 24
+    return of_pair * pairs, of_pair * summits
 
 
 def _neighbours(

@@ -18,7 +18,6 @@ from roughline.halfspace.search.problem import Contact, ContactSet, Load, Proble
 
 _ROOM = 2.0  # times the force that a window must be able to bear
 _SMALLEST = 32  # points along a side, where that has so many
-_HALVINGS = 5  # of a side, at most; there are few shapes, so that their tables serve again
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,9 +102,13 @@ class Window:
 
 
 def _side(places: Indices, points: int) -> slice:
-    """Return a part of a side, halved as often as may be, that holds points and neighbours."""
+    """Return a part of a side, halved as often as may be, that holds points and neighbours.
+
+    So there are few shapes, and their tables serve again.
+    """
     first, last = max(0, int(places[0]) - 1), min(points, int(places[-1]) + 2)
-    lengths = [-(-points // 2**k) for k in range(_HALVINGS, -1, -1)]
-    length = next(each for each in lengths if each >= min(points, max(last - first, _SMALLEST)))
+    length, least = points, max(last - first, _SMALLEST)
+    while (half := -(-length // 2)) >= least:
+        length = half
     start = min(max(0, first - (length - last + first) // 2), points - length)
     return slice(start, start + length)
