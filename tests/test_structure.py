@@ -4,13 +4,15 @@ import re
 from pathlib import Path
 
 import pytest
-from architecture import arrows, circles, import_graph, large_functions, rooms
-from seams import SOLVER, arrows_of_the_solver, arrows_up
+from architecture import SOURCE, arrows, circles, import_graph, large_functions, rooms
+from seams import SOLVER, arrows_of_the_solver, arrows_up, constants
 
 ROOT = Path(__file__).parents[1]
 MOST_ROOMS = 25
 MOST_ARROWS = 110
 LARGEST_SHARE = 0.15
+MOST_CONSTANTS_OF_THE_SOLVER = 53
+MOST_ARROWS_OF_THE_SOLVER = 86
 
 
 @pytest.fixture(scope="module")
@@ -38,6 +40,11 @@ def test_the_rooms_of_the_solver_import_downwards_also_for_types():
     graph = import_graph(for_types=True)
     assert arrows_up(arrows_of_the_solver(graph)) == []
     assert not [group for group in circles(graph) if any(f".{SOLVER}." in name for name in group)]
+
+
+def test_the_solver_has_few_constants_and_few_arrows_between_its_files():
+    assert len(constants(SOURCE / SOLVER)) <= MOST_CONSTANTS_OF_THE_SOLVER
+    assert len(arrows_of_the_solver(import_graph(for_types=True))) <= MOST_ARROWS_OF_THE_SOLVER
 
 
 def test_no_function_is_too_large():
