@@ -88,16 +88,16 @@ def test_working_memory_is_kept_unless_it_is_much_or_may_be_half_at_work(monkeyp
     workspace = kept._kept.workspace
     workspace.give_up()
     with working_memory():
-        grid = workspace.zeros("grid", (3, 4), float)
+        grid = workspace.array("grid", (3, 4), float)
     with working_memory():
-        assert np.shares_memory(workspace.zeros("grid", (2, 2), np.float32), grid)
+        assert np.shares_memory(workspace.array("grid", (2, 2), np.float32), grid)
     with pytest.raises(KeyboardInterrupt), working_memory():
         raise KeyboardInterrupt
     assert not workspace.nbytes
     monkeypatch.setattr(kept, "MUCH", 95)
     with working_memory():
-        workspace.zeros("grid", (3, 4), float)
-        workspace.zeros("grid", (2, 2), float)
+        workspace.array("grid", (3, 4), float)
+        workspace.array("grid", (2, 2), float)
         assert workspace.nbytes == 96
     assert not workspace.nbytes
 

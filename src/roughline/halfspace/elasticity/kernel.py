@@ -62,12 +62,8 @@ def _multipoles(dx: float, dy: float) -> Real:
     """Return the mean over a cell, whose longer side is one, of the terms of 1/r.
 
     1/r seen from (u, v) in the cell is the sum over even l of ``rho^l P_l(cos g) / r^(l+1)``, where
-    ``rho cos g = u cos t + v sin t`` in the direction t; odd terms have no mean.
-
-    Returns
-    -------
-    ndarray, shape (_MULTIPOLES + 1, _MULTIPOLES + 1)
-        Row k holds the factor of ``1/r^(2k+1)`` as a polynomial in cos² t.
+    ``rho cos g = u cos t + v sin t`` in the direction t; odd terms have no mean. Row k holds the
+    factor of ``1/r^(2k+1)`` as a polynomial in cos² t.
     """
     half_sides = dx / 2, dy / 2
     moments = [

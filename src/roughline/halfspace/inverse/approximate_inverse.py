@@ -36,33 +36,17 @@ _DIRECT = 300  # nodes or fewer, whose equations are solved directly
 
 @dataclass(frozen=True, eq=False)
 class ApproximateInverse:
-    """What the approximate inverses of an operator on all sets of nodes have in common.
-
-    Attributes
-    ----------
-    operator : Convolution
-        Displacement under pressures on the whole grid.
-    offsets, taps : ndarray, shapes (taps, 2) and (taps,)
-        Cells from the centre of the stencil, and its coefficients. All but the central one are
-        negative, and together they weigh less than it, so the stencil cut to any set of nodes is
-        positive definite. [pressure / length]
-    diagonal : float
-        Displacement of a node by the pressure on itself. [length / pressure]
-    block_sides : tuple of int
-        Cells along the sides of a block.
-    block_kernel : ndarray, shape of the lattice of blocks
-        The kernel averaged over two blocks, by their distance. [length / pressure]
-    restricted : RestrictedOperators
-        Forms of the operator that cost what the contact costs.
-    """
+    """What the approximate inverses of an operator on all sets of nodes have in common."""
 
     operator: Convolution
-    offsets: Indices
+    offsets: Indices  # cells from the centre of the stencil
+    # Of the stencil, in the same order. All but the central one are negative, and together they
+    # weigh less than it: the stencil cut to any set of nodes is positive definite.
     taps: Real
-    diagonal: float
-    block_sides: tuple[int, int]
-    block_kernel: Real
-    restricted: RestrictedOperators
+    diagonal: float  # displacement of a node by the pressure on itself
+    block_sides: tuple[int, int]  # in cells
+    block_kernel: Real  # averaged over two blocks, by their distance
+    restricted: RestrictedOperators  # forms of the operator that cost what the contact costs
 
     @classmethod
     def of(cls, operator: Convolution) -> ApproximateInverse:

@@ -38,7 +38,7 @@ class PaddedGrid:
     ) -> PaddedGrid:
         """Put a margin around a grid."""
         padded = shape[0] + 2 * margins[0], shape[1] + 2 * margins[1]
-        return cls(workspace.zeros("padded grid", padded, np.float32), margins)
+        return cls(workspace.array("padded grid", padded, np.float32), margins)
 
     def wrap(self) -> None:
         """Fill the margin with what lies a period away."""
@@ -58,15 +58,8 @@ class PaddedGrid:
 class CoarseGrid:
     """A smooth kernel on a coarse grid, between nodes of the fine one [1]_.
 
-    Attributes
-    ----------
-    convolution : Convolution
-        The kernel on the coarse grid.
-    weights : tuple of ndarray, shape (ratio, 4)
-        Weights of the four coarse rows around a row, by its place between two of them, and those
-        of the columns around a column.
-    periodic : bool
-        Whether pressures repeat themselves beyond the grid.
+    The weights are those of the four coarse rows around a row, by its place between two of them,
+    and those of the columns around a column.
     """
 
     convolution: Convolution
@@ -107,7 +100,7 @@ class CoarseGrid:
         """Return the displacement of the coarse nodes, and leave the pressures on a fine grid."""
         (nx, ny), beyond = self.convolution.shape, _BEYOND if self.periodic else 0
         spread, moved = (
-            self.convolution.workspace.empty(part, (nx + beyond, ny + beyond), np.float32)
+            self.convolution.workspace.array(part, (nx + beyond, ny + beyond), np.float32)
             for part in ("spread pressures", "coarse displacements")
         )
         lines = np.empty((sources.rows.size, spread.shape[1]), dtype=np.float32)

@@ -69,24 +69,8 @@ class Convolution:
     ) -> Real:
         """Return the displacement of some nodes, or of all, under the pressure on some nodes.
 
-        Pairs of few nodes are summed over; other displacements are transformed.
-
-        Parameters
-        ----------
-        pressure : ndarray
-            Pressures on the sources. [pressure]
-        sources, targets : GridNodes
-            Where the pressure acts, and where the displacement is wanted; None: everywhere.
-        precision : {"float64", "float32"}
-            Precision of the computation. Single precision errs by some 1e-7 of the largest
-            displacement.
-        out : ndarray, optional
-            Where to write the result.
-
-        Returns
-        -------
-        ndarray, shape of targets or (nx, ny)
-            Displacement. [length]
+        Pairs of few nodes are summed over; other displacements are transformed. Single precision
+        errs by some 1e-7 of the largest displacement.
         """
         if precision == "float32" and (unit := unit_in_single(pressure)) != 1:
             result = self.displacement(pressure / unit, sources, targets, precision, out)
@@ -154,7 +138,7 @@ class Convolution:
         period, spectrum = my // parts, self.spectrum[:, odd::parts]
         # two rows of the grid in each; longer than needed, as caches hold few rows 2^n apart
         rows, kind = (nx + 1) // 2, np.complex128 if precision == "float64" else np.complex64
-        modes = self.workspace.empty("rows", (rows, period + 8), kind)
+        modes = self.workspace.array("rows", (rows, period + 8), kind)
         real_modes = modes.view(modes.real.dtype).reshape(*modes.shape, 2)
         rows_out = np.arange(nx) if targets is None else targets.rows
         turns = np.exp(2j * np.pi / my * np.arange(ny)).astype(modes.dtype) if odd else None

@@ -19,24 +19,13 @@ class CorrectedOperator:
     The exact operator gives u_0 under p_0. What further changes of pressure add comes from a
     restricted operator R, or from the exact one itself, which then needs no p_0. A node is given
     by its place among these nodes.
-
-    Attributes
-    ----------
-    exact : Convolution
-        Displacement under pressures on the whole grid.
-    restricted : RestrictedOperator or None
-        R; None: the exact operator.
-    nodes : GridNodes or None
-        The nodes; None: all of the grid.
-    before, moved : ndarray, shape (nodes,), or None
-        p_0 and u_0; None: zero. [pressure] and [length]
     """
 
     exact: Convolution
-    restricted: RestrictedOperator | None = None
-    nodes: GridNodes | None = None
-    before: Real | None = None
-    moved: Real | None = None
+    restricted: RestrictedOperator | None = None  # R; None: the exact operator
+    nodes: GridNodes | None = None  # None: all of the grid
+    before: Real | None = None  # p_0, at the nodes; None: zero
+    moved: Real | None = None  # u_0
 
     @property
     def linear(self) -> Convolution | RestrictedOperator:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from roughline.computing import fft
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.operators.convolution import Convolution
@@ -19,24 +20,12 @@ def on_grid(
 ) -> Convolution:
     """Return the map from pressures to displacements on a grid.
 
-    Parameters
-    ----------
-    half_space : HalfSpace
-        The half-space.
-    shape : tuple of int
-        Points of the grid, (nx, ny).
-    spacing : tuple of float
-        Sides of a cell, (dx, dy). [length]
-    workspace : Workspace, optional
-        Memory to work in; default: of its own.
-
-    Raises
-    ------
-    InputError
-        If waves are not displaced by a positive, finite length.
+    It works in memory of its own, unless it is given some.
     """
-    make = _periodic if half_space.periodic else _free
-    return make(half_space, shape, spacing, workspace or Workspace())
+    transformed = _periodic if half_space.periodic else _free
+    spectrum, periods = transformed(half_space, shape, spacing)
+    workspace = workspace or Workspace()
+    return Convolution(shape, spacing, periods, spectrum, half_space, workspace)
 
 
 def coarser_grid(
@@ -55,13 +44,11 @@ def coarser_grid(
 
 
 def _free(
-    half_space: HalfSpace,
-    shape: tuple[int, int],
-    spacing: tuple[float, float],
-    workspace: Workspace,
-) -> Convolution:
-    """Load one rectangle, free around it: exactly so, as the period is twice the rectangle."""
-    mx, my = _padded(shape[0]), _padded(shape[1])
+    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+) -> tuple[Real, tuple[int, int]]:
+    """Return the quarter of a spectrum, and periods, of which the grid fills a half at most."""
+    # each at least twice a side; long ones can be halved three times
+    mx, my = (fft.good_size(2 * n, 8 if n >= 64 else 2) for n in shape)
     spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
 
     def fill(first: int, last: int) -> None:
@@ -77,21 +64,13 @@ def _free(
             f"{type(half_space).__name__}.kernel gives numbers that are not finite; a finite "
             "displacement under unit pressure on one cell is needed at all distances"
         )
-    return Convolution(shape, spacing, (mx, my), spectrum, half_space, workspace)
-
-
-def _padded(n: int) -> int:
-    """Return a period of at least twice a side; a long one can be halved three times."""
-    return fft.good_size(2 * n, 8 if n >= 64 else 2)
+    return spectrum, (mx, my)
 
 
 def _periodic(
-    half_space: HalfSpace,
-    shape: tuple[int, int],
-    spacing: tuple[float, float],
-    workspace: Workspace,
-) -> Convolution:
-    """Load periodically; an even pressure that displaces without bound is dropped."""
+    half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
+) -> tuple[Real, tuple[int, int]]:
+    """Return the same for sides that are periods; without a mean that has no bound."""
     qx, qy = (
         2 * np.pi / (n * side) * np.arange(n // 2 + 1)
         for n, side in zip(shape, spacing, strict=True)
@@ -109,4 +88,4 @@ def _periodic(
             f"{q[wrong][0]:g}; a positive, finite displacement over pressure is needed for each "
             "wave, and may be infinite at q = 0 alone"
         )
-    return Convolution(shape, spacing, shape, spectrum, half_space, workspace)
+    return spectrum, shape

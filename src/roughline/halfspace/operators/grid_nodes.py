@@ -19,27 +19,13 @@ _SMALL_IN_SINGLE = 1e-20  # single precision ends at 1e-38, and transforms divid
 
 @dataclass(frozen=True, eq=False)
 class GridNodes:
-    """Some nodes of a grid, listed row by row.
+    """Some nodes of a grid, listed row by row."""
 
-    Attributes
-    ----------
-    indices : ndarray of int
-        Flat indices in the grid, ascending.
-    rows : ndarray of int
-        The rows that hold any of the nodes, ascending.
-    starts : ndarray of int, shape (len(rows) + 1,)
-        Where each of these rows begins in `indices`.
-    columns : ndarray of int32
-        Column of each node.
-    shape : tuple of int
-        Points of the grid, (nx, ny).
-    """
-
-    indices: Indices
-    rows: Indices
-    starts: Indices
-    columns: NDArray[np.int32]
-    shape: tuple[int, int]
+    indices: Indices  # in the flat grid, ascending
+    rows: Indices  # that hold any of the nodes, ascending
+    starts: Indices  # where each of these rows begins among the nodes; one more follows
+    columns: NDArray[np.int32]  # of each node
+    shape: tuple[int, int]  # of the grid
 
     @classmethod
     def of(cls, indices: Indices, shape: tuple[int, int]) -> GridNodes:

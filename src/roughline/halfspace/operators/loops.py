@@ -85,21 +85,18 @@ def load_columns(
     columns, which are modes from `first` on. With `odd` one, mode j stands for the wavenumber
     2 j + 1, so that period - 1 - j is its opposite; with zero that is period - j.
     """
-    half = pairs.dtype.type(0.5)
+    half, none = pairs.dtype.type(0.5), np.empty_like(columns[0])
     columns[:] = 0
     for pair in range((rows.size + 1) // 2):
         z = pairs[pair]
         a = columns[rows[2 * pair]]
+        b = columns[rows[2 * pair + 1]] if 2 * pair + 1 < rows.size else none
         for j in range(columns.shape[1]):
             mirror = period - odd - first - j if first + j + odd else 0
             a[j, 0] = half * (z[first + j, 0] + z[mirror, 0])
             a[j, 1] = half * (z[first + j, 1] - z[mirror, 1])
-        if 2 * pair + 1 < rows.size:
-            b = columns[rows[2 * pair + 1]]
-            for j in range(columns.shape[1]):
-                mirror = period - odd - first - j if first + j + odd else 0
-                b[j, 0] = half * (z[first + j, 1] + z[mirror, 1])
-                b[j, 1] = half * (z[mirror, 0] - z[first + j, 0])
+            b[j, 0] = half * (z[first + j, 1] + z[mirror, 1])
+            b[j, 1] = half * (z[mirror, 0] - z[first + j, 0])
 
 
 @compiled

@@ -41,25 +41,13 @@ _SUMS_AT_A_TIME = 2**21  # near sums; for fewer, starting a thread does not pay
 
 @dataclass(frozen=True, eq=False)
 class RestrictedOperator:
-    """The displacement of some nodes under the pressure on some nodes, to a thousandth or so.
-
-    Attributes
-    ----------
-    far : CoarseGrid
-        The far part.
-    taps : ndarray, shape (2 radius + 1, 2 radius + 8)
-        The near part, by the distance in cells, followed by zeros. [length / pressure]
-    reach : ndarray of int
-        Columns to which each row of the near part reaches, to both sides.
-    shape, margins : tuple of int
-        Points of the grid, and cells of the margin around it on which pressures are laid out.
-    """
+    """The displacement of some nodes under the pressure on some nodes, to a thousandth or so."""
 
     far: CoarseGrid
-    taps: Single
-    reach: Indices
-    shape: tuple[int, int]
-    margins: tuple[int, int]
+    taps: Single  # the near part by the distance in cells, and seven zeros beside each row of it
+    reach: Indices  # columns to which each row of the near part reaches, to both sides
+    shape: tuple[int, int]  # of the grid
+    margins: tuple[int, int]  # cells around it, on which pressures are laid out
 
     @classmethod
     def of(

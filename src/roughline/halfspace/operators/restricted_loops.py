@@ -92,8 +92,7 @@ def add_near_and_far(
     """
     rows, columns, first_run, runs = nodes
     ratio, radius = weights[1].shape[0], near[0].shape[0] // 2
-    far = np.empty(coarse.shape[1], dtype=np.float32)
-    sums = np.empty(grid.shape[1], dtype=np.float32)
+    far, sums = np.empty_like(coarse[0]), np.empty_like(grid[0])
     flat, width = grid.reshape(-1), grid.shape[1]
     for k in range(block[0], block[1]):
         _interpolate_row(coarse, weights[0], rows[k], far)

@@ -30,13 +30,13 @@ class Workspace:
         """What it holds. [bytes]"""
         return sum(part.nbytes for part in self._parts.values())
 
-    def empty(self, part: str, shape: tuple[int, ...], dtype: Any) -> Any:
-        """Return a part as an array of any values."""
-        return self._taken(part, shape, dtype, np.empty)
-
-    def zeros(self, part: str, shape: tuple[int, ...], dtype: Any) -> Any:
-        """Return a part as an array of zeros, which is to be zero again after use."""
-        return self._taken(part, shape, dtype, np.zeros)
+    def array(self, part: str, shape: tuple[int, ...], dtype: Any) -> Any:
+        """Return the beginning of a part: zeros at first, then what its last user has left."""
+        size = math.prod(shape) * np.dtype(dtype).itemsize
+        if part not in self._parts or self._parts[part].nbytes < size:
+            self._parts.pop(part, None)  # before there is a larger one
+            self._parts[part] = np.zeros(size, dtype=np.uint8)
+        return self._parts[part][:size].view(dtype).reshape(shape)
 
     def give_up(self) -> None:
         """Give the memory back."""
@@ -46,11 +46,3 @@ class Workspace:
         """Give back what is much, as it is not needed for a while."""
         for part in [part for part, memory in self._parts.items() if memory.nbytes > MUCH]:
             del self._parts[part]
-
-    def _taken(self, part: str, shape: tuple[int, ...], dtype: Any, make: Any) -> Any:
-        """Return the beginning of a part, made anew where it is too small."""
-        size = math.prod(shape) * np.dtype(dtype).itemsize
-        if part not in self._parts or self._parts[part].nbytes < size:
-            self._parts.pop(part, None)  # before there is a larger one
-            self._parts[part] = make(size, dtype=np.uint8)
-        return self._parts[part][:size].view(dtype).reshape(shape)
