@@ -182,9 +182,7 @@ class _Path:
             return
         self._followed = contact.nodes, answer
         tangent = answer.loading if load.value > solved.load.value else answer.unloading
-        change = _change(contact, tangent, load)
-        if tangent.stiffness > 0 and abs(change) < _LARGEST_CHANGE * abs(contact.force):
-            self._start = _predicted(change, contact, tangent)
+        self._start = _predicted(contact, tangent, load)
 
 
 def _attainable(force: float, law: ContactLaw, cell_area: float) -> float:
@@ -231,16 +229,14 @@ def _unsearched(problem: Problem, load: Load, outcome: Outcome, loaded: int = 0)
     )
 
 
-def _change(contact: Contact, tangent: Tangent, load: Load) -> float:
-    """Return the change of force to a load; along the tangent, where the depth is given."""
-    if load.force is not None:
-        return load.force - contact.force
-    assert load.depth is not None
-    return tangent.stiffness * (load.depth - contact.depth)
-
-
-def _predicted(change: float, contact: Contact, tangent: Tangent) -> ContactSet:
-    """Follow the tangent to p + dF dp/dF, and find the nodes that are in contact then."""
+def _predicted(contact: Contact, tangent: Tangent, load: Load) -> ContactSet | None:
+    """Follow the tangent to p + dF dp/dF, and find the nodes in contact then; None if it is far."""
+    if load.force is None:
+        change = tangent.stiffness * (load.value - contact.depth)
+    else:
+        change = load.force - contact.force
+    if not (tangent.stiffness > 0 and abs(change) < _LARGEST_CHANGE * abs(contact.force)):
+        return None
     pressure = contact.pressure + change * tangent.pressure_per_force
     loaded = pressure > 0
     if not contact.problem.law.only_pushes:
