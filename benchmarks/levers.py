@@ -38,7 +38,7 @@ LEVERS = {
     "odd and even halves": ((convolution.Convolution, "_parts", lambda self, precision: 1),),
     "kept operators": ((kept, "_MOST_TABLES", 0),),
     "coarser grids": ((cascade, "_COARSEST", 10**6),),
-    "start along the tangent": ((path, "_LARGEST_CHANGE", 0.0),),
+    "start along the tangent": ((path, "_predicted", lambda *given: None),),
     "energy of the tangent's error": ((tangent, "_ENERGY_MARGIN", 1e-6),),
 }
 

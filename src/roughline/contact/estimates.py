@@ -23,19 +23,18 @@ from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.topography.body import Surface
 
-# Most memory that a path of loads held at any time beside the surface, as measured
-# (docs/memory-table.md): on grids without contact; of the contact, for each of its nodes; and of
-# the nodes watched near it, which are many where there is both contact and gap. [bytes per point]
-_BYTES = {False: (51, 46, 29), True: (34, 34, 23)}  # free, periodic; small, medium, large grids
-_SIDES = 1448, 2896  # points along a side: more are medium, and large
-_BYTES_OF_CONTACT = 131
-_BYTES_OF_WATCHED = {False: 60, True: 111}
-_SEVERAL = 1.14  # times as much of the contact where several loads follow each other
+# Beside what the operator is asked for: the separation, a trial's field and the coarser grids, on
+# each point; and what lists and vectors of the contact were measured to take, for each of its nodes
+# (docs/memory-table.md). Lists are long where steps are restricted to nodes near the contact; with
+# more contact than that there are vectors alone. [bytes]
+_BYTES_OF_A_POINT = 18
+_BYTES_NEAR_CONTACT = 210
+_BYTES_OF_MUCH_CONTACT = 70, 18  # on each point, and for each node in contact
 _BYTES_OF_FIELDS = {False: 26, True: 30}  # of one load, elastic and yielding
-_BYTES_OF_YIELD = 25
-_BYTES_OF_DENTS = 50  # for each node in contact
+_BYTES_OF_YIELD = 28  # where several loads leave a surface behind
+_BYTES_OF_DENTS = 30  # and for each node in contact
 _MARGIN = 1.15  # times as much, so that what is told covers what was measured
-_PROCESS_BYTES = 215_000_000  # of the interpreter and its libraries
+_PROCESS_BYTES = 225_000_000  # of the interpreter and its libraries
 _BYTES_OF_HEIGHTS = 8
 # Largest share in contact where it is not known: that at saturation, free and periodic.
 _SATURATED = 0.2
@@ -184,9 +183,11 @@ def bytes_at_a_point(
     shape: tuple[int, int], periodic: bool, share: float, *, yielding: bool, several: bool
 ) -> float:
     """Return what a press with this share in contact holds, over the points, as it was measured."""
-    size = sum(shape[0] * shape[1] > side**2 for side in _SIDES)
-    vectors = share * (_BYTES_OF_CONTACT + _BYTES_OF_WATCHED[periodic] * (1 - share))
-    held = _BYTES[periodic][size] + vectors * (_SEVERAL if several else 1.0)
+    from roughline.halfspace.operators.discretisation import bytes_on_grid
+
+    held = _BYTES_OF_A_POINT + bytes_on_grid(shape, periodic=periodic) / (shape[0] * shape[1])
+    at_least, more = _BYTES_OF_MUCH_CONTACT
+    held += min(_BYTES_NEAR_CONTACT * share, at_least + more * share)
     if yielding and several:  # the surface is kept as loads have left it
         held += _BYTES_OF_YIELD + _BYTES_OF_DENTS * share
     return held

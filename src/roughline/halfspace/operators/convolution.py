@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -118,6 +119,18 @@ class Convolution:
         large = self.shape[0] * self.periods[1] > _LARGE
         return 2 if padded and large and precision == "float64" else 1
 
+    def _rows(self, precision: Precision) -> tuple[int, int]:
+        """Return how many complex rows are transformed, two of the grid in each, and their length.
+
+        They are longer than needed, as caches hold few rows that are a power of two apart.
+        """
+        return (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision) + 8
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of the spectrum, and of what a product in double precision works in. [bytes]"""
+        return self.spectrum.nbytes + 16 * math.prod(self._rows("float64"))
+
     def _transform(
         self,
         pressure: Real,
@@ -136,9 +149,8 @@ class Convolution:
         """
         (nx, ny), (mx, my), parts = self.shape, self.periods, self._parts(precision)
         period, spectrum = my // parts, self.spectrum[:, odd::parts]
-        # two rows of the grid in each; longer than needed, as caches hold few rows 2^n apart
-        rows, kind = (nx + 1) // 2, np.complex128 if precision == "float64" else np.complex64
-        modes = self.workspace.array("rows", (rows, period + 8), kind)
+        kind = np.complex128 if precision == "float64" else np.complex64
+        modes = self.workspace.array("rows", self._rows(precision), kind)
         real_modes = modes.view(modes.real.dtype).reshape(*modes.shape, 2)
         rows_out = np.arange(nx) if targets is None else targets.rows
         turns = np.exp(2j * np.pi / my * np.arange(ny)).astype(modes.dtype) if odd else None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from roughline.computing import fft
@@ -28,6 +30,16 @@ def on_grid(
     return Convolution(shape, spacing, periods, spectrum, half_space, workspace)
 
 
+def bytes_on_grid(shape: tuple[int, int], *, periodic: bool) -> int:
+    """Return what the operator on a grid holds at work, and a field of pressures in single. [bytes]
+
+    It is asked of an operator that has no memory of its own yet.
+    """
+    periods = shape if periodic else _padded(shape)
+    spectrum = np.broadcast_to(0.0, tuple(period // 2 + 1 for period in periods))
+    return Convolution(shape, (1.0, 1.0), periods, spectrum).nbytes + 4 * math.prod(shape)
+
+
 def coarser_grid(
     shape: tuple[int, int], spacing: tuple[float, float], *, periodic: bool
 ) -> tuple[tuple[int, int], tuple[float, float]]:
@@ -43,12 +55,17 @@ def coarser_grid(
     return (mx, my), (dx * min(nx, 2), dy * min(ny, 2))
 
 
+def _padded(shape: tuple[int, int]) -> tuple[int, int]:
+    """Return periods of at least twice the sides; long ones can be halved three times."""
+    mx, my = (fft.good_size(2 * n, 8 if n >= 64 else 2) for n in shape)
+    return mx, my
+
+
 def _free(
     half_space: HalfSpace, shape: tuple[int, int], spacing: tuple[float, float]
 ) -> tuple[Real, tuple[int, int]]:
     """Return the quarter of a spectrum, and periods, of which the grid fills a half at most."""
-    # each at least twice a side; long ones can be halved three times
-    mx, my = (fft.good_size(2 * n, 8 if n >= 64 else 2) for n in shape)
+    mx, my = _padded(shape)
     spectrum = np.empty((mx // 2 + 1, my // 2 + 1))
 
     def fill(first: int, last: int) -> None:

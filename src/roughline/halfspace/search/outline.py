@@ -13,7 +13,6 @@ from roughline.halfspace.search.problem import Contact
 # one: 4/3 s^(3/2) / (1 - s)^(1/2) if the edge of the contact is at the share s of the way between
 # the two nodes. At the edge of a plateau, where the body itself falls away, it has no bound.
 _STEEP = 2.0
-_ALIKE = 1e-6  # pressures that differ by no more than this part are alike
 _STEEP_ALONE = 20.0  # where the contact is one cell wide, so that there is no inner pressure
 
 
@@ -54,7 +53,7 @@ def overstated_cells(
             loaded_too &= touching.flat[within]
             rising = np.zeros(edge.size, dtype=bool)
             inner = np.searchsorted(contact.nodes, within[loaded_too])
-            rising[loaded_too] = edge[loaded_too] > contact.pressure[inner] * (1 + _ALIKE)
+            rising[loaded_too] = edge[loaded_too] > contact.pressure[inner] * (1 + 1e-6)
             rising |= contact.plastic[at]  # the body is cut off there, as at the edge of a plateau
             smooth = edge * spacing[axis] * np.where(loaded_too, _STEEP, _STEEP_ALONE)
             steep = (rising | ~loaded_too) & (gap > smooth)

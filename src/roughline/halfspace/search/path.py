@@ -30,9 +30,6 @@ from roughline.halfspace.search.tangent import Response, Tangent, response
 from roughline.halfspace.search.turns import Turns
 from roughline.halfspace.search.window import Window
 
-# Where the force changes by more than this, over the force so far, coarser grids guess better than
-# the tangent.
-_LARGEST_CHANGE = 1.0
 _SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 
 
@@ -235,7 +232,8 @@ def _predicted(contact: Contact, tangent: Tangent, load: Load) -> ContactSet | N
         change = tangent.stiffness * (load.value - contact.depth)
     else:
         change = load.force - contact.force
-    if not (tangent.stiffness > 0 and abs(change) < _LARGEST_CHANGE * abs(contact.force)):
+    # where the force changes by more than itself, coarser grids guess better than the tangent
+    if not (tangent.stiffness > 0 and abs(change) < abs(contact.force)):
         return None
     pressure = contact.pressure + change * tangent.pressure_per_force
     loaded = pressure > 0

@@ -21,7 +21,6 @@ from roughline.halfspace.search.problem import Contact, Method, Problem
 # error, and the bound on it is this part of the tolerance on residuals.
 _ENERGY_MARGIN = 0.01
 _SLOW = 0.01  # where a turn of a restricted operator gains more of the turn before, it is given up
-_TURNS = 8  # at most, each of which computes the energy form afresh
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +103,7 @@ def _solve(problem: Problem, nodes: GridNodes, pressure: Real, method: Method) -
     operator = CorrectedOperator(problem.operator, restricted, nodes)
     patch = Patch(operator.linear, problem.inverse, nodes)
     accuracy, gained, convolutions = _ENERGY_MARGIN * method.rtol, np.nan, 0
-    for turn in range(_TURNS):
+    for turn in range(8):  # each computes the energy form afresh; two or three are enough
         # 1. The turn is exact but for a first one with a restricted operator.
         exact = turn > 0 or operator.restricted is None
         if exact and operator.restricted is not None:

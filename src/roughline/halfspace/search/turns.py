@@ -20,7 +20,6 @@ from roughline.halfspace.search.region import REACH, Region, Trial
 
 _GAIN = 2e-3  # of residuals by a search near the contact, and what its operator leaves, about
 _NEARER = 30.0  # reach of later searches, which leave a smaller error than they find
-_PRODUCTS = 200  # with the restricted operator in one search, at most; a sound one takes some 20
 
 
 class Turns:
@@ -59,7 +58,7 @@ class Turns:
     def guess(self) -> ContactSet:
         """Return a contact that is found roughly, by one search and with no certificate."""
         trial = self._trial(self._method.steps)
-        near = trial.region.near(trial, REACH) or self._everywhere(trial.contact_set)
+        near = self._near_contact(trial, REACH) or self._everywhere(trial.contact_set)
         return Search(*near, self._load, self._method).found()[0].contact_set
 
     def _seen(self, precision: Precision) -> Contact | None:
@@ -73,7 +72,7 @@ class Turns:
         self._start = trial.contact_set
         self._worst = self._worst_near = trial.residuals.worst
         helped = self._worst < 0.5 * before
-        self._near = trial.region.near(trial, REACH) if helped and self._left > 1 else None
+        self._near = self._near_contact(trial, REACH) if helped and self._left > 1 else None
         return None
 
     def _trial(self, precision: Precision) -> Trial:
@@ -99,8 +98,7 @@ class Turns:
     def _refine(self) -> bool:
         """Search near the contact, and look there; return whether that serves once more."""
         method, worst = self._method, self._worst_near
-        # 1. Search with the restricted operator, while the exact one rests.
-        self._problem.operator.workspace.rest()
+        # 1. Search with the restricted operator.
         target = max(_GAIN * worst, AIM * method.rtol)
         region, carriers = self._searched_near(target)
         expected = max(target, _GAIN * worst)
@@ -113,13 +111,19 @@ class Turns:
         self._convolutions += 1
         self._start, self._worst_near = trial.contact_set, trial.residuals.worst
         if self._worst_near < 0.5 * worst:
-            self._near = region.near(trial, _NEARER)
+            self._near = self._near_contact(trial, _NEARER)
         return self._near is not None
+
+    def _near_contact(self, trial: Trial, reach: float) -> tuple[Region, Carriers] | None:
+        """Return the nodes near the contact of a trial, while the exact operator rests."""
+        self._problem.operator.workspace.rest()
+        return trial.region.near(trial, reach)
 
     def _searched_near(self, target: float) -> tuple[Region, Carriers]:
         """Search among the nodes near the contact, to a target, and return what is found there."""
         assert self._near is not None
-        rough = Method(target, max(1, min(self._left - 1, _PRODUCTS)), "float32")
+        most = max(1, min(self._left - 1, 200))  # a sound search takes some 20 products
+        rough = Method(target, most, "float32")
         search = Search(*self._near, self._load, rough)
         self._near = None
         found, _ = search.found()
