@@ -71,7 +71,10 @@ def share_out_blocks(work: Callable[[int, int], None], count: int, size: int) ->
 
     The blocks are the same whatever the number of threads.
     """
-    share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
+    if 0 < count <= size:
+        work(0, count)
+    else:
+        share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
 
 
 @cache

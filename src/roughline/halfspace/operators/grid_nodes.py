@@ -59,14 +59,16 @@ class GridNodes:
         For each run: its first node, the node after its last one, and the columns that it takes,
         rounded up. Neighbours in a run are no further apart than that.
         """
-        is_last = np.ones(self.columns.size, dtype=bool)
-        is_last[:-1] = np.diff(self.columns) > ROUNDING
+        columns, is_last = self.columns, np.ones(self.columns.size, dtype=bool)
+        is_last[:-1] = columns[1:] - columns[:-1] > ROUNDING
         is_last[self.starts[1:] - 1] = True
-        ends = np.flatnonzero(is_last) + 1
-        begins = np.append(0, ends)[:-1]
-        widths = (self.columns[ends - 1] - self.columns[begins]) // ROUNDING * ROUNDING + ROUNDING
-        runs = np.stack([begins, ends, widths], axis=1).astype(np.int32)
-        return np.searchsorted(begins, self.starts), runs
+        last = np.flatnonzero(is_last)
+        first = np.zeros_like(last)
+        first[1:] = last[:-1] + 1
+        runs = np.empty((last.size, 3), dtype=np.int32)
+        runs[:, 0], runs[:, 1] = first, last + 1
+        runs[:, 2] = (columns[last] - columns[first]) // ROUNDING * ROUNDING + ROUNDING
+        return first.searchsorted(self.starts), runs
 
 
 def unit_in_single(values: Real) -> float:
