@@ -11,7 +11,7 @@ from roughline.computing import fft
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.inverse import kept
 from roughline.halfspace.inverse.approximate_inverse import ApproximateInverse
-from roughline.halfspace.operators import coarse_grid, convolution
+from roughline.halfspace.operators import coarse_grid, convolution, restricted
 from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
@@ -19,6 +19,13 @@ from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.restricted import RestrictedOperator, RestrictedOperators
 from roughline.halfspace.search.region import Region
 from roughline.halfspace.search.turns import Turns
+
+
+@pytest.fixture(autouse=True)
+def _on_small_grids(monkeypatch):
+    """Restrict the operator of small grids as well."""
+    monkeypatch.setattr(restricted, "_SMALL", 0)
+    monkeypatch.setattr(kept._kept, "inverses", {})
 
 
 def contact_nodes(shape, seed, part):

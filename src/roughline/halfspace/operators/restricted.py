@@ -16,6 +16,7 @@ References
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,6 +37,7 @@ _RADIUS = 2.25  # of the near part, in cells of the coarse grid
 # which they serve best.
 _SIDES = (8, 0.025), (4, 0.35), (2, 0.6)
 _REACH = int(_RADIUS * _SIDES[0][0])  # of the near part, at most
+_SMALL = 2**14  # points, up to which all of the grid is transformed in less time
 _SUMS_AT_A_TIME = 2**21  # near sums; for fewer, starting a thread does not pay
 
 
@@ -151,6 +153,7 @@ def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
         rx, ry = (side * 2 ** round(np.log2(max(dx, dy) / each)) for each in (dx, dy))
         radius = _RADIUS * max(rx * dx, ry * dy) / min(dx, dy)
         divide = operator.periods[0] % rx == operator.periods[1] % ry == 0
-        if min(operator.shape) >= 64 and divide and radius < _REACH + 1:
+        large = min(operator.shape) >= 64 and math.prod(operator.shape) > _SMALL
+        if large and divide and radius < _REACH + 1:
             possible.append(((rx, ry), share))
     return possible
