@@ -10,6 +10,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from typing import Any
 
 import ducc0.fft
 import numpy as np
@@ -126,6 +127,24 @@ def synthesise(half_spectrum: Complex, n: int) -> Real:
     """Return the real values of a Hermitian spectrum that is stored for q >= 0 on the last axis."""
     axes = tuple(range(half_spectrum.ndim))
     return ducc0.fft.c2r(half_spectrum, axes=axes, lastsize=n, forward=False, nthreads=1)
+
+
+def convolved(values: Any, half_spectrum: Any, periods: tuple[int, int]) -> Any:
+    """Convolve real values over a plane, and crop the result to them, by one thread.
+
+    Values are padded with zeros up to the periods; rows of zeros are not transformed. The spectrum
+    is that of the kernel, for q >= 0 on the last axis, over the product of the periods.
+    """
+    (nx, ny), (mx, my) = values.shape, periods
+    rows = np.zeros((nx, my), dtype=values.dtype)
+    rows[:, :ny] = values
+    modes = np.zeros((mx, my // 2 + 1), dtype=np.result_type(values.dtype, np.complex64))
+    ducc0.fft.r2c(rows, axes=(1,), out=modes[:nx], nthreads=1)
+    fft_columns(modes, forward=True)
+    modes *= half_spectrum
+    fft_columns(modes, forward=False)
+    ducc0.fft.c2r(modes[:nx], axes=(1,), lastsize=my, forward=False, out=rows, nthreads=1)
+    return rows[:, :ny]
 
 
 def synthesise_line(line: Real) -> None:

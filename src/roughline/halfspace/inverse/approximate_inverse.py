@@ -198,11 +198,8 @@ class _TwoLevels:
 
     def _even(self, sums: Real) -> Real:
         """Return the pressure on the nodes of each block, from the sums of their residuals."""
-        (mx, my), (spectrum, periods) = sums.shape, self._block_inverse
-        padded = np.zeros(periods)
-        padded[:mx, :my] = sums * self._scale
-        modes = fft.half_spectrum(padded) * spectrum
-        return fft.synthesise(modes, periods[1])[:mx, :my] * self._scale
+        pressure: Real = fft.convolved(sums * self._scale, *self._block_inverse)
+        return pressure * self._scale
 
     def __call__(self, residual: Real) -> Real:
         """Return the change of pressure that causes the displacement `residual`, about."""

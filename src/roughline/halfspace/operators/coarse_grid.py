@@ -128,13 +128,9 @@ class CoarseGrid:
 
     def _convolved(self, pressure: Single, out: Single) -> Single:
         """Convolve on the coarse grid; all is in single precision, whatever the types say."""
-        (nx, ny), periods = self.convolution.shape, self.convolution.periods
+        periods = self.convolution.periods
         if periods[0] * periods[1] <= _SMALL:
-            padded: Any = np.zeros(periods, dtype=np.float32)
-            padded[:nx, :ny] = pressure
-            modes: Any = fft.half_spectrum(padded)
-            modes *= self._half_spectrum
-            out[:] = fft.synthesise(modes, periods[1])[:nx, :ny]
+            out[:] = fft.convolved(pressure, self._half_spectrum, periods)
             return out
         values: Any = pressure.ravel()
         result: Any = out

@@ -24,30 +24,16 @@ _LARGE = 2**22  # points of the padded rows, from which on memory counts
 class Convolution:
     """Displacement of the surface under the pressures on a grid, computed by Fourier transforms.
 
-    Attributes
-    ----------
-    shape : tuple of int
-        Points of the grid, (nx, ny).
-    spacing : tuple of float
-        Sides of a cell, (dx, dy). [length]
-    periods : tuple of int
-        Points of the transform: twice the grid or more (free), the grid itself (periodic).
-    spectrum : ndarray, shape (periods[0] // 2 + 1, periods[1] // 2 + 1)
-        Eigenvalues of the convolution over ``periods[0] * periods[1]``, the normalisation of the
-        two transforms. The kernel is even in x and y, so the spectrum is real and even, and a
-        quarter of it is stored. [length / pressure]
-    half_space : HalfSpace or None
-        Whose convolution it is; None for another kernel, of which the spectrum is all that there
-        is.
-    workspace : Workspace
-        Memory to work in.
+    The periods of the transform are twice the grid or more (free), or the grid itself (periodic).
+    The spectrum holds the eigenvalues over their product, the normalisation of the two transforms.
+    The kernel is even in x and y, so the spectrum is real and even, and a quarter of it is stored.
     """
 
     shape: tuple[int, int]
-    spacing: tuple[float, float]
+    spacing: tuple[float, float]  # sides of a cell [length]
     periods: tuple[int, int]
-    spectrum: Real
-    half_space: HalfSpace | None = None
+    spectrum: Real  # shape (periods[0] // 2 + 1, periods[1] // 2 + 1) [length / pressure]
+    half_space: HalfSpace | None = None  # None: another kernel, of which there is the spectrum only
     workspace: Workspace = field(default_factory=Workspace, repr=False)
 
     @property
@@ -71,7 +57,8 @@ class Convolution:
         """Return the displacement of some nodes, or of all, under the pressure on some nodes.
 
         Pairs of few nodes are summed over; other displacements are transformed. Single precision
-        errs by some 1e-7 of the largest displacement.
+        errs by some 1e-7 of the largest displacement. The result may be written to `out`, which is
+        not the memory of the pressures.
         """
         if precision == "float32" and (unit := unit_in_single(pressure)) != 1:
             result = self.displacement(pressure / unit, sources, targets, precision, out)

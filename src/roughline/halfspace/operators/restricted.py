@@ -33,12 +33,12 @@ from roughline.halfspace.operators.loops import ROUNDING
 
 _WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
 _RADIUS = 2.25  # of the near part, in cells of the coarse grid
-# Cells along the side of a coarse cell, where these are square, and the part of the grid up to
-# which they serve best.
-_SIDES = (8, 0.025), (4, 0.35), (2, 0.6)
+# Cells along the side of a coarse cell, where these are square, and up to which part of the grid
+# they serve best.
+_SIDES = (8, 0.025), (4, 0.35), (2, 1.0)
+_MOST = 0.15  # part of the grid for each mode a point, up to which the exact operator takes longer
 _REACH = int(_RADIUS * _SIDES[0][0])  # of the near part, at most
-_SMALL = 2**14  # points, up to which all of the grid is transformed in less time
-_SUMS_AT_A_TIME = 2**21  # near sums; for fewer, starting a thread does not pay
+_SMALL = 2**16  # modes, up to which it takes less in any case
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +112,8 @@ class RestrictedOperator:
             parts = grid.values, grid.margins, near, *far, nodes, (first, last), result
             loops.add_near_and_far(*parts)
 
-        rows_at_a_time = targets.rows_of(_SUMS_AT_A_TIME // self.taps.size)
+        # for fewer near sums, starting a thread does not pay
+        rows_at_a_time = targets.rows_of(2**21 // self.taps.size)
         fft.share_out_blocks(add, targets.rows.size, rows_at_a_time)
         grid.clear(sources, wrapped=self.far.periodic)
         return np.multiply(result, unit, dtype=np.float64)
@@ -149,11 +150,12 @@ class RestrictedOperators:
 def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
     """List possible coarse cells, about square, and up to which part of the grid they serve."""
     (dx, dy), possible = operator.spacing, []
+    most = _MOST * math.prod(operator.periods) / math.prod(operator.shape)
     for side, share in _SIDES:
         rx, ry = (side * 2 ** round(np.log2(max(dx, dy) / each)) for each in (dx, dy))
         radius = _RADIUS * max(rx * dx, ry * dy) / min(dx, dy)
         divide = operator.periods[0] % rx == operator.periods[1] % ry == 0
-        large = min(operator.shape) >= 64 and math.prod(operator.shape) > _SMALL
+        large = min(operator.shape) >= 64 and math.prod(operator.periods) > _SMALL
         if large and divide and radius < _REACH + 1:
-            possible.append(((rx, ry), share))
+            possible.append(((rx, ry), min(share, most)))
     return possible

@@ -54,28 +54,12 @@ class Search:
     """The search for the sets of nodes and the pressures under one load.
 
     It holds what the next round needs and nothing else, so that the memory of a round is free for
-    the one after.
-
-    Parameters
-    ----------
-    region : Region
-        The nodes among which they are sought, and the operator.
-    carriers : Carriers
-        Where to start from, with pressures within their bounds.
-    load : Load
-        What is prescribed.
-    method : Method
-        Tolerance, bound on the products and precision.
-
-    Attributes
-    ----------
-    products : int
-        Products with the operator so far.
+    the one after. It starts from carriers with pressures within their bounds.
     """
 
     def __init__(self, region: Region, carriers: Carriers, load: Load, method: Method) -> None:
         self.region = region
-        self.products = 0
+        self.products = 0  # with the operator, so far
         self._load = load
         self._method = method
         self._rule = _ExchangeRule(region.separation.size)

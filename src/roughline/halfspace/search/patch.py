@@ -118,23 +118,26 @@ class ConjugateGradients:
 
     def advance(self) -> bool:
         """Do one step; return False if there is nothing more to gain."""
-        # 1. The displacement that the direction causes, by one convolution.
+        before = self.energy
+        if not self._goes():
+            return False
+        # the new direction is conjugate to this one
+        step, self.energy = self._projected()
+        self._direction *= self.energy / before
+        self._direction += step
+        return True
+
+    def _goes(self) -> bool:
+        """Go along the direction to the least energy; return whether there is any to gain."""
         response, watched = self._patch.displacement(self._direction, self._precision)
         curvature = float(self._direction @ response)
         if not (curvature > 0 and self.energy > 0):
             return False
-        # 2. Go along it to the least energy.
         length = self.energy / curvature
         self.pressure += length * self._direction
         self.watched += length * watched
         response *= length
         self.error -= response
-        del response, watched
         self.steps += 1
         self.gained += length * self.energy
-        # 3. The new direction is conjugate to this one.
-        before = self.energy
-        step, self.energy = self._projected()
-        self._direction *= self.energy / before
-        self._direction += step
         return True
