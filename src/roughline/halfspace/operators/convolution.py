@@ -114,7 +114,7 @@ class Convolution:
         return (self.shape[0] + 1) // 2, self.periods[1] // self._parts(precision) + 8
 
     @property
-    def nbytes(self) -> int:
+    def bytes_at_work(self) -> int:
         """Memory of the spectrum, and of what a product in double precision works in. [bytes]"""
         return self.spectrum.nbytes + 16 * math.prod(self._rows("float64"))
 

@@ -37,7 +37,7 @@ def bytes_on_grid(shape: tuple[int, int], *, periodic: bool) -> int:
     """
     periods = shape if periodic else _padded(shape)
     spectrum = np.broadcast_to(0.0, tuple(period // 2 + 1 for period in periods))
-    return Convolution(shape, (1.0, 1.0), periods, spectrum).nbytes + 4 * math.prod(shape)
+    return Convolution(shape, (1.0, 1.0), periods, spectrum).bytes_at_work + 4 * math.prod(shape)
 
 
 def coarser_grid(
