@@ -17,6 +17,7 @@ from roughline.halfspace.inverse import approximate_inverse, kept
 from roughline.halfspace.operators import convolution
 from roughline.halfspace.operators.restricted import RestrictedOperators
 from roughline.halfspace.search import cascade, path, tangent
+from roughline.halfspace.search.problem import Method
 
 
 class StencilAlone(approximate_inverse._TwoLevels):
@@ -39,6 +40,7 @@ LEVERS = {
     "kept operators": ((kept, "_MOST_TABLES", 0),),
     "coarser grids": ((cascade, "_COARSEST", 10**6),),
     "start along the tangent": ((path, "_predicted", lambda *given: None),),
+    "single precision of the steps": ((Method, "steps", property(lambda self: "float64")),),
     "energy of the tangent's error": ((tangent, "_ENERGY_MARGIN", 1e-6),),
 }
 
