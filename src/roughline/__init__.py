@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from roughline.engineering.materials import Material as Material
     from roughline.engineering.materials import material as material
     from roughline.engineering.pair import contact_modulus as contact_modulus
+    from roughline.engineering.rule import Rule as Rule
+    from roughline.engineering.rules import rules as rules
     from roughline.errors import ClusterError as ClusterError
     from roughline.errors import ContinuumWarning as ContinuumWarning
     from roughline.errors import ConvergenceError as ConvergenceError
@@ -86,6 +88,8 @@ _HOMES = {
     "material": "engineering.materials",
     "contact_modulus": "engineering.pair",
     "Material": "engineering.materials",
+    "Rule": "engineering.rule",
+    "rules": "engineering.rules",
     "Curve": "contact.curve",
     "Fields": "contact.curve",
     "Status": "contact.status",

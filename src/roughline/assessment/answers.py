@@ -6,17 +6,14 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.hardness import hardness_of
 from roughline.assessment.kinds import has_spectrum
 from roughline.assessment.larger_surface import LargerSurface, stiffness_of_the_piece
 from roughline.assessment.misfit import strains
-from roughline.engineering.answer import Answer
-from roughline.engineering.answers import answers
 from roughline.engineering.formulas import plasticity_index
 from roughline.engineering.intervals import Ends, Intervals
-from roughline.engineering.joint import of_joint
-from roughline.engineering.limits import elastic_warnings
-from roughline.engineering.pair import MaterialPair
-from roughline.engineering.symbols import with_own_symbols
+from roughline.engineering.pressed import Interface, Pressed
+from roughline.engineering.rules import rules
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments, moments
 from roughline.spectra.roughness import ALIKE
@@ -46,13 +43,13 @@ def with_answers(
     spectrum : Moments or None
         Of the body.
     """
-    pair = result.question.pair
-    if pair is None:
+    if result.question.pair is None:
         return result
-    interface = _interface_stiffness(result, larger)
-    given = _answers(result, pair, interface, result.intervals_as_asked, spectrum)
+    intervals = result.intervals_as_asked
+    interface = _interface(result, larger)
+    given, left_out = rules.answers(_pressed(result, interface, intervals, spectrum))
     larger = None if larger is None else larger.at(result.asked)
-    return replace(result, answers=given, larger=larger)
+    return replace(result, answers=given, left_out=left_out, larger=larger)
 
 
 def ends_from_many(
@@ -69,43 +66,48 @@ def ends_from_many(
     with_grid : bool
         Whether the ends hold what the grid leaves open as well.
     """
-    pair, larger, curve = result.question.pair, result.larger, result.curve_as_asked
-    if larger is None or pair is None or curve.area_fraction_corrected is None:
+    larger, curve = result.larger, result.curve_as_asked
+    if larger is None or not result.answers or curve.area_fraction_corrected is None:
         return {}
     larger = larger.from_many(curve.area_fraction_corrected, further, with_grid=with_grid)
     intervals = result.intervals_as_asked if with_grid else None
     if result.question.joint is not None:  # the map is pressed as a part of the larger one
         known = curve if with_grid else replace(curve, stiffness_error=None)
         intervals = larger.intervals(known)
-    given = _answers(result, pair, larger.stiffness, intervals, surface_moments(result.body))
+    pressed = _pressed(result, larger.stiffness, intervals, surface_moments(result.body))
+    given, _ = rules.answers(pressed)
     return {key: each.ends for key, each in given.items() if each.ends is not None}
 
 
-def _answers(
+def _pressed(
     result: Assessment,
-    pair: MaterialPair,
-    interface_stiffness: Answer | None,
+    interface: Interface | None,
     intervals: Intervals | None,
     spectrum: Moments | None,
-) -> dict[str, Answer]:
-    """What follows from the curve by its key, with intervals as they are given."""
-    given = answers(
-        result.curve_as_asked,
+) -> Pressed:
+    """What the rules of the answers are given."""
+    question, curve = result.question, result.curve_as_asked
+    pair, hardness = question.pair, hardness_of(question)
+    assert pair is not None
+    return Pressed(
+        curve,
         result.area,
         pair,
-        interface_stiffness=interface_stiffness,
-        amplitudes=(result.body.rms_height, spectrum.rms_slope if spectrum else None),
-        frequency=result.question.frequency_in_hertz,
+        joint=question.joint,
+        interface=interface,
+        rms_height=result.body.rms_height,
+        rms_slope=spectrum.rms_slope if spectrum else None,
+        frequency=question.frequency_in_hertz,
         intervals=intervals,
+        hardest=hardness.ends[1] if hardness is not None and curve.hardness is not None else None,
+        has_depths=bool(question.depths),
+        fields=result.fields,
     )
-    if result.question.joint is not None:
-        given = of_joint(given, result.area, result.question.joint)
-    return {each.key: each for each in with_own_symbols(given)}
 
 
 def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
-    """Say where an assumption breaks, and which surface k_i belongs to."""
-    question, body, pair = result.question, result.body, result.question.pair
+    """Say where an assumption breaks, and what is to be said with the answers."""
+    question, body = result.question, result.body
     broken = []
     if body.rms_slope > _STEEP:
         broken.append(
@@ -118,30 +120,35 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
             f"{text}: bodies that are strained so far are not linear elastic, and no interval "
             "includes that"
         )
-    if pair is not None and result.curve.hardness is None:
-        index = None
-        if spectrum is not None and pair.hardness is not None:
-            summits = spectrum.summit_deviation, spectrum.summit_radius
-            index = plasticity_index(result.curve.E_star, pair.hardness, summits)
-        broken += elastic_warnings(result.answers, index)
+    if (index := _plasticity(result, spectrum)) > 1:
+        broken.append(
+            f"the plasticity index is {decimal(index, 2)}, over 1: summits yield at first touch; "
+            "under repeated loads they deform elastically about their flattened shape"
+        )
     if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
         broken.append(
             "theories assume an isotropic surface, and the rms slope depends on direction: the "
             f"least is {alike:.2f} of the largest"
         )
-    if "interface_stiffness" in result.answers:
-        validity = result.answers["interface_stiffness"].validity
-        broken.append(f"the interface stiffness k_i is {validity}")
-    return broken
+    return broken + [each.warning for each in result.answers.values() if each.warning]
 
 
-def _interface_stiffness(result: Assessment, larger: LargerSurface | None) -> Answer | None:
+def _plasticity(result: Assessment, spectrum: Moments | None) -> float:
+    """Greenwood and Williamson's index, where summits are not given a hardness; else zero."""
+    pair = result.question.pair
+    if pair is None or pair.hardness is None or spectrum is None or result.curve.hardness:
+        return 0.0
+    summits = spectrum.summit_deviation, spectrum.summit_radius
+    return plasticity_index(result.curve.E_star, pair.hardness, summits)
+
+
+def _interface(result: Assessment, larger: LargerSurface | None) -> Interface | None:
     """Stiffness of the interface alone; None where the contact stiffness is that already."""
     intervals = result.intervals_as_asked
     if larger is not None:
-        answer = larger.stiffness.at(result.asked)
+        interface = larger.stiffness.at(result.asked)
         # what one piece leaves open is narrower than what is unknown without the grid's error
-        return replace(answer, low=None, high=None) if intervals is None else answer
+        return interface.bare if intervals is None else interface
     if result.question.periodic:
         return None
     ends = intervals.unloading if intervals else None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import partial
@@ -12,10 +13,9 @@ import numpy as np
 
 from roughline.assessment.assess import Announce, assess_body
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import OF_INTERFACE, broken
+from roughline.assessment.assumptions import broken
 from roughline.assessment.behind_maps import BehindMaps, behind_maps, missed_of_map
 from roughline.assessment.given import has_forces
-from roughline.assessment.limits import limits_of_answers
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.part import Missed, PartAnswer, PartAssessment
 from roughline.assessment.part_remarks import (
@@ -219,20 +219,20 @@ def _answers(results: Sequence[Assessment], behind: BehindMaps | None) -> Mappin
     keys = [key for key in results[0].answers if all(key in each.answers for each in results)]
     if question.joint is None and differ_in_size(results):
         forced = has_forces(question.loads)
-        keys = [key for key in keys if not forced and not results[0].answers[key].growth]
-    limits = [limits_of_answers(each) for each in results]
+        keys = [key for key in keys if not forced and not results[0].answers[key].rule.is_extensive]
     missed = [missed_of_map(each, behind) for each in results] if behind is not None else []
     measured = not any(broken("grid", each.body) for each in results)
     answers = {}
     for key in keys:
-        is_of_part = behind is not None and (question.joint is not None or key in OF_INTERFACE)
+        is_of_part = behind is not None and (
+            question.joint is not None or results[0].answers[key].rule.is_of_interface
+        )
         answers[key] = PartAnswer.of(
             [each.answers[key] for each in results],
-            [each[key] for each in limits if key in each],
             _missed(key, missed) if is_of_part else None,
             is_told=measured and not (is_of_part and behind is not None and behind.untold),
         )
-    return answers | _under_unloading(answers, question.joint is not None)
+    return {key: _bounded(each, answers) for key, each in answers.items()}
 
 
 def _missed(key: str, missed: Sequence[tuple[Mapping[str, Ends], ...]]) -> Missed | None:
@@ -254,19 +254,13 @@ def _elastic(
     return {key: PartAnswer.of([each[key] for each in of_maps]) for key in keys}
 
 
-def _under_unloading(answers: Mapping[str, PartAnswer], is_joint: bool) -> dict[str, PartAnswer]:
-    """Stiffness on loading with no upper end over that on unloading, which it is a part of."""
-    bound = answers.get("interface_stiffness" if is_joint else "unloading_stiffness")
-    loading = answers.get("contact_stiffness")
-    if bound is None or loading is None:
-        return {}
-    found = {"contact_stiffness": loading.at_most(bound.high)}
-    per_area = answers["stiffness_per_area"]
-    if not is_joint:  # of a joint it is that of the interface
-        with np.errstate(invalid="ignore"):  # bodies apart
-            most = bound.high * per_area.mean / loading.mean
-        found["stiffness_per_area"] = per_area.at_most(most)
-    return found
+def _bounded(answer: PartAnswer, answers: Mapping[str, PartAnswer]) -> PartAnswer:
+    """The same with no upper end over that of an answer which it never exceeds."""
+    bounds = [each.under for each in answer.of_maps if each.under is not None]
+    if not bounds or bounds[0][0] not in answers:
+        return answer
+    factor = math.exp(np.mean([math.log(factor) for _, factor in bounds]))
+    return answer.at_most(factor * answers[bounds[0][0]].high)
 
 
 def _refuse_unlike(questions: Sequence[Question]) -> None:

@@ -19,8 +19,8 @@ from roughline.computing.summary import summary
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.contact.selection import at_loads
-from roughline.engineering.answer import Answer
 from roughline.engineering.intervals import Ends, Intervals
+from roughline.engineering.rule import Answer
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Surface
@@ -51,6 +51,8 @@ class Assessment:
     answers : mapping of str to Answer
         By their keys, such as "contact_stiffness", for the two materials, over the loads that were
         asked for; empty without materials.
+    left_out : sequence of str
+        Which answers there are not, and why.
     elastic : mapping of str to Answer
         The same without yield; empty where nothing yields.
     hardness_scatter : mapping of str to tuple of ndarray
@@ -74,6 +76,7 @@ class Assessment:
     intervals: Intervals | None = None
     interrupted: bool = False
     answers: Mapping[str, Answer] = field(default_factory=dict)
+    left_out: Sequence[str] = ()
     elastic: Mapping[str, Answer] = field(default_factory=dict)
     hardness_scatter: Mapping[str, Ends] = field(default_factory=dict)
     larger: LargerSurface | None = None

@@ -28,9 +28,6 @@ RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
 }
 """By what is predicted, the assumptions on whose breaking its interval is taken down."""
 
-OF_INTERFACE = ("interface_stiffness", "thermal_conductance_per_area", "reflection")
-"""Keys of the answers of a map that are those of the surface behind it."""
-
 
 def broken(prediction: Prediction, body: Body) -> tuple[Departure, ...]:
     """Departures of a body on which a prediction rests, gravest first; empty where it holds."""
@@ -86,18 +83,17 @@ def _without_interval(result: Assessment, prediction: Prediction) -> str:
         return "theories assume otherwise"
     if prediction == "grid":
         return "all values come without an interval"
-    given = result.answers
-    keys = [*given] if result.question.joint else OF_INTERFACE
-    names = [given[key].symbol for key in keys if key in given and _is_bare(result, key)]
+    names = [
+        each.symbol
+        for each in result.answers.values()
+        if (result.question.joint or each.rule.is_of_interface)
+        and each.low is None
+        and not each.rule.is_given
+    ]
     if not names:
         return ""
     verb = "comes" if len(names) == 1 else "come"
     return f"{listed(names)} {verb} without an interval"
-
-
-def _is_bare(result: Assessment, key: str) -> bool:
-    """Whether an answer that depends on the heights has no interval."""
-    return key not in ("normal_force", "mean_pressure", "depth") and result.answers[key].low is None
 
 
 def listed(names: Sequence[str]) -> str:

@@ -11,13 +11,12 @@ from roughline.assessment.tiles import MOST_DOUBLINGS, Beyond, Tiles, logit
 from roughline.assessment.uncertainty import interval, loading_under_unloading
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
+from roughline.contact.press import press
 from roughline.contact.scaling import PUNCH_GRID_ERROR
 from roughline.contact.selection import among
-from roughline.engineering.answer import Answer
-from roughline.engineering.answers import saturated_stiffness
-from roughline.engineering.declared import DECLARED
 from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals, ends_at
+from roughline.engineering.pressed import Interface
 from roughline.errors import InputError
 from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.topography.body import Body, Line, Surface
@@ -31,9 +30,9 @@ class LargerSurface:
 
     Attributes
     ----------
-    stiffness : Answer
-        Interface stiffness of as much of it as the piece is large; without an interval where the
-        piece does not tell. [N / m]
+    stiffness : Interface
+        Of as much of it as the piece is large; without an interval where the piece does not tell.
+        [N / m]
     area : tuple of ndarray, shape (loads,), or None
         Ends of its corrected area fraction; None where they are not known. [1]
     of_grid : tuple of (tuple of ndarray, or None)
@@ -43,7 +42,7 @@ class LargerSurface:
         Logarithms of the stiffness, and logits of the contact area fraction.
     """
 
-    stiffness: Answer
+    stiffness: Interface
     area: Ends | None = None
     of_grid: tuple[Ends | None, Ends | None] = (None, None)
     tiles: tuple[Tiles, Tiles] | None = None
@@ -61,7 +60,7 @@ class LargerSurface:
     @property
     def without_interval(self) -> LargerSurface:
         """The same where the piece alone does not tell of it."""
-        return replace(self, stiffness=replace(self.stiffness, low=None, high=None), area=None)
+        return replace(self, stiffness=self.stiffness.bare, area=None)
 
     def from_many(
         self, area: Real, further: tuple[Ends, Ends], *, with_grid: bool
@@ -79,8 +78,7 @@ class LargerSurface:
         """
         k, shares = self.of_grid if with_grid else (None, None)
         values = self.stiffness.values
-        low, high = _widened(values, k, further[0])
-        stiffness = replace(self.stiffness, low=low, high=high)
+        stiffness = replace(self.stiffness, ends=_widened(values, k, further[0]))
         return LargerSurface(stiffness, _widened_share(area, shares or (area, area), further[1]))
 
     def among(self, solved: Mask) -> LargerSurface:
@@ -90,8 +88,7 @@ class LargerSurface:
             return None if ends is None else (among(ends[0], solved), among(ends[1], solved))
 
         k = self.stiffness
-        low, high = spread(k.ends) or (None, None)
-        k = replace(k, values=among(k.values, solved), low=low, high=high)
+        k = replace(k, values=among(k.values, solved), ends=spread(k.ends))
         grid = spread(self.of_grid[0]), spread(self.of_grid[1])
         tiles = self.tiles and (self.tiles[0].among(solved), self.tiles[1].among(solved))
         return LargerSurface(k, spread(self.area), grid, tiles)
@@ -157,7 +154,7 @@ def roll_offs_of(fit: SelfAffineFit) -> float | None:
     return fit.q_roll / fit.q_low if fit.q_roll and fit.shows_roll_off else None
 
 
-def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = None) -> Answer:
+def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = None) -> Interface:
     """Interface stiffness of a free body as it is, 1 / k_i = 1 / k - 1 / k_s.
 
     Where the stiffness differs from the punch's by less than the grid's error of the punch, the
@@ -190,13 +187,16 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     low = np.where(close, np.fmin(low, k * (1 - error)), low)
     high = np.where(close, np.inf, high)
     known = interval is not None or bool(close.any())
-    return _declared(
-        interface_stiffness(k, saturated),
-        (interface_stiffness(low, saturated), interface_stiffness(high, saturated))
-        if known
-        else (None, None),
-        validity,
-    )
+    ends = interface_stiffness(low, saturated), interface_stiffness(high, saturated)
+    formula = "1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch"
+    return Interface(interface_stiffness(k, saturated), ends if known else None, validity, formula)
+
+
+def saturated_stiffness(surface: Surface, E_star: float) -> float:
+    """Stiffness of the flat punch with the outline and grid of a surface. [N / m]"""
+    flat = Surface(np.zeros(surface.shape), surface.sizes, surface.unit, is_cut_out=False)
+    depth = math.sqrt(surface.area) * 1e-6
+    return float(press(flat, E_star=E_star, depths=[depth]).stiffness[0])
 
 
 def larger_surface(
@@ -230,14 +230,12 @@ def larger_surface(
     formula = "dF/dd of the map in a periodic half-space under the same force, on unloading"
     grid = stiffness, area
     if tiles is None:
-        return LargerSurface(
-            _declared(k, (None, None), _which(beyond), formula=formula), of_grid=grid
-        )
+        return LargerSurface(Interface(k, None, _which(beyond), formula), of_grid=grid)
     of_stiffness, of_area = tiles
     ends = _widened(k, stiffness, of_stiffness.beyond(beyond))
-    answer = _declared(k, ends, _which(beyond), formula=formula)
+    interface = Interface(k, ends, _which(beyond), formula)
     share = None if area is None else _widened_share(touching, area, of_area.beyond(beyond))
-    return LargerSurface(answer, share, grid, tiles)
+    return LargerSurface(interface, share, grid, tiles)
 
 
 def _which(beyond: Beyond) -> str:
@@ -286,11 +284,3 @@ def _widened_share(values: Real, ends: Ends, further: Ends) -> Ends:
 def _combined(first: Ends, second: Ends) -> Ends:
     """Both ends of a sum of independent differences."""
     return -np.hypot(first[0], second[0]), np.hypot(first[1], second[1])
-
-
-def _declared(
-    values: Real, ends: tuple[Real | None, Real | None], validity: str, **formula: str
-) -> Answer:
-    """The declared answer; one end may be known where the other is not."""
-    declared = vars(DECLARED["interface_stiffness"]) | {"validity": validity} | formula
-    return Answer("interface_stiffness", values=values, low=ends[0], high=ends[1], **declared)

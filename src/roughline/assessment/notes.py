@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -13,22 +14,18 @@ from roughline.assessment.kinds import is_map
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.contact.quantities import RESOLVED_FROM
-from roughline.engineering.answer import Answer
-from roughline.engineering.formulas import ELASTIC_UP_TO, electrical_resistance
-from roughline.engineering.joint import constriction_of_disc
+from roughline.engineering.formulas import ELASTIC_UP_TO
+from roughline.engineering.pair import MaterialPair
+from roughline.engineering.rules.mechanical import (
+    CONTACT_STIFFNESS,
+    INTERFACE_STIFFNESS,
+    UNLOADING_STIFFNESS,
+)
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump
 from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
-_CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
-_MOVED = (  # keys of the answers whose change by the scatter of the hardness is reported
-    "contact_stiffness",
-    "unloading_stiffness",
-    "interface_stiffness",
-    "contact_area",
-    "constriction_resistance",
-)
 _WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
 _COUNTS = 1.2  # upper over lower end of what counts as a cause
 
@@ -104,40 +101,10 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
     return notes
 
 
-def of_joint_and_borders(result: Assessment, *, grave: bool) -> list[str]:
-    """Say what a joint is taken to be, and how far a repeated map jumps; grave things or others."""
-    said = [borders_of_repeated(result.question, result.body)]
-    if result.question.joint is not None:
-        said.append(meaning_of_joint(result.question, result.answers))
-    return [text for text, is_grave in said if text and is_grave == grave]
-
-
-def meaning_of_joint(question: Question, answers: Mapping[str, Answer]) -> tuple[str, bool]:
-    """Say what a joint is taken to be, and what is left out of it.
-
-    The second result says whether that is more than a tenth of the answers.
-    """
-    assert question.joint is not None
-    assert question.pair is not None
-    disc = constriction_of_disc(question.joint, question.modulus)
-    stiffest = float(np.nanmax(answers["interface_stiffness"].values, initial=0.0))
-    share = stiffest / disc
-    resistivities = question.pair.both("resistivity")
-    added = engineering(disc, "N/m")
-    if resistivities is not None:
-        resistance = electrical_resistance(disc, question.modulus, resistivities)
-        added += f" and {engineering(resistance, 'ohm')}"
-    text = (
-        "answers are those of the joint's interface alone, and the joint is taken to be alike "
-        "everywhere and evenly loaded: bodies wider than the joint add its own constriction in "
-        f"series, {added} for a disc of the same area"
-    )
-    if share <= _CONSTRICTION_MATTERS:
-        return text, False
-    return (
-        f"{text}; the interface is up to {decimal(share, 2)} times as stiff as that, so such "
-        "bodies matter as well, and load the joint's edge more than its middle"
-    ), True
+def of_borders(result: Assessment, *, grave: bool) -> list[str]:
+    """Say how far a repeated map jumps across its borders, where that is grave or else."""
+    text, is_grave = borders_of_repeated(result.question, result.body)
+    return [text] if text and is_grave == grave else []
 
 
 def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
@@ -232,6 +199,24 @@ def of_yield(result: Assessment) -> list[str]:
     return notes
 
 
+def of_unknown_hardness(pair: MaterialPair) -> list[str]:
+    """Say of which body the hardness is not known, and what is taken for it."""
+    lacking = pair.lacking("hardness")
+    if not lacking:
+        return []
+    if pair.hardness is not None:
+        return [
+            f"the hardness of {lacking[0]} is not known; that of the other is taken as the softer's"
+        ]
+    softer = ""
+    if len(lacking) == 1 and not any(map(math.isinf, (pair.first.E, pair.second.E))):
+        softer = ", and it is the softer one, as its modulus is below the other's hardness"
+    return [
+        f"the hardness of {' and of '.join(lacking)} is not known{softer}, so both bodies are "
+        'taken as elastic, whatever the pressure; give it with the material, as "hardness=..."'
+    ]
+
+
 def _scatter_in_words(result: Assessment, yielded: float) -> str:
     """Say how far the scatter of the hardness moves answers at the largest load.
 
@@ -239,9 +224,9 @@ def _scatter_in_words(result: Assessment, yielded: float) -> str:
     """
     load = result.largest
     moved = {
-        result.answers[key].name: [float(end[load]) for end in result.hardness_scatter[key]]
-        for key in _MOVED
-        if key in result.hardness_scatter
+        each.name: [float(end[load]) for end in result.hardness_scatter[key]]
+        for key, each in result.answers.items()
+        if key in result.hardness_scatter and (each.leads or each.rule.is_of_interface)
     }
     if not moved:
         return (
@@ -276,16 +261,6 @@ def _scatter_in_words(result: Assessment, yielded: float) -> str:
     )
 
 
-def of_gas_in_the_gap(result: Assessment) -> list[str]:
-    """Say of thermal conductances that the gap adds to them."""
-    if "thermal_conductance_per_area" not in result.answers:
-        return []
-    return [
-        "thermal conductances are those of the solid spots alone, as in vacuum: gas in the gap "
-        "adds to them, and air may carry several times what the spots do"
-    ]
-
-
 def of_full_contact(result: Assessment) -> list[str]:
     """Say under which loads all points touch, or all but a few."""
     curve, body = result.curve_as_asked, result.body
@@ -310,16 +285,16 @@ def of_full_contact(result: Assessment) -> list[str]:
 
 def of_wide_interval(result: Assessment) -> list[str]:
     """Say why the interval of a stiffness is wide: its causes, the largest first, and a remedy."""
-    keys = ("interface_stiffness", "unloading_stiffness", "contact_stiffness")
-    key = next((each for each in keys if each in result.answers), None)
     curve, points = result.curve_as_asked, result.body.heights.size
     error, k = curve.unloading_stiffness_error, curve.unloading_stiffness
-    ends = None if key is None else result.answers[key].ends
-    if key is None or ends is None or error is None or k is None or curve.area_fraction is None:
+    rules = (INTERFACE_STIFFNESS, UNLOADING_STIFFNESS, CONTACT_STIFFNESS)
+    shown = next((result.answers[each.key] for each in rules if each.key in result.answers), None)
+    ends = None if shown is None else shown.ends
+    if shown is None or ends is None or error is None or k is None or curve.area_fraction is None:
         return []
     with np.errstate(divide="ignore", invalid="ignore"):
         widths, of_grid = np.log(ends[1] / ends[0]), 2 * np.log1p(error / k)
-        scatter = result.hardness_scatter.get(key)
+        scatter = result.hardness_scatter.get(shown.key)
         of_hardness = 0 * widths if scatter is None else np.log(scatter[1] / scatter[0])
         of_piece = np.sqrt(np.maximum((widths - of_hardness) ** 2 - of_grid**2, 0))
     widths = np.where(np.isfinite(widths), widths, 0)
@@ -331,14 +306,14 @@ def of_wide_interval(result: Assessment) -> list[str]:
         (of_grid[i], f"the grid, with {cells} of {points} points in contact", "finer pixels"),
         (of_hardness[i], "the scatter of the hardness", "a measured hardness"),
     ]
-    if key == "interface_stiffness":
+    if shown.rule is INTERFACE_STIFFNESS:
         causes.append((of_piece[i], "what one map does not show", "a larger map, or several maps"))
     causes = sorted((each for each in causes if each[0] > np.log(_COUNTS)), reverse=True)
     if not causes:
         return []
     told = [f"{what} (a factor of {decimal(float(np.exp(w)), 2)})" for w, what, _ in causes]
     return [
-        f"the {result.answers[key].name} under {result.headings[i]} is known to a factor of "
+        f"the {shown.name} under {result.headings[i]} is known to a factor of "
         f"{decimal(float(np.exp(widths[i])), 2)} between both ends; it is left open by "
         f"{', then by '.join(told)}: {causes[0][2]} would narrow it most"
     ]

@@ -8,12 +8,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.limits import Limits, within
 from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.summary import summary
-from roughline.engineering.answer import Answer
 from roughline.engineering.intervals import Ends
+from roughline.engineering.rule import Answer, within
 from roughline.statistics.places import average_of_places
 
 
@@ -75,7 +74,6 @@ class PartAnswer:
     def of(
         cls,
         of_maps: Sequence[Answer],
-        limits: Sequence[Limits] = (),
         missed: Missed | None = None,
         *,
         is_told: bool = True,
@@ -86,8 +84,6 @@ class PartAnswer:
         ----------
         of_maps : sequence of Answer
             One or more.
-        limits : sequence of Limits, optional
-            Of each map.
         missed : Missed, optional
             What all maps miss alike; without it, their own intervals.
         is_told : bool, optional
@@ -101,9 +97,8 @@ class PartAnswer:
             # what one map leaves open of itself is no interval of the part
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
         low, high = found.low, found.high
-        if limits:
-            least, most = zip(*limits, strict=True)
-            low, high = within((low, high), (np.min(least, axis=0), np.max(most, axis=0)))
+        least, most = zip(*(each.limits for each in of_maps), strict=True)
+        low, high = within((low, high), (np.min(least, axis=0), np.max(most, axis=0)))
         return cls(of_maps, found.mean, found.scatter, low, high, found.count)
 
     def ends_of_maps(self, load: int) -> tuple[Real, Real]:

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import OF_INTERFACE, listed
+from roughline.assessment.assumptions import listed
 from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.part import PartAnswer
@@ -109,10 +109,10 @@ def what_they_tell_of_the_part(
         return [], []
     warnings: list[str] = []
     notes: list[str] = []
-    keys = [each for each in OF_INTERFACE if each in answers]
-    if behind.untold and keys:
-        bare = "answers of the joint" if is_joint else listed([answers[key].symbol for key in keys])
-        warnings.append(f"{behind.untold}; {bare} come without an interval")
+    bare = [each.symbol for each in answers.values() if each.of_maps[0].rule.is_of_interface]
+    if behind.untold and bare:
+        bare = ["answers of the joint"] if is_joint else bare
+        warnings.append(f"{behind.untold}; {listed(bare)} come without an interval")
     found = behind.agreement
     if found is None:
         return warnings, notes

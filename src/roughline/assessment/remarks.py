@@ -7,7 +7,6 @@ from roughline.assessment.answers import broken_assumptions
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import departures_in_words
 from roughline.assessment.grid import why_without_grid_error
-from roughline.engineering.limits import left_out
 from roughline.files.read import suspicions
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Line, Surface
@@ -33,7 +32,7 @@ def warnings_of(
         *say.of_wide_interval(result),
         *say.how_far_a_line_serves(result, grave=True),
         *([] if is_scan else of_curve),
-        *say.of_joint_and_borders(result, grave=True),
+        *say.of_borders(result, grave=True),
     ]
     if isinstance(body, Surface) and curve.stiffness_error is None:
         warnings.append(why_without_grid_error(result.question, body, grid_error_was_tried))
@@ -47,11 +46,12 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
     notes = say.of_yield(result)
     if pair is not None:
         notes += say.how_far_a_line_serves(result, grave=False)
-        notes += say.of_gas_in_the_gap(result)
-        notes += left_out(pair, question.frequency_in_hertz)
+        notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
+        notes += say.of_unknown_hardness(pair)
+        notes += result.left_out
         if result.curve.area_fraction is None:
             notes.append("no contact area: the reduced model of a line does not predict it")
     notes += say.of_each(bodies, say.filled_spikes_and_effects)
     notes += [of_filling] if of_filling else []
     notes += say.meaning_of_loads(question, body)
-    return notes + say.of_joint_and_borders(result, grave=False) + say.cropping_and_resampling(body)
+    return notes + say.of_borders(result, grave=False) + say.cropping_and_resampling(body)

@@ -11,7 +11,6 @@ from roughline.assessment.answers import with_answers
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.hardness import hardness_of
 from roughline.assessment.larger_surface import LargerSurface
-from roughline.assessment.limits import Limits, limits_of_answers, within
 from roughline.assessment.loads import LoadCase
 from roughline.assessment.question import Question
 from roughline.assessment.uncertainty import Solution
@@ -19,8 +18,8 @@ from roughline.computing.arrays import Mask, Real
 from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
 from roughline.contact.selection import among_loads, at_loads
-from roughline.engineering.answer import answer
 from roughline.engineering.intervals import Ends, Intervals
+from roughline.engineering.rule import Limits, within
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Body, Surface
 
@@ -29,8 +28,6 @@ Solve = Callable[[Body, LoadCase], tuple[Solution, LargerSurface | None]]
 
 HALVED_FROM = 2**20
 """Points from which on the scatter of the hardness is judged on half as many points a side."""
-
-_OF_HARDNESS_ALONE = ("holm_resistance", "plastic_conductance")  # keys of answers
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,11 +94,7 @@ def with_elastic_answers(result: Assessment, variation: Variation) -> Assessment
     elastic = variation.assessed(result, None, result.body)
     if elastic.interrupted:
         return replace(result, interrupted=True)
-    answers = dict(elastic.answers)
-    if "unloading_stiffness" in result.answers:  # elastic bodies have but one
-        rows = answers["contact_stiffness"].rows
-        answers["unloading_stiffness"] = answer("unloading_stiffness", rows)
-    return replace(result, elastic=answers)
+    return replace(result, elastic=elastic.answers)
 
 
 def with_scatter_of_hardness(result: Assessment, variation: Variation) -> Assessment:
@@ -164,7 +157,7 @@ def _borne(result: Assessment, case: LoadCase, hardness: float | None) -> Mask:
 
 def _without_intervals(result: Assessment) -> Assessment:
     """Return the assessment as if the error of its grid were not known."""
-    answers = {key: replace(each, low=None, high=None) for key, each in result.answers.items()}
+    answers = {key: each.bare for key, each in result.answers.items()}
     return replace(result, intervals=None, answers=answers, larger=None)
 
 
@@ -174,18 +167,17 @@ def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment
         key: _ratios(nominal.answers[key].values, [other.answers[key].values for other in moved])
         for key in result.answers
     }
-    answers, limits = {}, dict(limits_of_answers(result))
-    stiffest = "interface_stiffness" if result.question.joint else "unloading_stiffness"
-    if (ends := result.answers[stiffest].ends) is not None:  # points at the hardness bear no more
-        most = _times(ends, scatter[stiffest])[1]
-        limits["contact_stiffness"] = (0.0, most)
-        limits["stiffness_per_area"] = (0.0, most / (result.area * result.scale))
+    answers = {}
     for key, each in result.answers.items():
-        ratios, ends = scatter[key], each.ends
-        if key in _OF_HARDNESS_ALONE and result.intervals is not None:
+        ends, can_be = each.ends, each.limits
+        if each.rule.is_of_hardness_alone and result.intervals is not None:
             ends = each.values, each.values  # nothing else leaves them open
-        can_be = limits.get(key, (0.0, np.inf))
-        low, high = (None, None) if ends is None else _times(ends, ratios, can_be)
+        if each.under is not None and each.under[0] in result.answers:
+            upper, factor = each.under
+            bound = result.answers[upper].ends
+            if bound is not None:
+                can_be = can_be[0], factor * _times(bound, scatter[upper])[1]
+        low, high = (None, None) if ends is None else _times(ends, scatter[key], can_be)
         answers[key] = replace(each, low=low, high=high)
 
     def of_curve(ends: Ends, name: str, most: Real | float = np.inf) -> Ends:

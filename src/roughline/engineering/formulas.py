@@ -291,6 +291,14 @@ def reflection(
     return np.where(np.isinf(spring), 1.0, reflected)
 
 
+def constriction_of_disc(area: float, E_star: float) -> float:
+    """Stiffness of a flat round punch of some area, 2 E* a with pi a² the area. [N / m]
+
+    Bodies that are much wider than a joint have this stiffness even without any roughness.
+    """
+    return 2 * E_star * math.sqrt(area / math.pi)
+
+
 def _mean_slope(rms_slope: float) -> float:
     """Mean absolute slope of a cut through Gaussian heights with an rms gradient."""
     return rms_slope / math.sqrt(math.pi)

@@ -91,6 +91,16 @@ class MaterialPair:
             and not (quantity == "hardness" and math.isinf(each.E))
         ]
 
+    def lacks(self, quantity: str, what: str) -> str:
+        """Say that there is no answer, as a property is not known; nothing where it is."""
+        lacking = self.lacking(quantity)
+        if not lacking:
+            return ""
+        return (
+            f"no {what}: the {quantity} of {' and of '.join(lacking)} is not known; give it with "
+            f'the material, as "{quantity}=..."'
+        )
+
     def both(self, quantity: str) -> tuple[float, float] | None:
         """Return a property of both bodies; None unless it is known for both."""
         first, second = getattr(self.first, quantity), getattr(self.second, quantity)

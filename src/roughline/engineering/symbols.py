@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from roughline.engineering.answer import Answer
 from roughline.engineering.formulas import harmonic_conductivity
 from roughline.engineering.pair import MaterialPair
 
@@ -29,31 +28,6 @@ class Symbol:
     meaning: str
     unit: str = "1"
     value: float | None = None
-
-
-def with_own_symbols(given: Sequence[Answer]) -> list[Answer]:
-    """Return answers whose formulas name stiffnesses by the symbols that these answers have.
-
-    Where nothing is known of yield, all of the contact springs back on further loading as well, and
-    k stands for k_u; of a joint, k_i does; of a periodic surface k_u, or k, stands for k_i.
-
-    Parameters
-    ----------
-    given : sequence of Answer
-        All that stand on one page.
-    """
-    symbols = {each.key: each.symbol for each in given}
-    loading = symbols.get("contact_stiffness", "k_i")
-    unloading = symbols.get("unloading_stiffness", loading)
-    if symbols["stiffness_per_area"].startswith("k_i"):  # the interface is all that a joint has
-        unloading = "k_i"
-    interface = symbols.get("interface_stiffness", unloading)
-    written = {"k_u": unloading, "k_i": interface}
-
-    def own(text: str) -> str:
-        return re.sub(r"\bk_[ui]\b", lambda found: written[found[0]], text)
-
-    return [replace(each, formula=own(each.formula), validity=own(each.validity)) for each in given]
 
 
 def symbols_of(

@@ -16,23 +16,9 @@ from roughline.units import change_in_words, engineering
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.computing.arrays import Real
-    from roughline.engineering.answer import Answer
     from roughline.engineering.intervals import Ends
     from roughline.engineering.materials import Material
-
-_SHARES = ("contact_area_fraction",)  # keys of what is written in per cent
-
-# keys of the answers that the page begins with
-_LEADING = (
-    "contact_stiffness",
-    "unloading_stiffness",  # where something yields
-    "interface_stiffness",  # of a joint, which has no contact stiffness
-    "contact_area_fraction",
-    "constriction_resistance",
-    "thermal_conductance_per_area",
-)
-_AT_MANY_LOADS = ("thermal_conductance", "tangential_stiffness", "reflection")  # besides these
-_OF_JOINT = ("specific_contact_resistance",)
+    from roughline.engineering.rule import Answer
 
 _SI = {name: QUANTITIES[name].unit_in("m") or "" for name in ("depth", "force", "stiffness")}
 
@@ -188,20 +174,22 @@ def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 
 def keys_at_many_loads(assessment: Assessment) -> list[str]:
-    """Keys of the answers that are shown where there are too many loads for all of them."""
-    keys = [*leading_keys(assessment), *_AT_MANY_LOADS]
-    return [key for key in keys if key in assessment.answers]
+    """Keys of the answers that are shown where there are too many loads for all of them.
+
+    These are the leading ones, and the first of each group that has none.
+    """
+    leading = leading_keys(assessment)
+    groups = {assessment.answers[key].rule.group for key in leading}
+    for key, each in assessment.answers.items():
+        if each.rule.group not in groups:
+            groups.add(each.rule.group)
+            leading.append(key)
+    return leading
 
 
 def leading_keys(assessment: Assessment) -> list[str]:
     """Keys of the answers that a page begins with."""
-    of_joint = assessment.question.joint is not None
-    left_out = {"contact_stiffness" if of_joint else "interface_stiffness"}
-    plastic = assessment.answers.get("plastic_fraction")
-    if plastic is None or not plastic.values[assessment.largest] > 0:
-        left_out.add("unloading_stiffness")
-    keys = (*_LEADING, *_OF_JOINT) if of_joint else _LEADING
-    return [key for key in keys if key in assessment.answers and key not in left_out]
+    return [key for key, each in assessment.answers.items() if each.leads]
 
 
 def star_is_shown(assessment: Assessment) -> bool:
@@ -224,7 +212,7 @@ def area_in_words(assessment: Assessment, load: int) -> str:
 
 def unit_shown(answer: Answer) -> str:
     """Unit in which an answer is written: its own, or per cent."""
-    return "%" if answer.key in _SHARES else answer.unit
+    return "%" if answer.rule.in_per_cent else answer.unit
 
 
 def material_in_words(material: Material) -> str:

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from roughline.assessment.hardness import Hardness, hardness_of
-from roughline.assessment.notes import meaning_of_loads
+from roughline.assessment.notes import meaning_of_loads, of_unknown_hardness
 from roughline.assessment.question import DEFAULT_LOADS, Question
 from roughline.assessment.reading import Reading
-from roughline.engineering.limits import left_out
+from roughline.engineering.rules import rules
 from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import Arguments, Said, Source, at, question_of, used_in
@@ -45,7 +45,10 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
             ["rough body", material_in_words(pair.first)],
             ["smooth body", material_in_words(pair.second)],
         ]
-        notes = left_out(pair, question.frequency_in_hertz)
+        notes = [
+            *of_unknown_hardness(pair),
+            *rules.left_out(pair, question.frequency_in_hertz),
+        ]
     else:
         notes = ["a contact modulus alone gives the curve, and no answers for materials"]
     hardness = hardness_of(question)

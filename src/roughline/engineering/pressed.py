@@ -1,0 +1,181 @@
+"""What answers are worked out from: a pressed body, two materials, and the area that is meant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughline.computing.arrays import Indices, Mask, Real
+from roughline.contact.curve import Curve
+from roughline.contact.fields import Fields
+from roughline.engineering.intervals import Ends, Intervals, ends_at
+from roughline.engineering.pair import MaterialPair
+
+
+@dataclass(frozen=True, eq=False)
+class Interface:
+    """Stiffness of the interface alone, without that of the bodies around it.
+
+    Attributes
+    ----------
+    values : ndarray, shape (loads,)
+        [N / m]
+    ends : tuple of ndarray, or None
+        Both ends of its interval; None where it is not known. [N / m]
+    validity, formula : str
+        Which interface it is, and how it was found.
+    """
+
+    values: Real
+    ends: Ends | None
+    validity: str
+    formula: str
+
+    @property
+    def rows(self) -> Real:
+        """Values, and both ends where they are known, (1 or 3, loads). [N / m]"""
+        return np.stack([self.values, *(self.ends or ())])
+
+    @property
+    def bare(self) -> Interface:
+        """The same without its interval."""
+        return replace(self, ends=None)
+
+    def at(self, loads: Indices) -> Interface:
+        """The same at some of the loads, by their numbers."""
+        ends = None if self.ends is None else ends_at(self.ends, loads)
+        return replace(self, values=self.values[loads], ends=ends)
+
+
+@dataclass(frozen=True, eq=False)
+class Pressed:
+    """A pressed body as rules see it. Quantities "in rows" have shape (1 or 3, loads).
+
+    The rows are the values and, where they are known, both ends of their interval. With a joint,
+    all quantities are those of the joint, of which the body is a map under the same mean pressure.
+
+    Attributes
+    ----------
+    curve : Curve
+        Of the body, in SI units, with the contact modulus of the pair.
+    area : float
+        Nominal area of the body. [m²]
+    pair : MaterialPair
+        The materials.
+    joint : float, optional
+        Nominal area of the joint. [m²]
+    interface : Interface, optional
+        Of a free surface, of one that was cut out of a larger one, or of a joint. Without it, as
+        for a periodic surface, the contact is the interface.
+    rms_height, rms_slope : float, optional
+        Of the sum of both surfaces. [m], [1]
+    frequency : float, optional
+        Of an ultrasonic wave. [Hz]
+    intervals : Intervals, optional
+        Of the curve.
+    hardest : float, optional
+        The hardest that the softer body may be; None where nothing can yield. [Pa]
+    has_depths : bool, optional
+        Whether depths were given, so that forces depend on the hardness.
+    fields : Fields, optional
+        Of one load: the largest, or one that shows the contact well.
+    """
+
+    curve: Curve
+    area: float
+    pair: MaterialPair
+    joint: float | None = None
+    interface: Interface | None = None
+    rms_height: float | None = None
+    rms_slope: float | None = None
+    frequency: float | None = None
+    intervals: Intervals | None = None
+    hardest: float | None = None
+    has_depths: bool = False
+    fields: Fields | None = None
+
+    @property
+    def nominal_area(self) -> float:
+        """Nominal area A_0 that the answers are of. [m²]"""
+        return self.area if self.joint is None else self.joint
+
+    @property
+    def scale(self) -> float:
+        """How many times larger the joint is than the body; 1 without one."""
+        return self.nominal_area / self.area
+
+    @property
+    def known(self) -> Mask:
+        """Loads that were solved, and under which the interface's stiffness is known, (loads,)."""
+        return self.curve.converged & ~np.isnan(self.interface_stiffness[0])
+
+    @property
+    def force(self) -> Real:
+        """Normal force F, (loads,). [N]"""
+        return self.curve.force * self.scale
+
+    @property
+    def pressure(self) -> Real:
+        """Mean pressure over the nominal area, (loads,). [Pa]"""
+        return self.curve.force / self.area
+
+    @property
+    def loading(self) -> Real:
+        """Contact stiffness on further loading, in rows. [N / m]"""
+        ends = self.intervals.stiffness if self.intervals else ()
+        return np.stack([self.curve.stiffness, *ends]) * self.scale
+
+    @property
+    def unloading(self) -> Real:
+        """Contact stiffness on unloading k_u, in rows; of a line, which has no yield, k. [N / m]"""
+        if self.curve.unloading_stiffness is None:
+            return self.loading
+        ends = self.intervals.unloading if self.intervals else ()
+        return np.stack([self.curve.unloading_stiffness, *ends]) * self.scale
+
+    @property
+    def interface_stiffness(self) -> Real:
+        """Stiffness of the interface alone k_i, on unloading, in rows. [N / m]"""
+        return self.unloading if self.interface is None else self.interface.rows * self.scale
+
+    @property
+    def of_interface(self) -> str:
+        """Says which interface is meant, after a semicolon; nothing where there is but one."""
+        return "" if self.interface is None else f"; k_i {self.interface.validity}"
+
+    @property
+    def area_fraction(self) -> Real | None:
+        """Corrected contact area fraction, in rows; None where the model has no area. [1]"""
+        if self.curve.area_fraction_corrected is None:
+            return None
+        ends = self.intervals.area if self.intervals else None
+        return np.stack([self.curve.area_fraction_corrected, *(ends or ())])
+
+    @property
+    def hardness(self) -> float | None:
+        """Hardness of the softer body, whether points may yield or not; None if unknown. [Pa]"""
+        return self.curve.hardness or self.pair.hardness
+
+    @property
+    def may_yield(self) -> bool:
+        """Whether points that reach the hardness yield."""
+        return self.curve.hardness is not None
+
+    @property
+    def yields(self) -> bool:
+        """Whether some of the contact is at the hardness, under any load."""
+        share = self.curve.plastic_fraction
+        return share is not None and bool(np.nan_to_num(share).any())
+
+    @property
+    def symbols(self) -> dict[str, str]:
+        """What k_u and k_i are called here.
+
+        Where nothing is known of yield, all of the contact springs back on further loading as well,
+        and k stands for k_u; of a joint, k_i does; of a periodic surface k_u, or k, stands for k_i.
+        """
+        contact = "k_u" if self.may_yield else "k"
+        if self.joint is not None:
+            contact = "k_i"
+        return {"k_u": contact, "k_i": contact if self.interface is None else "k_i"}

@@ -1,0 +1,244 @@
+"""An answer, and the rule that it follows from: all that is known of it stands there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.engineering.intervals import Ends
+from roughline.engineering.pair import MaterialPair
+from roughline.engineering.pressed import Pressed
+from roughline.errors.public import public
+
+Group = Literal["mechanics", "contact", "electrical", "thermal", "acoustic"]
+"""What an answer is about."""
+
+Limits = tuple[Real | float, Real | float]
+"""Least and largest possible value, over the loads or at all of them."""
+
+
+def within(ends: Ends, limits: Limits) -> Ends:
+    """Ends of an interval, as far as they are within limits."""
+    return np.maximum(ends[0], limits[0]), np.minimum(ends[1], limits[1])
+
+
+def always(_pressed: Pressed) -> bool:
+    """Whatever was pressed."""
+    return True
+
+
+def never(_pressed: Pressed) -> bool:
+    """Whatever was pressed, not."""
+    return False
+
+
+def _not_negative(_pressed: Pressed) -> Limits:
+    return 0.0, np.inf
+
+
+def _nothing_lacks(_pair: MaterialPair, _frequency: float | None) -> str:
+    return ""
+
+
+def _nothing(_pressed: Pressed) -> str:
+    return ""
+
+
+def _as_declared(_pressed: Pressed) -> Mapping[str, str]:
+    return {}
+
+
+@public
+@dataclass(frozen=True, eq=False)
+class Rule:
+    """One answer: what it is, how it follows from what was pressed, and within which limits.
+
+    Parameters
+    ----------
+    key : str
+        Name by which the answer is found, such as "contact_stiffness".
+    name, symbol, unit : str
+        What it is called in tables and formulas; the unit is SI.
+    group : {"mechanics", "contact", "electrical", "thermal", "acoustic"}
+        What it is about.
+    formula : str
+        How it follows, in words and symbols.
+    value : callable
+        Works it out from what was pressed: an array of shape (loads,) or, with both ends of its
+        interval in either order, (3, loads); None where there is no such answer. [unit]
+    validity, source : str, optional
+        Where the formula holds, and its publication.
+    differing : callable, optional
+        Texts that differ for what was pressed: name, symbol, formula or validity, by these names.
+    lacking : callable, optional
+        Says which property of two materials is missing for it, from these and the frequency of the
+        wave that is asked for, if one is; an empty text where none is.
+    warning, note : callable, optional
+        What is to be said with it of what was pressed; an empty text for nothing.
+    limits : callable, optional
+        Least and largest possible value, beyond which no interval reaches; default: from zero on.
+        [unit]
+    under : callable, optional
+        Key of an answer that this one never exceeds, and the factor of that one's upper end.
+    leads : callable, optional
+        Whether a page begins with it. Default: never.
+    is_extensive : bool, optional
+        Whether it grows or falls with the nominal area under the same mean pressure.
+    is_of_interface : bool, optional
+        Whether it is about the surface that a map was cut out of, rather than about the map.
+    is_given : bool, optional
+        Whether it is known without an interval, as loads are.
+    is_of_hardness_alone : bool, optional
+        Whether the hardness enters by the formula alone, and nothing else leaves it open.
+    in_per_cent : bool, optional
+        Whether it is written in per cent.
+    may_be_infinite : bool, optional
+        Whether infinity is a value of it, as of a stiffness in full contact. An answer that is not
+        finite is left out otherwise, with a note that says so.
+    needs_fields : bool, optional
+        Whether it is worked out from the fields of a load.
+
+    Examples
+    --------
+    An answer of one's own stands in every table, file and report once it is added:
+
+    >>> import roughline as rl
+    >>> energy = rl.Rule(
+    ...     key="stored_energy",
+    ...     name="energy at constant stiffness",
+    ...     symbol="W",
+    ...     unit="J",
+    ...     group="mechanics",
+    ...     formula="F² / (2 k_u)",
+    ...     value=lambda pressed: pressed.force**2 / (2 * pressed.unloading),
+    ... )
+    >>> rl.rules.add(energy)
+    >>> surface = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6).surface(64, rng=7)
+    >>> question = rl.Question(surface, materials="steel,copper", loads="10 N", elastic=True)
+    >>> answer = rl.assess(question).answers["stored_energy"]
+    >>> print(answer.name, answer.unit, answer.values.size)
+    energy at constant stiffness J 1
+    >>> rl.rules.remove("stored_energy")
+    """
+
+    key: str
+    name: str
+    symbol: str
+    unit: str
+    group: Group
+    formula: str
+    value: Callable[[Pressed], Real | None]
+    validity: str = ""
+    source: str = ""
+    differing: Callable[[Pressed], Mapping[str, str]] = _as_declared
+    lacking: Callable[[MaterialPair, float | None], str] = _nothing_lacks
+    warning: Callable[[Pressed], str] = _nothing
+    note: Callable[[Pressed], str] = _nothing
+    limits: Callable[[Pressed], Limits] = _not_negative
+    under: Callable[[Pressed], tuple[str, float]] | None = None
+    leads: Callable[[Pressed], bool] = never
+    is_extensive: bool = False
+    is_of_interface: bool = False
+    is_given: bool = False
+    is_of_hardness_alone: bool = False
+    in_per_cent: bool = False
+    may_be_infinite: bool = False
+    needs_fields: bool = False
+
+    def answer(self, pressed: Pressed) -> Answer | None:
+        """Work out the answer; None where there is none."""
+        rows = self.value(pressed)
+        if rows is None:
+            return None
+        values, *ends = np.atleast_2d(rows)
+        low, high = (np.minimum(*ends), np.maximum(*ends)) if ends else (None, None)
+        texts = {name: getattr(self, name) for name in ("name", "symbol", "formula", "validity")}
+        texts |= self.differing(pressed)
+        for name in ("formula", "validity"):
+            texts[name] = re.sub(r"\bk_[ui]\b", lambda k: pressed.symbols[k[0]], texts[name])
+        return Answer(
+            self,
+            values,
+            low,
+            high,
+            **texts,
+            limits=self.limits(pressed),
+            under=None if self.under is None else self.under(pressed),
+            leads=self.leads(pressed),
+            warning=self.warning(pressed),
+            note=self.note(pressed),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """One quantity over the loads.
+
+    Attributes
+    ----------
+    rule : Rule
+        That it follows from.
+    values : ndarray, shape (loads,)
+        NaN where a load was not solved. [unit]
+    low, high : ndarray, shape (loads,), or None
+        Ends of the interval; None where it is not known. Uncertainties that are not known are not
+        in it. [unit]
+    name, symbol : str
+        What it is called in tables and formulas.
+    formula : str
+        How it follows from the curve.
+    validity : str
+        Where the formula holds.
+    limits : tuple
+        Least and largest possible value. [unit]
+    under : tuple of (str, float), or None
+        Key of an answer that it never exceeds, and the factor of that one's upper end.
+    leads : bool
+        Whether a page begins with it.
+    warning, note : str
+        What is to be said with it.
+    """
+
+    rule: Rule = field(repr=False)
+    values: Real
+    low: Real | None
+    high: Real | None
+    name: str
+    symbol: str
+    formula: str
+    validity: str = ""
+    limits: Limits = (0.0, np.inf)
+    under: tuple[str, float] | None = None
+    leads: bool = False
+    warning: str = ""
+    note: str = ""
+
+    @property
+    def key(self) -> str:
+        """Name by which it is found, such as "contact_stiffness"."""
+        return self.rule.key
+
+    @property
+    def unit(self) -> str:
+        """SI unit."""
+        return self.rule.unit
+
+    @property
+    def source(self) -> str:
+        """Publication of the formula."""
+        return self.rule.source
+
+    @property
+    def ends(self) -> Ends | None:
+        """Both ends of its interval. [unit]"""
+        return None if self.low is None or self.high is None else (self.low, self.high)
+
+    @property
+    def bare(self) -> Answer:
+        """The same without its interval."""
+        return replace(self, low=None, high=None)

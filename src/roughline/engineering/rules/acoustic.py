@@ -1,0 +1,69 @@
+"""Ultrasound at the interface."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.engineering.formulas import reflection
+from roughline.engineering.pair import MaterialPair
+from roughline.engineering.pressed import Pressed
+from roughline.engineering.rule import Limits, Rule
+
+
+def _lacking(pair: MaterialPair, frequency: float | None) -> str:
+    if frequency is None:
+        return ""
+    if not (pair.first.carries_sound and pair.second.carries_sound):
+        return "no reflection: a rigid or an incompressible body carries no such wave"
+    return pair.lacks("density", "reflection")
+
+
+def _reflection(pressed: Pressed) -> Real | None:
+    impedances = pressed.pair.both("impedance")
+    if pressed.frequency is None or impedances is None:
+        return None
+    per_area = pressed.interface_stiffness / pressed.nominal_area
+    return reflection(per_area, pressed.frequency, impedances)
+
+
+def _of_wave(pressed: Pressed) -> Mapping[str, str]:
+    if pressed.frequency is None:
+        return {}
+    return {
+        "name": f"{REFLECTION.name} at {pressed.frequency / 1e6:g} MHz",
+        "validity": REFLECTION.validity + pressed.of_interface,
+    }
+
+
+def _limits(pressed: Pressed) -> Limits:
+    """Welded bodies reflect the least."""
+    impedances = pressed.pair.both("impedance")
+    if impedances is None:
+        return 0.0, np.inf
+    first, second = impedances
+    return abs(first - second) / (first + second), 1.0
+
+
+REFLECTION = Rule(
+    key="reflection",
+    name="reflection",
+    symbol="|r|",
+    unit="1",
+    group="acoustic",
+    formula="|z1 - z2 + i omega z1 z2 / K| / |z1 + z2 + i omega z1 z2 / K|, K = k_i / A_0",
+    validity="longitudinal plane waves much longer than the distances between contact spots; k_u, "
+    "as their amplitude is small, so that all of the contact springs back",
+    source="Tattersall 1973",
+    value=_reflection,
+    differing=_of_wave,
+    lacking=_lacking,
+    limits=_limits,
+    is_of_interface=True,
+)
+"""Share of an ultrasonic wave that the interface reflects."""
+
+ACOUSTIC = (REFLECTION,)
+"""Answers about sound."""

@@ -1,0 +1,145 @@
+"""Real contact area, the pressure on it, and what of it yields."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.engineering.formulas import ELASTIC_UP_TO
+from roughline.engineering.pressed import Pressed
+from roughline.engineering.rule import Limits, Rule, always
+from roughline.units import decimal
+
+
+def _least_fraction(pressed: Pressed) -> Real | float:
+    """No point bears more than the hardness; under a depth, the force itself depends on it."""
+    if pressed.hardest is None or pressed.has_depths:
+        return 0.0
+    return pressed.pressure / pressed.hardest
+
+
+def _area_fraction_limits(pressed: Pressed) -> Limits:
+    return _least_fraction(pressed), 1.0
+
+
+def _area_limits(pressed: Pressed) -> Limits:
+    return _least_fraction(pressed) * pressed.nominal_area, pressed.nominal_area
+
+
+def _area(pressed: Pressed) -> Real | None:
+    share = pressed.area_fraction
+    return None if share is None else share * pressed.nominal_area
+
+
+def _pressure(pressed: Pressed) -> Real | None:
+    """Mean pressure on the real contact area, in rows. [Pa]"""
+    area = _area(pressed)
+    if area is None:
+        return None
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(pressed.force == 0, 0.0, pressed.force / area)
+
+
+def _pressure_limits(pressed: Pressed) -> Limits:
+    """Under forces, no less than where all of the area is in contact."""
+    if pressed.hardest is None:
+        return 0.0, np.inf
+    return (0.0 if pressed.has_depths else pressed.pressure), pressed.hardest
+
+
+def _over_hardness(pressed: Pressed) -> Real | None:
+    pressure = _pressure(pressed)
+    if pressure is None or pressed.hardness is None:
+        return None
+    return pressure / pressed.hardness
+
+
+def _beyond_elastic(pressed: Pressed) -> str:
+    """Say where the elastic assumption breaks."""
+    ratio = _over_hardness(pressed)
+    if pressed.may_yield or ratio is None or not np.isfinite(ratio[0]).any():
+        return ""
+    worst = float(np.nanmax(ratio[0]))
+    if worst <= ELASTIC_UP_TO:
+        return ""
+    return (
+        f"the mean contact pressure reaches {decimal(worst, 2)} times the softer body's hardness; "
+        f"beyond {ELASTIC_UP_TO:g} of it summits yield, so these elastic answers do not hold: "
+        "leave out elastic=True, or an infinite hardness="
+    )
+
+
+CONTACT = (
+    Rule(
+        key="contact_area",
+        name="real contact area",
+        symbol="A",
+        unit="m²",
+        group="contact",
+        formula="cells in contact, corrected for the outline's steps",
+        validity="falls with every finer wave; the shortest wave of the grid is the finest here",
+        source="Yastrebov, Anciaux and Molinari 2017",
+        value=_area,
+        limits=_area_limits,
+        is_extensive=True,
+    ),
+    Rule(
+        key="contact_area_fraction",
+        name="contact area fraction",
+        symbol="A/A_0",
+        unit="1",
+        group="contact",
+        formula="A / A_0",
+        value=lambda pressed: pressed.area_fraction,
+        limits=_area_fraction_limits,
+        leads=always,
+        in_per_cent=True,
+    ),
+    Rule(
+        key="contact_pressure",
+        name="mean contact pressure",
+        symbol="p_c",
+        unit="Pa",
+        group="contact",
+        formula="F / A",
+        validity="at most the hardness of the softer body",
+        value=_pressure,
+        limits=_pressure_limits,
+    ),
+    Rule(
+        key="contact_pressure_over_hardness",
+        name="contact pressure over hardness",
+        symbol="p_c/H",
+        unit="1",
+        group="contact",
+        formula="F / (A H), H of the softer body",
+        validity=f"elastic below {ELASTIC_UP_TO:g}, all of the contact yields at 1",
+        value=_over_hardness,
+        warning=_beyond_elastic,
+        limits=lambda pressed: (0.0, np.inf if pressed.hardest is None else 1.0),
+    ),
+    Rule(
+        key="plastic_fraction",
+        name="yielded share of the contact",
+        symbol="A_p/A",
+        unit="1",
+        group="contact",
+        formula="cells at the hardness over cells in contact",
+        validity="elastic, perfectly plastic: no hardening, no pile-up",
+        source="Almqvist et al. 2007",
+        value=lambda pressed: pressed.curve.plastic_fraction if pressed.may_yield else None,
+        limits=lambda _pressed: (0.0, 1.0),
+    ),
+    Rule(
+        key="indentation",
+        name="largest permanent indentation",
+        symbol="w",
+        unit="m",
+        group="contact",
+        formula="overlap at points at the hardness, which lowers the surface permanently",
+        validity="at one point; the finest summits on the grid decide it",
+        source="Almqvist et al. 2007",
+        value=lambda pressed: pressed.curve.indentation if pressed.may_yield else None,
+    ),
+)
+"""Answers about the contact itself, in their order."""

@@ -1,0 +1,85 @@
+"""Resistance of the contact to an electric current."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.engineering.formulas import electrical_resistance, holm_resistance
+from roughline.engineering.pair import MaterialPair
+from roughline.engineering.pressed import Pressed
+from roughline.engineering.rule import Rule, always
+
+
+def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
+    return pair.lacks("resistivity", "constriction resistance")
+
+
+def _resistance(pressed: Pressed) -> Real | None:
+    resistivities = pressed.pair.both("resistivity")
+    if resistivities is None:
+        return None
+    with np.errstate(divide="ignore"):
+        return electrical_resistance(pressed.unloading, pressed.pair.E_star, resistivities)
+
+
+def _specific_resistance(pressed: Pressed) -> Real | None:
+    resistance = _resistance(pressed)
+    return None if resistance is None or pressed.joint is None else resistance * pressed.joint
+
+
+def _of_single_spot(pressed: Pressed) -> Real | None:
+    resistivities, hardness = pressed.pair.both("resistivity"), pressed.pair.hardness
+    if resistivities is None or hardness is None:
+        return None
+    with np.errstate(divide="ignore"):
+        return holm_resistance(pressed.force, hardness, resistivities)
+
+
+ELECTRICAL = (
+    Rule(
+        key="constriction_resistance",
+        name="constriction resistance",
+        symbol="R",
+        unit="ohm",
+        group="electrical",
+        formula="E* (rho1 + rho2) / (2 k_u)",
+        validity="clean metal; films add to it. k_u, as current spreads from the contact spots "
+        "like the displacement on unloading, however the spots were formed",
+        source="Barber 2003",
+        value=_resistance,
+        lacking=_lacking,
+        leads=always,
+        is_extensive=True,
+        may_be_infinite=True,
+    ),
+    Rule(
+        key="specific_contact_resistance",
+        name="specific contact resistance",
+        symbol="rho_c",
+        unit="ohm m²",
+        group="electrical",
+        formula="R A_0, A_0 the nominal area of the joint",
+        validity="of the interface alone; clean metal",
+        source="Barber 2003",
+        value=_specific_resistance,
+        leads=always,
+        may_be_infinite=True,
+    ),
+    Rule(
+        key="holm_resistance",
+        name="Holm's single-spot estimate",
+        symbol="R_Holm",
+        unit="ohm",
+        group="electrical",
+        formula="(rho1 + rho2) / (4 a_H), pi a_H² = F / H",
+        validity="for comparison: all of the load on one plastic spot; separate spots have less "
+        "resistance, and elastic spots, which are smaller, have more",
+        source="Holm 1967",
+        value=_of_single_spot,
+        is_extensive=True,
+        is_of_hardness_alone=True,
+        may_be_infinite=True,
+    ),
+)
+"""Answers about currents, in their order."""

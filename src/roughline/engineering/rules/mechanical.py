@@ -1,0 +1,250 @@
+"""Forces, depths and stiffnesses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.engineering.formulas import constriction_of_disc, electrical_resistance
+from roughline.engineering.pressed import Pressed
+from roughline.engineering.rule import Rule
+from roughline.units import decimal, engineering
+
+_CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
+
+
+def _has_contact_stiffness(pressed: Pressed) -> bool:
+    """A joint has no outline of its own; what metals that yield give on loading is told as well."""
+    return pressed.joint is None or pressed.may_yield
+
+
+def _contact_stiffness(pressed: Pressed) -> Real | None:
+    return pressed.loading if _has_contact_stiffness(pressed) else None
+
+
+def _of_loading(pressed: Pressed) -> Mapping[str, str]:
+    """Of a joint it is the interface's, whose symbol is not k, as that is a free body's."""
+    if pressed.joint is None:
+        return {}
+    return {
+        "name": "interface stiffness on further loading",
+        "symbol": "k_load",
+        "formula": _of_map("dF/dd on further loading"),
+        "validity": f"of the interface alone; {CONTACT_STIFFNESS.validity}",
+    }
+
+
+def _of_map(slope: str) -> str:
+    return (
+        f"{slope} of the map in a periodic half-space at the same mean pressure, times A_0 over "
+        "the area of the map"
+    )
+
+
+def _under_unloading(pressed: Pressed) -> tuple[str, float]:
+    """Points at the hardness bear no more on loading, and spring back like all others."""
+    return ("unloading_stiffness" if pressed.joint is None else "interface_stiffness"), 1.0
+
+
+def _per_area_under_unloading(pressed: Pressed) -> tuple[str, float]:
+    return _under_unloading(pressed)[0], 1 / pressed.nominal_area
+
+
+def _per_area(pressed: Pressed) -> Real:
+    """Of a joint, which is all interface, on unloading."""
+    k = pressed.loading if pressed.joint is None else pressed.interface_stiffness
+    return k / pressed.nominal_area
+
+
+def _unloading(pressed: Pressed) -> Real | None:
+    return pressed.unloading if pressed.may_yield and pressed.joint is None else None
+
+
+def _interface(pressed: Pressed) -> Real | None:
+    return None if pressed.interface is None else pressed.interface_stiffness
+
+
+def _which_interface(pressed: Pressed) -> Mapping[str, str]:
+    """Where metals yield, that of a joint is the one on unloading, and says so."""
+    if pressed.interface is None:
+        return {}
+    texts = {"validity": pressed.interface.validity, "formula": pressed.interface.formula}
+    if pressed.joint is not None:
+        texts["formula"] = _of_map("dF/dd on unloading")
+        if pressed.may_yield:
+            texts["name"] = f"{INTERFACE_STIFFNESS.name} on unloading"
+    return texts
+
+
+def _which_surface(pressed: Pressed) -> str:
+    """Say which surface k_i belongs to."""
+    if pressed.interface is None:
+        return ""
+    return f"the interface stiffness k_i is {pressed.interface.validity}"
+
+
+def _if_bodies_matter(pressed: Pressed) -> str:
+    text, matters = _meaning_of_joint(pressed)
+    return text if matters else ""
+
+
+def _if_bodies_hardly_matter(pressed: Pressed) -> str:
+    text, matters = _meaning_of_joint(pressed)
+    return "" if matters else text
+
+
+def _meaning_of_joint(pressed: Pressed) -> tuple[str, bool]:
+    """Say what a joint is taken to be, and what is left out of it; the latter may matter."""
+    if pressed.joint is None:
+        return "", False
+    disc = constriction_of_disc(pressed.joint, pressed.curve.E_star)
+    share = float(np.nanmax(pressed.interface_stiffness[0], initial=0.0)) / disc
+    resistivities = pressed.pair.both("resistivity")
+    added = engineering(disc, "N/m")
+    if resistivities is not None:
+        resistance = electrical_resistance(disc, pressed.curve.E_star, resistivities)
+        added += f" and {engineering(resistance, 'ohm')}"
+    text = (
+        "answers are those of the joint's interface alone, and the joint is taken to be alike "
+        "everywhere and evenly loaded: bodies wider than the joint add its own constriction in "
+        f"series, {added} for a disc of the same area"
+    )
+    if share <= _CONSTRICTION_MATTERS:
+        return text, False
+    return (
+        f"{text}; the interface is up to {decimal(share, 2)} times as stiff as that, so such "
+        "bodies matter as well, and load the joint's edge more than its middle"
+    ), True
+
+
+CONTACT_STIFFNESS = Rule(
+    key="contact_stiffness",
+    name="contact stiffness",
+    symbol="k",
+    unit="N/m",
+    group="mechanics",
+    formula="dF/dd at frozen contact on further loading, exact",
+    validity="without friction or adhesion; where metals yield, points at the hardness bear no "
+    "more",
+    value=_contact_stiffness,
+    differing=_of_loading,
+    under=_under_unloading,
+    leads=lambda pressed: pressed.joint is None,
+    is_extensive=True,
+    may_be_infinite=True,
+)
+
+UNLOADING_STIFFNESS = Rule(
+    key="unloading_stiffness",
+    name="unloading stiffness",
+    symbol="k_u",
+    unit="N/m",
+    group="mechanics",
+    formula="dF/dd at frozen contact on unloading, exact",
+    validity="all of the contact springs back; this stiffness governs vibration, ultrasound "
+    "and currents",
+    source="Almqvist et al. 2007",
+    value=_unloading,
+    leads=lambda pressed: pressed.yields,
+    is_extensive=True,
+    may_be_infinite=True,
+)
+
+INTERFACE_STIFFNESS = Rule(
+    key="interface_stiffness",
+    name="interface stiffness",
+    symbol="k_i",
+    unit="N/m",
+    group="mechanics",
+    formula="1/k_i = 1/k_u - 1/k_s, on unloading; k_s of the flat punch",
+    value=_interface,
+    differing=_which_interface,
+    warning=_which_surface,
+    leads=lambda pressed: pressed.joint is not None,
+    is_extensive=True,
+    is_of_interface=True,
+    may_be_infinite=True,
+)
+
+MECHANICAL = (
+    Rule(
+        key="normal_force",
+        name="normal force",
+        symbol="F",
+        unit="N",
+        group="mechanics",
+        formula="given, or F(d)",
+        value=lambda pressed: pressed.force,
+        is_extensive=True,
+        is_given=True,
+    ),
+    Rule(
+        key="mean_pressure",
+        name="mean pressure",
+        symbol="p",
+        unit="Pa",
+        group="mechanics",
+        formula="F / A_0, A_0 the nominal area",
+        value=lambda pressed: pressed.pressure,
+        differing=lambda pressed: (
+            {}
+            if pressed.joint is None
+            else {"formula": "F / A_0, A_0 the nominal area of the joint"}
+        ),
+        is_given=True,
+    ),
+    Rule(
+        key="depth",
+        name="approach since touch",
+        symbol="d",
+        unit="m",
+        group="mechanics",
+        formula="of remote points",
+        value=lambda pressed: pressed.curve.depth,
+        differing=lambda pressed: (
+            {}
+            if pressed.joint is None
+            else {
+                "validity": "of the map, from the touch of its highest point; the joint has higher "
+                "points"
+            }
+        ),
+        is_given=True,
+    ),
+    CONTACT_STIFFNESS,
+    UNLOADING_STIFFNESS,
+    INTERFACE_STIFFNESS,
+    Rule(
+        key="stiffness_per_area",
+        name="stiffness per area",
+        symbol="k/A_0",
+        unit="N/m³",
+        group="mechanics",
+        formula="k / A_0",
+        value=_per_area,
+        differing=lambda pressed: (
+            {} if pressed.joint is None else {"symbol": "k_i/A_0", "formula": "k_i / A_0"}
+        ),
+        under=_per_area_under_unloading,
+        warning=_if_bodies_matter,
+        note=_if_bodies_hardly_matter,
+        may_be_infinite=True,
+    ),
+    Rule(
+        key="tangential_stiffness",
+        name="tangential stiffness",
+        symbol="k_t",
+        unit="N/m",
+        group="mechanics",
+        formula="k_u G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
+        validity="before any slip; normal and tangential problems uncoupled; k_u, as a small shear "
+        "causes no yield",
+        source="Popov 2017, ch. 8",
+        value=lambda pressed: pressed.pair.G_star / pressed.pair.E_star * pressed.unloading,
+        is_extensive=True,
+        may_be_infinite=True,
+    ),
+)
+"""Answers about forces, depths and stiffnesses, in their order."""

@@ -1,0 +1,115 @@
+"""Heat through the solid contact."""
+
+from __future__ import annotations
+
+from roughline.computing.arrays import Real
+from roughline.engineering.formulas import (
+    mikic_conductance,
+    thermal_conductance,
+    yovanovich_conductance,
+)
+from roughline.engineering.pair import MaterialPair
+from roughline.engineering.pressed import Pressed
+from roughline.engineering.rule import Rule, always
+
+_IN_VACUUM = "solid spots alone, as in vacuum: gas in the gap adds to it"
+
+
+def _lacking(pair: MaterialPair, _frequency: float | None) -> str:
+    return pair.lacks("conductivity", "thermal conductance")
+
+
+def _conductance_of(stiffness: Real, pressed: Pressed) -> Real | None:
+    conductivities = pressed.pair.both("conductivity")
+    if conductivities is None:
+        return None
+    return thermal_conductance(stiffness, pressed.pair.E_star, conductivities)
+
+
+def _shape(pressed: Pressed) -> tuple[float, float, tuple[float, float]] | None:
+    """Rms height, rms slope and conductivities, where estimates of the literature have all."""
+    conductivities = pressed.pair.both("conductivity")
+    if conductivities is None or not pressed.rms_height or not pressed.rms_slope:
+        return None
+    return pressed.rms_height, pressed.rms_slope, conductivities
+
+
+def _mikic(pressed: Pressed) -> Real | None:
+    if (shape := _shape(pressed)) is None:
+        return None
+    return mikic_conductance(pressed.pressure, pressed.pair.E_star, *shape)
+
+
+def _plastic(pressed: Pressed) -> Real | None:
+    shape, hardness = _shape(pressed), pressed.pair.hardness
+    if shape is None or hardness is None:
+        return None
+    return yovanovich_conductance(pressed.pressure, hardness, *shape)
+
+
+THERMAL = (
+    Rule(
+        key="thermal_conductance",
+        name="thermal conductance in vacuum",
+        symbol="G",
+        unit="W/K",
+        group="thermal",
+        formula="kappa_s k_u / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
+        validity=f"{_IN_VACUUM}. k_u, as heat spreads from the contact spots however they were "
+        "formed",
+        source="Barber 2003",
+        value=lambda pressed: _conductance_of(pressed.unloading, pressed),
+        lacking=_lacking,
+        is_extensive=True,
+        may_be_infinite=True,
+    ),
+    Rule(
+        key="thermal_conductance_per_area",
+        name="thermal conductance per area in vacuum",
+        symbol="h_c",
+        unit="W/(m² K)",
+        group="thermal",
+        formula="kappa_s k_i / (E* A_0)",
+        validity=f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i",
+        source="Barber 2003",
+        value=lambda pressed: _conductance_of(
+            pressed.interface_stiffness / pressed.nominal_area, pressed
+        ),
+        differing=lambda pressed: {
+            "validity": f"{_IN_VACUUM}. Without the bodies' constriction to A_0, like k_i"
+            f"{pressed.of_interface}"
+        },
+        lacking=_lacking,
+        note=lambda _pressed: (
+            "thermal conductances are those of the solid spots alone, as in vacuum: gas in the gap "
+            "adds to them, and air may carry several times what the spots do"
+        ),
+        leads=always,
+        is_of_interface=True,
+        may_be_infinite=True,
+    ),
+    Rule(
+        key="mikic_conductance",
+        name="Mikic's elastic estimate",
+        symbol="h_Mikic",
+        unit="W/(m² K)",
+        group="thermal",
+        formula="1.55 kappa_s m/sigma (sqrt(2) p/(E* m))^0.94",
+        validity=f"{_IN_VACUUM}. Gaussian heights, light loads, no large waves",
+        source="Mikic 1974",
+        value=_mikic,
+    ),
+    Rule(
+        key="plastic_conductance",
+        name="plastic estimate",
+        symbol="h_CMY",
+        unit="W/(m² K)",
+        group="thermal",
+        formula="1.25 kappa_s m/sigma (p/H)^0.95",
+        validity=f"{_IN_VACUUM}. Gaussian heights, all contact plastic",
+        source="Yovanovich 2005",
+        value=_plastic,
+        is_of_hardness_alone=True,
+    ),
+)
+"""Answers about heat, in their order."""
