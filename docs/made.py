@@ -20,6 +20,7 @@ from roughline.cli.help import PanelsFirst
 from roughline.contact.quantities import QUANTITIES
 from roughline.engineering import formulas
 from roughline.engineering.materials import materials
+from roughline.engineering.rules import rules
 from roughline.exact import indenters, mdr, punch, westergaard
 from roughline.units import decimal
 
@@ -37,7 +38,7 @@ SECTIONS = {
     ),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
-        *("PartAssessment", "material", "Material", "contact_modulus"),
+        *("PartAssessment", "material", "Material", "contact_modulus", "Rule", "rules"),
     ),
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
     "Errors": (
@@ -90,6 +91,7 @@ def write_pages(source: str | Path) -> None:
         "commands.md": page_of_commands(),
         "materials.md": page_of_materials(),
         "quantities.md": page_of_quantities(),
+        "answers.md": page_of_answers(),
         "validation.md": page_of_validation(Path(source) / "validation.json"),
     }
     for name, text in pages.items():
@@ -186,6 +188,25 @@ def page_of_quantities() -> str:
     ]
     header = ("name", "symbol", "meaning", "unit", "over")
     return f"# Output quantities of a curve\n\n{table(header, rows)}"
+
+
+def page_of_answers() -> str:
+    """The answers for two materials, by their rules."""
+    rows = [
+        (
+            f"`{each.key}`",
+            each.name,
+            f"`{each.symbol}`",
+            each.unit,
+            f"`{each.formula}`",
+            each.validity,
+            each.source,
+        )
+        for each in rules
+    ]
+    header = ("key", "name", "symbol", "unit", "formula", "holds", "source")
+    own = "[A rule of one's own](../tutorials/extend.md#add-an-answer) adds an answer to these.\n"
+    return f"# Answers for two materials\n\n{own}\n{table(header, rows)}"
 
 
 def page_of_validation(path: Path) -> str:

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.engineering.formulas import electrical_resistance
-from roughline.engineering.joint import constriction_of_disc
+from roughline.engineering.formulas import constriction_of_disc, electrical_resistance
 
 # harder than any contact pressure here, so that nothing yields
 FIRST = "E=210 GPa nu=0.3 hardness=1000 GPa resistivity=1e-7 ohm m conductivity=50 W/m/K"

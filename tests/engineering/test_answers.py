@@ -7,8 +7,7 @@ import pytest
 from scipy import special
 
 import roughline as rl
-from roughline.assessment.larger_surface import stiffness_of_the_piece
-from roughline.assessment.larger_surface import saturated_stiffness
+from roughline.assessment.larger_surface import saturated_stiffness, stiffness_of_the_piece
 from roughline.engineering.formulas import (
     electrical_resistance,
     interface_stiffness,
@@ -207,13 +206,13 @@ def test_near_full_contact_the_interval_has_no_upper_end():
     assert 0.9 < curve.area_fraction[1] < 1
     given = stiffness_of_the_piece(surface, curve)
     assert np.isfinite(given.values).all()
-    assert np.isnan(given.high[0])
-    assert np.isinf(given.high[1])
-    assert given.low[1] < given.values[1]
+    assert np.isnan(given.ends[1][0])
+    assert np.isinf(given.ends[1][1])
+    assert given.ends[0][1] < given.values[1]
     assert "of this piece alone" in given.validity
     known = stiffness_of_the_piece(surface, curve, (curve.stiffness, curve.stiffness))
-    assert known.high[0] == pytest.approx(given.values[0])
-    assert np.isinf(known.high[1])
+    assert known.ends[1][0] == pytest.approx(given.values[0])
+    assert np.isinf(known.ends[1][1])
 
 
 def yielding(surface, pair, forces, periodic=False):

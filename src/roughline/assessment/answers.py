@@ -99,7 +99,7 @@ def _pressed(
         rms_slope=spectrum.rms_slope if spectrum else None,
         frequency=question.frequency_in_hertz,
         intervals=intervals,
-        hardest=hardness.ends[1] if hardness is not None and curve.hardness is not None else None,
+        hardest=hardness.ends[1] if hardness and isinstance(result.body, Surface) else None,
         has_depths=bool(question.depths),
         fields=result.fields,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
 
 import numpy as np
 
@@ -98,7 +99,7 @@ class PartAnswer:
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
         low, high = found.low, found.high
         least, most = zip(*(each.limits for each in of_maps), strict=True)
-        low, high = within((low, high), (np.min(least, axis=0), np.max(most, axis=0)))
+        low, high = within((low, high), (reduce(np.minimum, least), reduce(np.maximum, most)))
         return cls(of_maps, found.mean, found.scatter, low, high, found.count)
 
     def ends_of_maps(self, load: int) -> tuple[Real, Real]:

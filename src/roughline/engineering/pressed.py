@@ -75,7 +75,7 @@ class Pressed:
     intervals : Intervals, optional
         Of the curve.
     hardest : float, optional
-        The hardest that the softer body may be; None where nothing can yield. [Pa]
+        The hardest that the softer body may be; None where no hardness is taken. [Pa]
     has_depths : bool, optional
         Whether depths were given, so that forces depend on the hardness.
     fields : Fields, optional
@@ -163,6 +163,14 @@ class Pressed:
         return self.curve.hardness is not None
 
     @property
+    def tells_unloading(self) -> bool:
+        """Whether the stiffness on unloading has a name of its own.
+
+        It has where points may yield, and for elastic bodies that are compared with such.
+        """
+        return self.may_yield or self.hardest is not None
+
+    @property
     def yields(self) -> bool:
         """Whether some of the contact is at the hardness, under any load."""
         share = self.curve.plastic_fraction
@@ -175,7 +183,7 @@ class Pressed:
         Where nothing is known of yield, all of the contact springs back on further loading as well,
         and k stands for k_u; of a joint, k_i does; of a periodic surface k_u, or k, stands for k_i.
         """
-        contact = "k_u" if self.may_yield else "k"
+        contact = "k_u" if self.tells_unloading else "k"
         if self.joint is not None:
             contact = "k_i"
         return {"k_u": contact, "k_i": contact if self.interface is None else "k_i"}

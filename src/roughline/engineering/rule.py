@@ -150,6 +150,10 @@ class Rule:
     may_be_infinite: bool = False
     needs_fields: bool = False
 
+    def __reduce__(self) -> tuple[Callable[[str], Rule], tuple[str]]:
+        """Found by its key in another process: what it computes with cannot be written."""
+        return _rule_of, (self.key,)
+
     def answer(self, pressed: Pressed) -> Answer | None:
         """Work out the answer; None where there is none."""
         rows = self.value(pressed)
@@ -173,6 +177,13 @@ class Rule:
             warning=self.warning(pressed),
             note=self.note(pressed),
         )
+
+
+def _rule_of(key: str) -> Rule:
+    """The rule of a key, among those that were added."""
+    from roughline.engineering.rules import rules  # here because these are made of rules
+
+    return rules[key]
 
 
 @dataclass(frozen=True, eq=False)
@@ -237,6 +248,11 @@ class Answer:
     def ends(self) -> Ends | None:
         """Both ends of its interval. [unit]"""
         return None if self.low is None or self.high is None else (self.low, self.high)
+
+    @property
+    def rows(self) -> Real:
+        """Values, and both ends where they are known, (1 or 3, loads). [unit]"""
+        return np.stack([self.values, *(self.ends or ())])
 
     @property
     def bare(self) -> Answer:

@@ -34,6 +34,16 @@ class Rules:
         """Rules one by one, group by group."""
         return iter(sorted(self._by_key.values(), key=lambda rule: GROUPS.index(rule.group)))
 
+    def __getitem__(self, key: str) -> Rule:
+        """The rule of a key.
+
+        Raises
+        ------
+        InputError
+            If there is none of that key.
+        """
+        return self._by_key[one_of("key", key, self._by_key)]
+
     def add(self, rule: Rule) -> None:
         """Add a rule: its answer then stands in every assessment, table, file and report.
 
@@ -63,8 +73,7 @@ class Rules:
         InputError
             If there is none of that key.
         """
-        one_of("key", key, tuple(self._by_key))
-        del self._by_key[key]
+        del self._by_key[self[key].key]
 
     def left_out(self, pair: MaterialPair, frequency: float | None) -> list[str]:
         """Say which answers there are not, as a property of a material is missing.
@@ -83,7 +92,8 @@ class Rules:
         answers: dict[str, Answer] = {}
         left_out = self.left_out(pressed.pair, pressed.frequency)
         for rule in self:
-            answer = rule.answer(pressed)
+            lacks = rule.lacking(pressed.pair, pressed.frequency)
+            answer = None if lacks else rule.answer(pressed)
             if answer is None:
                 continue
             if text := _why_not_used(answer, pressed):

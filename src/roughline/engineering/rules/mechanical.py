@@ -17,7 +17,7 @@ _CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bod
 
 def _has_contact_stiffness(pressed: Pressed) -> bool:
     """A joint has no outline of its own; what metals that yield give on loading is told as well."""
-    return pressed.joint is None or pressed.may_yield
+    return pressed.joint is None or pressed.tells_unloading
 
 
 def _contact_stiffness(pressed: Pressed) -> Real | None:
@@ -59,7 +59,7 @@ def _per_area(pressed: Pressed) -> Real:
 
 
 def _unloading(pressed: Pressed) -> Real | None:
-    return pressed.unloading if pressed.may_yield and pressed.joint is None else None
+    return pressed.unloading if pressed.tells_unloading and pressed.joint is None else None
 
 
 def _interface(pressed: Pressed) -> Real | None:
@@ -73,7 +73,7 @@ def _which_interface(pressed: Pressed) -> Mapping[str, str]:
     texts = {"validity": pressed.interface.validity, "formula": pressed.interface.formula}
     if pressed.joint is not None:
         texts["formula"] = _of_map("dF/dd on unloading")
-        if pressed.may_yield:
+        if pressed.tells_unloading:
             texts["name"] = f"{INTERFACE_STIFFNESS.name} on unloading"
     return texts
 
@@ -213,9 +213,9 @@ MECHANICAL = (
         ),
         is_given=True,
     ),
+    INTERFACE_STIFFNESS,
     CONTACT_STIFFNESS,
     UNLOADING_STIFFNESS,
-    INTERFACE_STIFFNESS,
     Rule(
         key="stiffness_per_area",
         name="stiffness per area",

@@ -1,0 +1,174 @@
+"""An answer that the program does not know, defined here: it stands wherever answers stand."""
+
+from dataclasses import replace
+
+import made
+import numpy as np
+import pytest
+
+import roughline as rl
+from lab.test_measured import Page
+from roughline.report.contact_report import write_contact_report
+from roughline.report.json_output import of_assessment, to_json
+from roughline.report.part_output import of_part
+from roughline.report.terminal import print_assessment
+
+LIMIT = 1.05  # of its value at the first load, beyond which no interval reaches
+
+
+def _resonance(pressed):
+    """Natural frequency of a mass of a kilogram on the contact, in rows. [Hz]"""
+    return np.sqrt(pressed.unloading / 1.0) / (2 * np.pi)
+
+
+def _lacking(pair, frequency):
+    return pair.lacks("density", "resonance")
+
+
+RESONANCE = rl.Rule(
+    key="resonance",
+    name="resonance of one kilogram",
+    symbol="f_0",
+    unit="Hz",
+    group="acoustic",
+    formula="sqrt(k_u / m) / (2 pi), m = 1 kg",
+    validity="small vibrations",
+    source="Rayleigh 1877",
+    value=_resonance,
+    lacking=_lacking,
+    limits=lambda pressed: (0.0, LIMIT * _resonance(pressed)[0]),
+    leads=lambda pressed: True,
+    is_extensive=True,
+)
+
+
+@pytest.fixture
+def resonance():
+    rl.rules.add(RESONANCE)
+    yield RESONANCE
+    rl.rules.remove("resonance")
+
+
+@pytest.fixture(scope="module")
+def surface():
+    spectrum = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=5e4, q_high=4e5)
+    return spectrum.surface(128, rng=7)
+
+
+def asked(surface, **more):
+    given = {"loads": ["3 N", "10 N"], "grid_error": True, **more}
+    return rl.assess(rl.Question(surface, "steel,copper", **given))
+
+
+def test_it_has_the_interval_of_what_it_follows_from(resonance, surface):
+    result = asked(surface, elastic=True)
+    found, k = result.answers["resonance"], result.answers["contact_stiffness"]
+    assert found.values == pytest.approx(np.sqrt(k.values) / (2 * np.pi), rel=1e-12)
+    assert found.low == pytest.approx(np.sqrt(k.low) / (2 * np.pi), rel=1e-12)
+    assert found.high == pytest.approx(np.sqrt(k.high) / (2 * np.pi), rel=1e-12)
+    assert found.formula == "sqrt(k / m) / (2 pi), m = 1 kg"  # by the name that the table has
+
+
+def test_the_scatter_of_the_hardness_widens_it_up_to_its_limits(resonance, surface):
+    result = asked(surface)
+    found, k_u = result.answers["resonance"], result.answers["unloading_stiffness"]
+    assert found.formula.startswith("sqrt(k_u / m)")
+    wide = np.sqrt(k_u.high / k_u.values)
+    assert found.high / found.values == pytest.approx(np.minimum(wide, LIMIT), rel=1e-12)
+    assert (wide > LIMIT).any()  # or the limits are not seen
+    least, largest = result.hardness_scatter["resonance"]
+    assert least == pytest.approx(np.sqrt(result.hardness_scatter["unloading_stiffness"][0]))
+    assert (least <= 1).all()
+    assert (largest >= 1).all()
+    assert "resonance" in result.elastic
+    told = " ".join(result.notes)
+    assert "resonance of one kilogram changes" in told or "resonance of one kilogram" in told
+
+
+def test_it_is_that_of_a_joint(resonance, surface):
+    piece = surface.cropped((0, 64), (0, 64))
+    result = asked(piece, joint_area="4 mm^2", elastic=True)
+    found, k_i = result.answers["resonance"], result.answers["interface_stiffness"]
+    assert found.values == pytest.approx(np.sqrt(k_i.values) / (2 * np.pi), rel=1e-12)
+    assert found.formula == "sqrt(k_i / m) / (2 pi), m = 1 kg"
+
+
+def test_it_is_averaged_over_maps(resonance, surface):
+    maps = [surface.cropped((x, x + 64), (0, 64)) for x in (0, 64)]
+    part = asked(maps, elastic=True, loads=["2 MPa"])
+    found = part.answers["resonance"]
+    of_maps = [each.answers["resonance"].values for each in part.assessments]
+    assert found.mean == pytest.approx(np.sqrt(of_maps[0] * of_maps[1]), rel=1e-12)
+    assert of_part(part)["part"]["f_0"]["key"] == "resonance"
+
+
+def test_it_stands_on_the_terminal_in_json_and_in_the_report(resonance, surface, tmp_path, capsys):
+    result = asked(surface)
+    print_assessment(result, long_curves_by="", many_answers_by="")
+    assert "resonance of one kilogram f_0" in capsys.readouterr().out
+    written = of_assessment(result)["answers"]["f_0"]
+    assert written["key"] == "resonance"
+    assert np.isfinite([written["low"], written["high"]]).all()
+    assert "Rayleigh 1877" in to_json(of_assessment(result))
+    files = write_contact_report(result, tmp_path, "")
+    page = files[0].read_text("utf-8")
+    assert page.count("esonance of one kilogram") >= 3  # headline, table, formulas
+    assert "Rayleigh 1877" in page
+
+
+def test_it_stands_in_the_lab(resonance, surface, tmp_path):
+    page = Page(tmp_path)
+    rl.write(replace(surface, unit="m"), tmp_path / "map.nc")
+    state = page.bring(tmp_path / "map.nc") | {"first": "steel", "second": "copper"}
+    header, _ = page.ask("answer", state | {"loads": "10 N"})
+    _, rows = header["answers"]
+    assert [row for row in rows if row[0] == "resonance of one kilogram f_0"]
+    _, formulas = header["formulas"]
+    assert [row for row in formulas if row[3] == "Rayleigh 1877"]
+
+
+def test_it_stands_in_the_glossary(resonance):
+    assert "resonance of one kilogram" in made.page_of_answers()
+
+
+def test_a_material_that_lacks_a_value_is_named(resonance, surface):
+    result = rl.assess(
+        rl.Question(surface, "steel,E=100 GPa nu=0.3", loads="3 N", grid_error=False)
+    )
+    assert "resonance" not in result.answers
+    assert any(note.startswith("no resonance: the density") for note in result.notes)
+
+
+@pytest.mark.parametrize(
+    ("value", "why"),
+    [
+        (lambda pressed: np.full(2, np.nan), "nan under a load that was solved"),
+        (lambda pressed: pressed.force / 0.0, "inf under a load that was solved"),
+        (lambda pressed: np.ones(3), "3 values, and there are 2 loads"),
+    ],
+)
+def test_an_answer_that_cannot_be_used_is_left_out_and_named(surface, value, why):
+
+    rl.rules.add(replace(RESONANCE, value=value, limits=lambda pressed: (0.0, 1.0)))
+    try:
+        with np.errstate(divide="ignore"):
+            result = asked(surface, elastic=True)
+    finally:
+        rl.rules.remove("resonance")
+    assert "resonance" not in result.answers
+    (note,) = [each for each in result.notes if each.startswith("no resonance of one kilogram")]
+    assert why in note
+
+
+def test_two_answers_have_no_name_in_common(resonance):
+    with pytest.raises(rl.InputError, match='key "resonance" of the resonance of one kilogram'):
+        rl.rules.add(RESONANCE)
+
+    with pytest.raises(rl.InputError, match='symbol "k" of the contact stiffness'):
+        rl.rules.add(replace(RESONANCE, key="other", symbol="k"))
+    with pytest.raises(rl.InputError, match="group"):
+        rl.rules.add(replace(RESONANCE, key="other", symbol="f_1", group="optics"))
+    with pytest.raises(rl.InputError, match="give a Rule"):
+        rl.rules.add("resonance")
+    with pytest.raises(rl.InputError, match="key"):
+        rl.rules.remove("other")
