@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from roughline.engineering.materials import material as material
     from roughline.engineering.pair import contact_modulus as contact_modulus
     from roughline.engineering.rule import Rule as Rule
-    from roughline.engineering.rules import rules as rules
+    from roughline.engineering.rule import rules as rules
     from roughline.errors import ClusterError as ClusterError
     from roughline.errors import ContinuumWarning as ContinuumWarning
     from roughline.errors import ConvergenceError as ConvergenceError
@@ -89,7 +89,7 @@ _HOMES = {
     "contact_modulus": "engineering.pair",
     "Material": "engineering.materials",
     "Rule": "engineering.rule",
-    "rules": "engineering.rules",
+    "rules": "engineering.rule",
     "Curve": "contact.curve",
     "Fields": "contact.curve",
     "Status": "contact.status",

@@ -13,7 +13,7 @@ from roughline.assessment.misfit import strains
 from roughline.engineering.formulas import plasticity_index
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pressed import Interface, Pressed
-from roughline.engineering.rules import rules
+from roughline.engineering.rule import rules
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments, moments
 from roughline.spectra.roughness import ALIKE

@@ -1,1 +1,3 @@
 """Materials, formulas and the answers that follow from a curve."""
+
+import roughline.engineering.rules  # noqa: F401  # adds them
