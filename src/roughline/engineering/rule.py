@@ -91,6 +91,9 @@ class Rule:
         Key of an answer that this one never exceeds, and the factor of that one's upper end.
     leads : callable, optional
         Whether a page begins with it. Default: never.
+    is_shown_at_many_loads : bool, optional
+        Whether tables of many loads, which have no room for all answers, show it though it does not
+        lead.
     is_extensive : bool, optional
         Whether it grows or falls with the nominal area under the same mean pressure.
     is_of_interface : bool, optional
@@ -146,6 +149,7 @@ class Rule:
     limits: Callable[[Pressed], Limits] = _not_negative
     under: Callable[[Pressed], tuple[str, float]] | None = None
     leads: Callable[[Pressed], bool] = never
+    is_shown_at_many_loads: bool = False
     is_extensive: bool = False
     is_of_interface: bool = False
     is_given: bool = False

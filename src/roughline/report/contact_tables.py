@@ -174,17 +174,12 @@ def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 
 def keys_at_many_loads(assessment: Assessment) -> list[str]:
-    """Keys of the answers that are shown where there are too many loads for all of them.
-
-    These are the leading ones, and the first of each group that has none.
-    """
-    leading = leading_keys(assessment)
-    groups = {assessment.answers[key].rule.group for key in leading}
-    for key, each in assessment.answers.items():
-        if each.rule.group not in groups:
-            groups.add(each.rule.group)
-            leading.append(key)
-    return leading
+    """Keys of the answers that are shown where there are too many loads for all of them."""
+    return [
+        key
+        for key, each in assessment.answers.items()
+        if each.leads or each.rule.is_shown_at_many_loads
+    ]
 
 
 def leading_keys(assessment: Assessment) -> list[str]:

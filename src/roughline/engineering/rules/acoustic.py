@@ -53,6 +53,7 @@ REFLECTION = Rule(
     symbol="|r|",
     unit="1",
     group="acoustic",
+    is_shown_at_many_loads=True,
     formula="|z1 - z2 + i omega z1 z2 / K| / |z1 + z2 + i omega z1 z2 / K|, K = k_i / A_0",
     validity="longitudinal plane waves much longer than the distances between contact spots; k_u, "
     "as their amplitude is small, so that all of the contact springs back",

@@ -238,6 +238,7 @@ MECHANICAL = (
         symbol="k_t",
         unit="N/m",
         group="mechanics",
+        is_shown_at_many_loads=True,
         formula="k_u G*/E*, 1/G* = (2 - nu1)/(4 G1) + (2 - nu2)/(4 G2)",
         validity="before any slip; normal and tangential problems uncoupled; k_u, as a small shear "
         "causes no yield",

@@ -54,6 +54,7 @@ THERMAL = (
         symbol="G",
         unit="W/K",
         group="thermal",
+        is_shown_at_many_loads=True,
         formula="kappa_s k_u / E*, kappa_s = 2 kappa1 kappa2 / (kappa1 + kappa2)",
         validity=f"{_IN_VACUUM}. k_u, as heat spreads from the contact spots however they were "
         "formed",
