@@ -24,7 +24,7 @@ test: $(VENV)/installed
 
 # What matters while editing, in about a minute: no tests marked slow, no processes, no reports.
 quick: check
-	$(PYTEST) -m "not slow" $(addprefix --ignore=tests/,campaign cli docs lab paper server)
+	$(PYTEST) -m "not slow" $(addprefix --ignore=tests/,campaign cli docs lab paper)
 
 check: $(VENV)/installed
 	$(BIN)/ruff format --check .

@@ -32,7 +32,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 import attackers  # noqa: E402
 from lab_sessions import Page  # noqa: E402
 
-from server.serving import entered, running_lab  # noqa: E402
+from lab.server.serving import entered, running_lab  # noqa: E402
 
 SOCKETS, SESSIONS, MESSAGES, REQUESTS = 1_000, 500, 100_000, 10_000
 AT_ONCE = 32  # sessions
@@ -88,7 +88,7 @@ class Watch:
 
     Parameters
     ----------
-    lab : server.serving.Lab
+    lab : lab.server.serving.Lab
         It.
     """
 

@@ -22,7 +22,7 @@ from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from server.serving import entered
+from lab.server.serving import entered
 
 SESSIONS, LONELY_ROUNDS, MOVES, PAUSE = 20, 7, 20, 0.1
 ASKED = {

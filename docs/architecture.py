@@ -1,6 +1,7 @@
 """What the code says of its own architecture: rooms, layers, imports, and the figures of both.
 
-A room is a package or a module at the top of roughline; a file belongs to the room that it lies in.
+A room is a package or a module at the top of roughline whose name has no underscore; a file belongs
+to the room that it lies in. Imports for types alone count as all others do.
 """
 
 from __future__ import annotations
@@ -45,15 +46,13 @@ def layers(container: str = "roughline") -> list[list[str]]:
     return [[name.strip() for name in row.split("|")] for row in rows]
 
 
-def import_graph(*, for_types: bool = False) -> grimp.ImportGraph:
-    """Return every import between files, also those inside functions; those for types if asked."""
-    return grimp.build_graph(
-        "roughline", exclude_type_checking_imports=not for_types, cache_dir=None
-    )
+def import_graph() -> grimp.ImportGraph:
+    """Return every import between files, also those inside functions and those for types."""
+    return grimp.build_graph("roughline", cache_dir=None)
 
 
 def rooms(graph: grimp.ImportGraph) -> dict[str, Room]:
-    """Return the rooms by name. ``roughline`` itself and ``__main__`` are doors, not rooms."""
+    """Return the rooms by name; the doors and the version at the top are none."""
     files: dict[str, list[Path]] = {}
     for path in _source_files():
         files.setdefault(path.relative_to(SOURCE).parts[0].removesuffix(".py"), []).append(path)
@@ -143,7 +142,7 @@ def _source_files() -> list[Path]:
 
 
 def _is_room(path: Path) -> bool:
-    return path.stem not in ("__init__", "__main__")
+    return not path.stem.startswith("_")
 
 
 def _imports(graph: grimp.ImportGraph) -> list[tuple[str, str]]:

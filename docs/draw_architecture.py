@@ -26,24 +26,20 @@ PLACES = {
     "lab": 6.0,
     "paper": 7.6,
     "report": 4.0,
-    "server": 7.6,
     "assessment": 4.0,
     "campaign": 7.2,
     "plot": 1.1,
     "engineering": 1.1,
-    "comparison": 6.1,
     "theories": 7.9,
     "contact": 4.0,
     "halfspace": 3.1,
     "reduction": 4.9,
-    "files": 1.5,
     "statistics": 8.2,
     "spectra": 6.6,
     "topography": 4.0,
     "computing": 3.1,
     "units": 4.9,
     "errors": 3.1,
-    "_version": 4.9,
     "exact": 7.6,
 }
 WIDTH, HEIGHT = 1.5, 0.5
@@ -61,7 +57,6 @@ class Step:
 
 
 ONE_BODY = (
-    Step("files", "topography", "files", "Surface, Line"),
     Step("spectra", "topography", "spectra", "Surface, Line"),
     Step("topography", "halfspace", "contact"),
     Step("topography", "reduction", "contact"),

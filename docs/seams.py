@@ -117,7 +117,7 @@ def solver_room(module: str) -> str:
 
 def table_of_the_solver() -> str:
     """Return the rooms of the solver with their files, constants and imports."""
-    pairs = arrows_of_the_solver(import_graph(for_types=True))
+    pairs = arrows_of_the_solver(import_graph())
     lines = [
         "| room of the solver | files | constants | imports |",
         "|---|---|---|---|",

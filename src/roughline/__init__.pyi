@@ -10,9 +10,9 @@ from roughline.assessment.line_scan import press_scan as press_scan
 from roughline.assessment.part import PartAssessment as PartAssessment
 from roughline.assessment.question import Question as Question
 from roughline.assessment.reading import Reading as Reading
-from roughline.comparison.models import Comparison as Comparison
-from roughline.comparison.models import compare as compare
-from roughline.comparison.trust import trust_map as trust_map
+from roughline.contact.comparison.models import Comparison as Comparison
+from roughline.contact.comparison.models import compare as compare
+from roughline.contact.comparison.trust import trust_map as trust_map
 from roughline.computing.fft import set_threads as set_threads
 from roughline.contact.curve import Curve as Curve
 from roughline.contact.estimates import Estimate as Estimate
@@ -36,8 +36,8 @@ from roughline.errors import PreparationWarning as PreparationWarning
 from roughline.errors import RoughlineError as RoughlineError
 from roughline.errors import StoreError as StoreError
 from roughline.errors import UnitError as UnitError
-from roughline.files.netcdf import write as write
-from roughline.files.read import read as read
+from roughline.topography.files.netcdf import write as write
+from roughline.topography.files.read import read as read
 from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw

@@ -14,7 +14,7 @@ import numpy as np
 
 import roughline as rl
 from roughline import campaign
-from roughline.comparison.trust import TrustMap
+from roughline.contact.comparison.trust import TrustMap
 from roughline.paper.added_figures import trust_map_figure
 from roughline.paper.page import compose
 from roughline.paper.results import published_dataset, published_folder, published_results

@@ -20,7 +20,7 @@ from roughline import campaign
 from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
 from roughline.campaign.run import log_of
-from roughline.comparison.trust import COLUMNS
+from roughline.contact.comparison.trust import COLUMNS
 from roughline.paper.exponents import exponents_of
 from roughline.paper.windows import WINDOWS_REDUCED
 from roughline.statistics.averages import relative_difference
@@ -30,7 +30,7 @@ HERE = Path(__file__).parent
 PLAN = HERE / "plan.toml"
 PACKAGE = HERE.parents[1] / "src" / "roughline"
 DATA = PACKAGE / "paper" / "data"
-MAP = PACKAGE / "comparison" / "trust_map.csv"
+MAP = PACKAGE / "contact" / "comparison" / "trust_map.csv"
 
 
 def main(path: Path) -> None:

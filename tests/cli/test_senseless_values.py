@@ -9,7 +9,7 @@ import typer
 
 import roughline as rl
 from roughline.cli import app
-from roughline.server import serve
+from roughline.lab.server import serve
 
 VALUES = ("text", "-1", "0", "nan", "inf", "1e400", "", "1 kg", "1,5 mm", "x" * 500, "a\nb")
 SKIPPED = ("--out", "--report", "--store", "--scheduler")  # any text is a name, or an address

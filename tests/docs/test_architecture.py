@@ -23,11 +23,9 @@ def found():
 
 
 @pytest.fixture(scope="module")
-def known():
+def known(found):
     """What each room knows of others, those of which it only names the types among them."""
-    return {
-        name: {name, *room.imports} for name, room in rooms(import_graph(for_types=True)).items()
-    }
+    return {name: {name, *room.imports} for name, room in found.items()}
 
 
 def test_the_picture_has_the_layers_and_imports_of_today(found):

@@ -14,7 +14,7 @@ from roughline.lab.measured import controls as measured
 from roughline.lab.measured.state import Source, question_of, said_of
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import state_of as published_state
-from roughline.server.settings import LEAST_POINTS
+from roughline.lab.server.settings import LEAST_POINTS
 from roughline.units import engineering
 
 NUMBERS = (explore.D_F, explore.ROLL_OFF, explore.CUTOFF, explore.HEIGHT, explore.SLOPE)

@@ -2,7 +2,7 @@
 
 import re
 
-from roughline.server import opening
+from roughline.lab.server import opening
 
 STATE = "view=explore&v=1&D_f=2.4&n=64"
 # what is refused on purpose, and the file that leads in

@@ -19,12 +19,12 @@ from roughline.lab.measured.controls import EXAMPLES
 from roughline.lab.measured.examples import path_of
 from roughline.lab.measured.state import question_of, said_of, source_of
 from roughline.lab.measured.words import in_controls
+from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
 from roughline.report.comparison_table import comparison_table, verdict_in_words
 from roughline.report.contact_tables import answer_table, curve_table, formula_table
 from roughline.report.description_table import description_table
 from roughline.report.part_tables import leading_table, maps_table, part_table
-from roughline.server.tasks import outcome_of
 
 PAIR = {"first": "steel", "second": "copper", "loads": "2 MPa"}
 SMALL = {"resample": "64"}

@@ -9,6 +9,7 @@ import pytest
 import roughline as rl
 from roughline.campaign.gallery import bodies_of
 from roughline.lab.published import controls, state
+from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.exponents import exponent_estimate
@@ -16,7 +17,6 @@ from roughline.paper.plan import PAPER_DIMENSIONS, paper_plan
 from roughline.paper.stated import stated_exponents
 from roughline.paper.tables import constant_table, exponent_table
 from roughline.paper.windows import WINDOW_AREA, WINDOW_FULL, WINDOW_REDUCED
-from roughline.server.tasks import outcome_of
 
 PAGE = Path(__file__).parents[2] / "docs" / "paper.md"
 SESSION = {"names": {}, "files": {}, "max_points": 64}

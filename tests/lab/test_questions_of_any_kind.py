@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mutated_questions import SLOW, STATES, mutated
+from roughline.lab.server.tasks import Outcome, Place, outcome_of
 from roughline.lab.tasks import TASKS
-from roughline.server.tasks import Outcome, Place, outcome_of
 
 MUTATIONS = 100  # of each task
 LONGEST = 500  # sentence [characters]

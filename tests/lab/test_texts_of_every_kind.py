@@ -12,8 +12,8 @@ from roughline.lab.measured import controls as measured
 from roughline.lab.published import controls as published
 from roughline.lab.published.state import PublishedState
 from roughline.lab.published.state import state_of as published_state
+from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
-from roughline.server.tasks import outcome_of
 
 TEXTS = (
     *("", " ", "abc", "1,5", "1e400", "nan", "inf", "-1", "0", "1e-6", "٣", "x" * 300, "😀"),

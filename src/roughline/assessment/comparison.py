@@ -8,16 +8,16 @@ from pathlib import Path
 
 from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body
-from roughline.comparison.models import Comparison, compare
-from roughline.comparison.trust import Difference, trust_map
+from roughline.contact.comparison.models import Comparison, compare
+from roughline.contact.comparison.trust import Difference, trust_map
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
-from roughline.files.read import measurement
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.roughness import ALIKE
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Line, Surface
+from roughline.topography.files.read import measurement
 from roughline.topography.preparation import as_prepared
 
 

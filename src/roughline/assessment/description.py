@@ -10,10 +10,10 @@ from roughline.assessment.notes import what_was_prepared
 from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body, of_piece
 from roughline.errors import InputError
-from roughline.files.measurement import Measurement
-from roughline.files.read import measurement, suspicions
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.topography.body import Body
+from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.read import measurement, suspicions
 from roughline.topography.missing import Missing, MissingPattern, missing_pattern
 from roughline.topography.preparation import Preparation, as_prepared
 

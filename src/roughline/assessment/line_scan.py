@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.assessment.scan_heights import doubts_of
-from roughline.comparison.trust import trust_map
 from roughline.computing.arrays import Real
 from roughline.contact.arguments import checked_flag
+from roughline.contact.comparison.trust import trust_map
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.errors.public import public

@@ -13,9 +13,9 @@ from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
-from roughline.files.measurement import Measurement
-from roughline.files.read import measurement
 from roughline.topography.body import Body, Line, Surface
+from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.read import measurement
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.preparation import Preparation, as_prepared
 from roughline.topography.settings import MOUNTING, TILT

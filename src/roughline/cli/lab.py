@@ -60,12 +60,12 @@ def lab(
     """
     from contextlib import ExitStack
 
-    from roughline.server.bounded_log import bounded_log
-    from roughline.server.budget import memory_for_tasks, memory_of_one
-    from roughline.server.interrupts import noted_interrupts
-    from roughline.server.opening import open_page
-    from roughline.server.process import start_forking
-    from roughline.server.settings import ServerSettings, networks_in, password_in
+    from roughline.lab.server.bounded_log import bounded_log
+    from roughline.lab.server.budget import memory_for_tasks, memory_of_one
+    from roughline.lab.server.interrupts import noted_interrupts
+    from roughline.lab.server.opening import open_page
+    from roughline.lab.server.process import start_forking
+    from roughline.lab.server.settings import ServerSettings, networks_in, password_in
 
     sizes = (("max_upload", max_upload), ("max_memory", max_memory), ("max_disk", max_disk))
     for name, megabytes in sizes:
@@ -112,8 +112,8 @@ def lab(
     with ExitStack() as opened, bounded_log(), noted_interrupts() as interrupted:
         # which loads numerics while this process loads the server
         start_forking("roughline.lab.warm")
+        from roughline.lab.server.serve import serve
         from roughline.lab.site import site
-        from roughline.server.serve import serve
 
         serve(site(), settings, ready, interrupted)
     typer.echo("The lab is closed.")

@@ -49,10 +49,10 @@ def info(
     the spectrum.
     """
     from roughline.assessment.description import describe
-    from roughline.files.curves import curve_in
     from roughline.report.curve_file import as_json
     from roughline.report.json_output import of_description
     from roughline.report.terminal import print_curve_file, print_description
+    from roughline.topography.files.curves import curve_in
 
     if curve := curve_in(file):
         return print_json(as_json(curve)) if json else print_curve_file(curve)
@@ -100,9 +100,9 @@ def generate(
     json: options.Json = False,
 ) -> None:
     """Generate a random self-affine surface, or its reduced line, and write it to a file."""
-    from roughline.files.netcdf import write
     from roughline.report.json_output import of_generated
     from roughline.report.terminal import print_generated
+    from roughline.topography.files.netcdf import write
 
     spectrum = options.spectrum_of(hurst, fractal_dimension, length, rms_height, roll_off, cutoff)
     make = spectrum.line if line else spectrum.surface

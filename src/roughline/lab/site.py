@@ -6,8 +6,8 @@ from importlib.resources import files
 from pathlib import Path
 
 from roughline.lab.page import login_page, page
+from roughline.lab.server.site import Site
 from roughline.lab.tasks import TASKS
-from roughline.server.site import Site
 
 
 def site() -> Site:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from roughline.server.tasks import Place
+from roughline.lab.server.tasks import Place
 
 
 def _place(

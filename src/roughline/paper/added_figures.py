@@ -32,7 +32,7 @@ from roughline.theories import bush_gibson_thomas, persson
 if TYPE_CHECKING:
     import xarray
 
-    from roughline.comparison.trust import TrustMap
+    from roughline.contact.comparison.trust import TrustMap
     from roughline.paper.contact_area import AreaLaw
     from roughline.paper.laws import DimensionLaws
 

@@ -10,7 +10,7 @@ from roughline.report.page import Section, Table, render_markdown
 from roughline.statistics.verdict import Verdict, verdict
 
 if TYPE_CHECKING:
-    from roughline.comparison.trust import Difference, TrustMap
+    from roughline.contact.comparison.trust import Difference, TrustMap
 
 _TOLERANCE = 0.1
 _TABLE_FORCES = (1e-3, 1e-2, 1e-1, 1.0)

@@ -14,7 +14,7 @@ from roughline.report.folder import make_folder
 
 if TYPE_CHECKING:
     from roughline.assessment.comparison import ModelComparison
-    from roughline.comparison.models import Comparison
+    from roughline.contact.comparison.models import Comparison
 
 
 def comparison_figure(result: Comparison, tolerance: float) -> Figure:

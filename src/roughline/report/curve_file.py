@@ -9,7 +9,7 @@ import numpy as np
 from roughline.units import SI, engineering
 
 if TYPE_CHECKING:
-    from roughline.files.curves import CurveInFile
+    from roughline.topography.files.curves import CurveInFile
 
 _HEADER = {
     "force": "force F",

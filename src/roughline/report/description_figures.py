@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughline.files.netcdf import write
 from roughline.plot.style import save, styled
 from roughline.report.contact_figures import roughness_figure
 from roughline.report.folder import make_folder
 from roughline.report.measured_figures import measured_figure
+from roughline.topography.files.netcdf import write
 
 if TYPE_CHECKING:
     from roughline.assessment.description import Description

@@ -16,7 +16,7 @@ from roughline.plot.style import PAGE, new_figure
 from roughline.units import metres_per
 
 if TYPE_CHECKING:
-    from roughline.files.measurement import Measurement
+    from roughline.topography.files.measurement import Measurement
     from roughline.topography.missing import MissingPattern
 
 _MISSING = "tab:red"

@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.assessment.comparison import ModelComparison
     from roughline.assessment.description import Description
-    from roughline.files.curves import CurveInFile
     from roughline.theories.theory_curve import TheoryCurve
+    from roughline.topography.files.curves import CurveInFile
 
 MOST_WITH_ALL = 20
 """Loads of which all answers are printed."""

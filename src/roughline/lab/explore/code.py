@@ -12,7 +12,7 @@ from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import hardness, rms_height
 from roughline.lab.explore.state import ExploreState
 from roughline.lab.frames import frame
-from roughline.server.tasks import Progress
+from roughline.lab.server.tasks import Progress
 
 _OF_YIELD = """print("unloading_stiffness", curve.unloading_stiffness[0], "N/m")
 print("plastic_fraction", curve.plastic_fraction[0])

@@ -13,8 +13,8 @@ from roughline.lab.controls import ControlError, texts_of
 from roughline.lab.explore.address import state_of
 from roughline.lab.explore.bodies import hardness, rms_height, surface_of
 from roughline.lab.frames import frame
+from roughline.lab.server.tasks import Progress
 from roughline.report.contact_figures import write_contact
-from roughline.server.tasks import Progress
 
 FILES = (
     *("contact.png", "contact.pdf", "curve.png", "curve.pdf", "curve.csv", "curve.nc"),

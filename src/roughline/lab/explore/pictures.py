@@ -36,8 +36,8 @@ from roughline.lab.explore.words import (
     unloading_rows,
 )
 from roughline.lab.frames import frame
+from roughline.lab.server.tasks import Progress
 from roughline.report.shading import shaded
-from roughline.server.tasks import Progress
 
 COARSE, COARSER = 128, 64
 """Points along a side while a slider moves, and when many ask at once."""

@@ -22,6 +22,7 @@ from roughline.lab.measured.part import part_in_words
 from roughline.lab.measured.pictures import contact_drawing, curve_drawing
 from roughline.lab.measured.state import Arguments, at, question_of, said_of, sources_of
 from roughline.lab.measured.words import in_controls
+from roughline.lab.server.tasks import Progress
 from roughline.report.contact_tables import (
     IF_ELASTIC,
     UNRESOLVED,
@@ -30,7 +31,6 @@ from roughline.report.contact_tables import (
     formula_table,
     star_is_shown,
 )
-from roughline.server.tasks import Progress
 from roughline.topography.body import Surface
 from roughline.units import engineering
 

@@ -18,8 +18,8 @@ from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import Arguments, Said, Source, at, question_of, used_in
 from roughline.lab.measured.words import in_controls
+from roughline.lab.server.tasks import Progress
 from roughline.report.contact_tables import material_in_words
-from roughline.server.tasks import Progress
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
 

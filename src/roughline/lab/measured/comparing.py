@@ -7,8 +7,8 @@ from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.state import Arguments, at, reading_of, said_of, source_of
 from roughline.lab.measured.words import in_controls
+from roughline.lab.server.tasks import Progress
 from roughline.report.comparison_table import comparison_table, verdict_in_words
-from roughline.server.tasks import Progress
 
 
 def compare(arguments: Arguments, progress: Progress) -> bytes:

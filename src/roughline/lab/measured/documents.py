@@ -28,10 +28,10 @@ from roughline.lab.measured.state import (
     sources_of,
     theories_of,
 )
+from roughline.lab.server.tasks import Progress
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import write_contact_report
 from roughline.report.part_report import write_part_report
-from roughline.server.tasks import Progress
 from roughline.topography.preparation import Preparation
 
 _FLAGS = {

@@ -10,8 +10,6 @@ import numpy as np
 from roughline.assessment.description import Description, describe_measurement
 from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body
-from roughline.files.measurement import Measurement
-from roughline.files.read import measurement
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.pictures import (
@@ -31,9 +29,11 @@ from roughline.lab.measured.state import (
     used_in,
 )
 from roughline.lab.measured.words import in_controls
+from roughline.lab.server.tasks import Progress
 from roughline.report.description_table import description_table
-from roughline.server.tasks import Progress
 from roughline.topography.body import Body, Surface
+from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.read import measurement
 from roughline.topography.preparation import Preparation
 
 

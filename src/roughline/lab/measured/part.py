@@ -20,6 +20,7 @@ from roughline.lab.measured.state import (
     used_in,
 )
 from roughline.lab.measured.words import in_controls
+from roughline.lab.server.tasks import Progress, without_paths
 from roughline.report.contact_tables import UNRESOLVED, leading_keys, unit_shown
 from roughline.report.part_tables import (
     body_in_words,
@@ -29,7 +30,6 @@ from roughline.report.part_tables import (
     star_is_shown_of,
 )
 from roughline.report.values import scale_of
-from roughline.server.tasks import Progress, without_paths
 
 _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
 

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.description import Description
 from roughline.engineering.intervals import Ends
-from roughline.files.measurement import Measurement
 from roughline.plot.pixels import any_marked, thinned
 from roughline.report.contact_tables import area_in_words
 from roughline.topography.body import Body, Surface
+from roughline.topography.files.measurement import Measurement
 from roughline.topography.preparation import outliers
 from roughline.units import decimal, engineering, metres_per, prefix
 

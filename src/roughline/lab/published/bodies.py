@@ -13,9 +13,9 @@ from roughline.campaign.gallery import bodies_of
 from roughline.lab.controls import ControlError
 from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
+from roughline.lab.server.tasks import Progress
 from roughline.paper.plan import paper_plan
 from roughline.report.shading import shaded
-from roughline.server.tasks import Progress
 
 _POINTS = 512  # along a side; the paper's own plan has 2048
 

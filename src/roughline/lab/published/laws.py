@@ -11,12 +11,12 @@ from roughline.lab.frames import frame
 from roughline.lab.published import controls as c
 from roughline.lab.published.ensembles import one_dimension, usable_state
 from roughline.lab.published.state import PublishedState
+from roughline.lab.server.tasks import Progress
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.contact_area import AreaLaw, area_law, mean_area
 from roughline.paper.results import published_dataset, published_results
 from roughline.paper.tables import estimate_cell
 from roughline.paper.windows import WINDOW_AREA
-from roughline.server.tasks import Progress
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 from roughline.statistics.verdict import Verdict
 from roughline.theories import bush_gibson_thomas, persson

@@ -19,6 +19,7 @@ from roughline.lab.published.ensembles import (
     usable_state,
 )
 from roughline.lab.published.state import PublishedState
+from roughline.lab.server.tasks import Progress
 from roughline.paper.claim import by_dimension
 from roughline.paper.exponents import exponent_estimate, prefactor_estimate
 from roughline.paper.stated import (
@@ -28,7 +29,6 @@ from roughline.paper.stated import (
     stated_exponents,
 )
 from roughline.paper.tables import estimate_cell
-from roughline.server.tasks import Progress
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import PowerLaw
 from roughline.statistics.verdict import joint_verdict

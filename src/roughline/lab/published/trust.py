@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.comparison.trust import Difference, TrustMap, trust_map
+from roughline.contact.comparison.trust import Difference, TrustMap, trust_map
 from roughline.lab.frames import frame
 from roughline.lab.published.ensembles import usable_state
 from roughline.lab.published.state import PublishedState
+from roughline.lab.server.tasks import Progress
 from roughline.paper.trust_page import trust_cell
-from roughline.server.tasks import Progress
 from roughline.units import decimal
 
 _DIGITS = 3

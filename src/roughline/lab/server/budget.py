@@ -1,0 +1,142 @@
+"""What all tasks and all files together may take: one budget for memory, and one for disk."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+
+from roughline.computing.cores import available_cores
+from roughline.computing.memory import free_memory
+from roughline.errors import InputError
+from roughline.lab.server.requests import Limits
+
+LEAST_MEMORY = 500_000_000
+"""Of a task that is not quick. [bytes]"""
+_USABLE = 0.9  # of the memory that is free when the server starts
+_SERVER = 500_000_000  # of the server itself and what all processes share [bytes]
+_PROCESS = 100_000_000  # of each process, beside its task [bytes]
+_QUICK_SECONDS, _QUICK_MEMORY = 20.0, 1_000_000_000
+_FOR_QUICK = 1 / 3  # of the memory, where it is scarce
+_MOST_SLOW = 20  # processes for tasks that take long, unless there are more cores
+_MOST_DISK = 20_000_000_000  # [bytes]
+_LOOKS = 1.0  # after which files are counted again [s]
+
+
+def memory_for_tasks() -> float:
+    """Memory that all tasks together may take, of what is free now. [bytes]"""
+    return _USABLE * free_memory() - _SERVER
+
+
+def memory_of_one(memory: float, wished: float) -> float:
+    """Memory of the largest task: what is wished, or less if all together have no more. [bytes]
+
+    Parameters
+    ----------
+    memory, wished : float
+        Of all tasks together, and of the largest one. [bytes]
+
+    Raises
+    ------
+    InputError
+        If that is too little for any task.
+    """
+    least_quick = min(_QUICK_MEMORY + _PROCESS, _FOR_QUICK * memory)
+    most = memory - least_quick - _PROCESS
+    if most < LEAST_MEMORY:
+        needed = (LEAST_MEMORY + _PROCESS) / (1 - _FOR_QUICK) + _SERVER
+        raise InputError(
+            f"the lab needs {needed / _USABLE / 1e9:.2g} GB of free memory, and there are "
+            f"{max(0.0, memory + _SERVER) / _USABLE / 1e9:.2g} GB: close other programs"
+        )
+    return min(wished, most)
+
+
+def limits_within(memory: float, max_memory: float, seconds: float) -> tuple[Limits, Limits]:
+    """Processes for quick tasks, and for the others, whose tasks never take more than a budget.
+
+    Parameters
+    ----------
+    memory : float
+        Of all tasks together. [bytes]
+    max_memory, seconds : float
+        Of one task that is not quick. [bytes], [s]
+
+    Raises
+    ------
+    InputError
+        If the memory is too little.
+    """
+    cores = available_cores()
+    slow_memory = memory_of_one(memory, max_memory)
+    left = memory - slow_memory - 2 * _PROCESS
+    quick_memory = min(_QUICK_MEMORY, left)
+    left -= quick_memory
+    counts = {"quick": 1, "slow": 1}
+    needed = {"quick": quick_memory + _PROCESS, "slow": slow_memory + _PROCESS}
+    most = {"quick": 2 * cores + 2, "slow": max(_MOST_SLOW, cores + 1)}
+    for name in ("slow", "quick", "quick") * max(most.values()):
+        if counts[name] < most[name] and needed[name] <= left:
+            counts[name] += 1
+            left -= needed[name]
+    quick, slow = counts["quick"], counts["slow"]
+    return (
+        Limits(min(cores, quick), quick, cores, _QUICK_SECONDS, quick_memory),
+        Limits(min(cores, slow), slow, 2, seconds, slow_memory),
+    )
+
+
+class Disk:
+    """The room for the files of all sessions.
+
+    Parameters
+    ----------
+    root : Path
+        Folder of all sessions.
+    most : float or None
+        Size that all files together may have; None takes half of what is free. [bytes]
+    """
+
+    def __init__(self, root: Path, most: float | None) -> None:
+        self._root = root
+        self.most = min(_MOST_DISK, shutil.disk_usage(root).free / 2) if most is None else most
+        self._found: dict[Path, int] = {}
+        self._looked = -_LOOKS
+
+    def room(self, tokens: Iterable[str], announced: dict[Path, int]) -> float:
+        """Size that further files may have. [bytes]
+
+        Parameters
+        ----------
+        tokens : iterable of str
+            Sessions that have files; those of others are being deleted.
+        announced : mapping of Path to int
+            Size that files will have that come now. [bytes]
+        """
+        if time.monotonic() - self._looked >= _LOOKS:
+            self.look()
+        kept = {self._root / token for token in tokens}
+        found = {
+            path: size for path, size in self._found.items() if not kept.isdisjoint(path.parents)
+        }
+        to_come = sum(max(0, size - found.get(path, 0)) for path, size in announced.items())
+        to_go = sum(self._found.values()) - sum(found.values())
+        on_disk = shutil.disk_usage(self._root).free - to_come + to_go
+        return min(self.most - sum((found | announced).values()), on_disk)
+
+    def look(self) -> None:
+        """Count the files that there are."""
+        self._looked = time.monotonic()
+        self._found = dict(_files_in(self._root))
+
+
+def _files_in(folder: Path) -> Iterable[tuple[Path, int]]:
+    """All files in a folder, at any depth, with their sizes."""
+    for inner, _, names in os.walk(folder):
+        for name in names:
+            path = Path(inner, name)
+            with suppress(OSError):  # it was deleted meanwhile
+                yield path, path.lstat().st_size

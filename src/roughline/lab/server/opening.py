@@ -1,0 +1,45 @@
+"""How the page is opened in the browser without telling other users its token."""
+
+from __future__ import annotations
+
+import html
+import os
+import webbrowser
+from contextlib import ExitStack, suppress
+from pathlib import Path
+
+from roughline.lab.server.bounded_log import silent_start
+from roughline.lab.server.leftovers import folder_of_files
+
+_SNAPS = Path("/snap/bin")
+
+
+def open_page(address: str, opened: ExitStack) -> None:
+    """Open an address in the browser through a file that only this user may read.
+
+    The command line of a browser, where an address would stand, is seen by all users.
+
+    Parameters
+    ----------
+    address : str
+        Of the page, with its token.
+    opened : ExitStack
+        Deletes the file when it is closed.
+    """
+    to = html.escape(address)
+    content = (
+        '<!doctype html><meta charset="utf-8"><title>roughline</title>'
+        f'<meta http-equiv="refresh" content="0;url={to}"><a href="{to}">Open the lab</a>\n'
+    )
+    with suppress(OSError):  # such as a full disk; the address is printed besides
+        page = opened.enter_context(folder_of_files(_parent())) / "open.html"
+        page.touch(mode=0o600)
+        page.write_text(content, encoding="utf-8")
+        with silent_start():
+            webbrowser.open(page.as_uri())
+
+
+def _parent() -> Path | None:
+    """The user's own folder if browsers are snaps, which see no other; else None."""
+    home = os.environ.get("HOME", "")
+    return Path(home) if _SNAPS.is_dir() and os.access(home, os.W_OK) else None

@@ -1,0 +1,199 @@
+"""A process that computes, seen from the server: it gets a task, reports progress, and answers.
+
+Processes are forked from one that has loaded and compiled everything, where the system can fork.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from importlib import import_module
+from multiprocessing.connection import Connection, wait
+from typing import Any
+
+from roughline.lab.server.tasks import Outcome, Place, outcome_of
+
+_FORKS = "forkserver" in multiprocessing.get_all_start_methods()
+_CONTEXT: Any = multiprocessing.get_context("forkserver" if _FORKS else "spawn")
+_loaded_first: str | None = None
+_LARGEST_FILE = 2_000_000_000  # that a task may ever write [bytes]
+_LOW, LOWEST = 3, 15
+"""Priorities of tasks that are not quick, and of those that take long, as `nice` counts."""
+
+LOST = Outcome(
+    error="the process that computed this ended unexpectedly, perhaps for lack of memory: ask "
+    "again, or take fewer points"
+)
+"""The outcome of a task whose process was lost."""
+
+NOT_BEGUN = Outcome(error="no process could begin this: ask again")
+"""The outcome of a task whose process was gone before it had it: another may do it."""
+
+
+class Process:
+    """A process that does one task at a time.
+
+    Parameters
+    ----------
+    memory : float
+        What it may take in addition to the program itself. [bytes]
+    gives_way : bool
+        Whether processes that do not give way come first when both want a core.
+
+    Attributes
+    ----------
+    tasks : int
+        Number of tasks that it was asked for.
+    """
+
+    def __init__(self, memory: float, *, gives_way: bool = False) -> None:
+        self.tasks = 0
+        self._ending, self._reading = threading.Lock(), threading.Lock()
+        self._connection, theirs = _CONTEXT.Pipe()
+        with without_interrupts():
+            self._process = _CONTEXT.Process(
+                target=_serve,
+                args=(theirs, memory, _loaded_first),
+                daemon=True,
+                name="roughline lab",
+            )
+            self._process.start()
+        theirs.close()
+        self.pid: int = self._process.pid
+        if gives_way:
+            self.lower_priority(_LOW)
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether it can be asked; one that waits has nothing to say unless it has just died."""
+        if not self._ending.acquire(blocking=False):  # another thread ends it
+            return False
+        try:
+            return self._process.is_alive() and not self._connection.poll()
+        except (ValueError, OSError):  # it was ended
+            return False
+        finally:
+            self._ending.release()
+
+    def ask(
+        self, place: Place, arguments: Mapping[str, Any], progress: Callable[[int, int], None]
+    ) -> Outcome:
+        """Have a task done; waits for it, so it is called from a thread."""
+        self.tasks += 1
+        outcome = NOT_BEGUN
+        with self._reading:
+            try:
+                self._connection.send((place, arguments))
+                while True:
+                    said = self._connection.recv()
+                    if isinstance(said, Outcome):
+                        return said
+                    if said is None:  # it has the task
+                        outcome = LOST
+                    else:
+                        progress(*said)
+            except (EOFError, OSError):  # it was stopped, or died
+                return outcome
+
+    def lower_priority(self, nice: int) -> None:
+        """Let other processes of this machine go first."""
+        with suppress(AttributeError, OSError):  # not everywhere, and it may have ended
+            os.setpriority(os.PRIO_PROCESS, self.pid, nice)
+
+    def stop(self) -> None:
+        """Stop it at once, whatever it is doing."""
+        with suppress(ValueError, AttributeError):  # it was ended, or another thread ends it now
+            self._process.kill()
+
+    def end(self) -> None:
+        """Stop it, wait until it is gone, and give back what the server keeps for it."""
+        self.stop()
+        with self._ending, suppress(ValueError):  # it was ended
+            self._process.join()
+            self._process.close()  # one that no signal reaches any more ends itself now
+            with self._reading:  # an answer that is on its way is read to its end
+                self._connection.close()
+
+
+def start_forking(warm: str) -> None:
+    """Start the process that the others are forked from, so that the first task need not wait.
+
+    Parameters
+    ----------
+    warm : str
+        Module that it loads; its function ``up`` is called in every process before the first task.
+    """
+    global _loaded_first
+    _loaded_first = warm
+    if _FORKS:
+        from multiprocessing import forkserver
+
+        _CONTEXT.set_forkserver_preload(["__main__", warm])
+        with without_interrupts():
+            forkserver.ensure_running()
+
+
+@contextmanager
+def without_interrupts() -> Iterator[None]:
+    """Start processes that Ctrl-C does not reach, as it is meant for the server."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    from multiprocessing import resource_tracker
+
+    resource_tracker.ensure_running()  # now, since it unblocks interrupts when it has started
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _serve(connection: Connection, memory: float, warm: str | None) -> None:
+    """Do tasks until the other end is closed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # where it could not be kept away from the start
+    threading.Thread(target=_end_with_server, daemon=True).start()
+    if warm is not None:
+        import_module(warm).up()
+    _limit(memory)
+    with suppress(EOFError, OSError):  # the server is gone
+        while True:
+            place, arguments = connection.recv()
+            connection.send(None)
+            _limit_files(arguments.get("session", {}).get("room", _LARGEST_FILE))
+            outcome = outcome_of(place, arguments, lambda *steps: connection.send(steps))
+            connection.send(outcome)
+
+
+def _end_with_server() -> None:
+    """End this process, even during a task, when the server is gone or no longer needs it."""
+    server = multiprocessing.parent_process()
+    if server is not None:
+        wait([server.sentinel])
+        os._exit(1)
+
+
+def _limit(memory: float) -> None:
+    """Refuse more memory than allowed beside what is loaded, and huge files, where possible."""
+    from roughline.computing.memory import limit_process  # here because the server needs it not
+
+    limit_process(int(memory))
+    if sys.platform == "linux":
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_FSIZE, (_LARGEST_FILE, _LARGEST_FILE))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def _limit_files(most: float) -> None:
+    """Refuse larger files from now on, where possible."""
+    if sys.platform == "linux":
+        import resource
+
+        size = int(min(max(0, most), _LARGEST_FILE))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, _LARGEST_FILE))

@@ -1,0 +1,166 @@
+"""What the server answers at which address, from its start to its end."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+import secrets
+import signal
+import socket
+from collections.abc import Callable
+from contextlib import ExitStack, suppress
+from ipaddress import ip_address
+
+from tornado.netutil import bind_sockets
+from tornado.web import Application
+
+from roughline.errors import InputError
+from roughline.errors.checks import refuse, shown
+from roughline.lab.server.access import is_proxy
+from roughline.lab.server.connections import Connections, most_connections
+from roughline.lab.server.handlers import (
+    Figures,
+    Here,
+    Login,
+    Logout,
+    Nothing,
+    Page,
+    Parts,
+    Results,
+    Uploads,
+    bokeh_folder,
+)
+from roughline.lab.server.leftovers import folder_of_files
+from roughline.lab.server.link import MOST_BYTES, Link
+from roughline.lab.server.server import Server
+from roughline.lab.server.settings import ServerSettings
+from roughline.lab.server.site import Site
+
+_PING = 20  # a page that does not answer within this time is gone [s]
+_READY = 1.5  # that the first page waits for what it will need first [s]
+_MOST_BODY = 2**16  # of a request that brings no file [bytes]
+_MOST_HEADERS = 2**14  # [bytes]
+_MOST_KNOCKING = 1024  # connections that wait to be taken
+
+
+def application(server: Server) -> Application:
+    """The handlers, by address."""
+    return Application(
+        [
+            (r"/", Page),
+            (r"/login", Login),
+            (r"/logout", Logout),
+            (r"/here", Here),
+            (r"/link", Link),
+            (r"/upload", Uploads),
+            (rf"/figures/({'|'.join(server.site.figures)})", Figures),
+            (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", Results),
+            (r"/lab/(.*)", Parts, {"path": str(server.site.parts)}),
+            (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", Parts, {"path": str(bokeh_folder())}),
+        ],
+        default_handler_class=Nothing,
+        server=server,
+        cookie_secret=secrets.token_hex(32),
+        websocket_max_message_size=MOST_BYTES,
+        websocket_ping_interval=_PING,
+        websocket_ping_timeout=_PING,
+        log_function=lambda handler: None,
+    )
+
+
+def serve(
+    site: Site,
+    settings: ServerSettings,
+    ready: Callable[[str], None],
+    interrupted: Callable[[], bool],
+) -> None:
+    """Serve until Ctrl-C.
+
+    Parameters
+    ----------
+    site : Site
+        What is served.
+    settings : ServerSettings
+        What to listen to, and the limits of a session.
+    ready : callable
+        Told the address of the page, with its token if it has one, as soon as it can be opened.
+    interrupted : callable
+        Says whether Ctrl-C came before the server listens to it.
+
+    Raises
+    ------
+    InputError
+        If the address is not free, or not one of this machine.
+    """
+    logging.getLogger("tornado.general").setLevel(logging.ERROR)  # refusals are told to the page
+    with suppress(KeyboardInterrupt), ExitStack() as opened:
+        sockets = [opened.enter_context(each) for each in _listening(settings)]
+        server = Server(site, settings, opened.enter_context(folder_of_files()))
+        asyncio.run(_serve(server, sockets, ready, interrupted))
+
+
+async def _serve(
+    server: Server,
+    sockets: list[socket.socket],
+    ready: Callable[[str], None],
+    interrupted: Callable[[], bool],
+) -> None:
+    stopped = asyncio.Event()
+    for name in ("SIGINT", "SIGTERM"):
+        with suppress(NotImplementedError, AttributeError):  # Windows raises KeyboardInterrupt
+            asyncio.get_running_loop().add_signal_handler(getattr(signal, name), stopped.set)
+    if interrupted():
+        stopped.set()
+    listening = Connections(
+        application(server),
+        most=most_connections(server.quick.most + server.slow.most),
+        proxies=lambda peer: is_proxy(peer, server.settings),
+        max_body_size=_MOST_BODY,
+        max_header_size=_MOST_HEADERS,
+    )
+    preparing = asyncio.create_task(server.prepare())
+    try:
+        listening.add_sockets(sockets)
+        server.site.page()
+        with suppress(TimeoutError):
+            await asyncio.wait_for(asyncio.shield(preparing), _READY)
+        if not stopped.is_set():
+            ready(_address(server, sockets[0]))
+        await stopped.wait()
+    finally:
+        listening.stop()
+        await server.close()
+        await preparing
+
+
+def _listening(settings: ServerSettings) -> list[socket.socket]:
+    """Sockets on the address of the settings."""
+    try:
+        sockets = bind_sockets(settings.port, settings.host, backlog=_MOST_KNOCKING)
+    except socket.gaierror as error:
+        raise InputError(
+            f"is {shown(settings.host)}, which is no address of this machine: give one, or "
+            "127.0.0.1 for this machine alone",
+            "host",
+        ) from error
+    except (OSError, UnicodeError) as error:
+        why = os.strerror(error.errno) if isinstance(error, OSError) and error.errno else error
+        raise InputError(
+            f"cannot listen on {settings.host}, port {settings.port} ({why}): take another port=, "
+            "or 0 for any free one, and an address of this machine"
+        ) from error
+    found = {each.getsockname()[0] for each in sockets}
+    if settings.is_local and not all(ip_address(each).is_loopback for each in found):
+        for each in sockets:
+            each.close()
+        refuse("host", settings.host, "it leads to other machines here: give 127.0.0.1")
+    return sockets
+
+
+def _address(server: Server, listening: socket.socket) -> str:
+    """The address of the page, with the token if there is one."""
+    port, host = listening.getsockname()[1], server.settings.host
+    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
+    page = f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+    return f"{page}?token={server.key.secret}" if server.key.is_token else page

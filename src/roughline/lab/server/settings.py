@@ -1,0 +1,200 @@
+"""How the server is set up, checked before it starts."""
+
+from __future__ import annotations
+
+import math
+import os
+import shlex
+import stat
+from dataclasses import dataclass, field
+from ipaddress import IPv4Address, IPv4Network, IPv6Address, IPv6Network, ip_address, ip_network
+from pathlib import Path
+
+from roughline.errors import InputError
+from roughline.errors.checks import refuse, shown
+from roughline.lab.server.budget import LEAST_MEMORY, memory_for_tasks
+
+LOOPBACK = "127.0.0.1"
+LEAST_POINTS = 64
+"""Fewest points along a side that a limit may leave."""
+_LONGEST_PASSWORD = 1000  # [bytes]
+
+
+@dataclass(frozen=True)
+class ServerSettings:
+    """What the server listens to, and what a session may take.
+
+    Parameters
+    ----------
+    host : str
+        Address to listen to; another than that of this machine itself needs a password.
+    port : int
+        0 takes a free one.
+    password : str or None
+        Asked of every browser; None takes a new token instead.
+    proxies : tuple of IPv4Network and IPv6Network
+        Proxies that other machines come through, which are believed who comes; if there are any,
+        nobody comes another way.
+    max_upload : float
+        Largest file that is taken. [bytes]
+    max_points : int
+        Largest number of points along a side in the view "Explore".
+    max_seconds : float
+        Longest time of one task. [s]
+    max_memory : float
+        Most memory of one task, beside the program. [bytes]
+    memory : float
+        Most memory of all tasks together. [bytes]
+    max_disk : float or None
+        Most that the files of all sessions may take together; None takes half of what is free, at
+        most 20 GB. [bytes]
+    max_sessions : int
+        Most pages that are open at once.
+
+    Raises
+    ------
+    InputError
+        If others could reach the server without a password, or a limit makes no sense.
+    """
+
+    host: str = LOOPBACK
+    port: int = 5107
+    password: str | None = None
+    proxies: tuple[IPv4Network | IPv6Network, ...] = ()
+    max_upload: float = 200_000_000
+    max_points: int = 1024
+    max_seconds: float = 600.0
+    max_memory: float = 4_000_000_000
+    memory: float = field(default_factory=memory_for_tasks)
+    max_disk: float | None = None
+    max_sessions: int = 100
+
+    def __post_init__(self) -> None:
+        if not self.host:
+            raise InputError("host is empty; give an address, such as 127.0.0.1")
+        if not self.is_local and not self.password:
+            raise InputError(
+                f"is {shown(self.host)}, which lets other machines in: put a password into a file "
+                "and give it too (password_file=)",
+                "host",
+            )
+        if self.proxies:
+            self._check_proxies()
+        if self.password is not None and len(self.password) < 8:
+            raise InputError("the password has fewer than 8 characters; take a longer one")
+        if not 0 <= self.port < 65536:
+            refuse("port", self.port, "0 (any free one) to 65535 is allowed")
+        limits = ("max_upload", "max_points", "max_seconds", "max_memory", "max_sessions")
+        for name in (*limits, *(() if self.max_disk is None else ("max_disk",))):
+            if not 0 < getattr(self, name) < math.inf:
+                refuse(name, getattr(self, name), "a positive, finite number is needed")
+        if self.max_points < LEAST_POINTS:
+            refuse("max_points", self.max_points, f"at least {LEAST_POINTS} points are needed")
+        if self.max_memory < LEAST_MEMORY:
+            raise InputError(
+                f"{self.max_memory / 1e6:g} MB of memory is too little: give a max_memory= of at "
+                f"least {LEAST_MEMORY / 1e6:g} MB"
+            )
+
+    def _check_proxies(self) -> None:
+        """Refuse proxies without a password, and those that cannot reach the server."""
+        if not self.password:
+            needed = "through a proxy other machines get in: put a password into a file and give it"
+            refuse("behind_proxy", self.names_of_proxies, f"{needed} too (password_file=)")
+        if self.is_local and not any(_has_this_machine(each) for each in self.proxies):
+            needed = f"proxies on other machines do not reach {self.host}: give an address that"
+            refuse("behind_proxy", self.names_of_proxies, f"{needed} they reach too (host=)")
+
+    @property
+    def lets_others_in(self) -> bool:
+        """Whether other machines can reach it, directly or through a proxy."""
+        return not self.is_local or bool(self.proxies)
+
+    @property
+    def names_of_proxies(self) -> str:
+        """The proxies as one writes them."""
+        named = (each[0] if each.num_addresses == 1 else each for each in self.proxies)
+        return ",".join(map(str, named))
+
+    def is_proxy(self, address: IPv4Address | IPv6Address) -> bool:
+        """Whether an address is one of the proxies."""
+        return any(address in each for each in self.proxies)
+
+    @property
+    def is_local(self) -> bool:
+        """Whether it listens to this machine only."""
+        try:
+            return ip_address(self.host).is_loopback
+        except ValueError:
+            return self.host == "localhost"
+
+
+def _has_this_machine(network: IPv4Network | IPv6Network) -> bool:
+    """Whether an address of this machine alone is in a network."""
+    return any(ip_address(each) in network for each in ("127.0.0.1", "::1"))
+
+
+def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
+    """Read addresses and networks of proxies, separated by commas.
+
+    Raises
+    ------
+    InputError
+        If one of them is none, or is everybody.
+    """
+    needed = "addresses or networks are needed, such as 127.0.0.1 or 10.0.0.0/8,fd00::/8"
+    try:
+        networks = tuple(ip_network(each.strip(), strict=False) for each in text.split(","))
+    except ValueError:
+        refuse("behind_proxy", text, needed)
+    if any(each.prefixlen == 0 for each in networks):
+        refuse("behind_proxy", text, "this trusts everybody: name the proxies, such as 127.0.0.1")
+    return networks
+
+
+def password_in(file: Path) -> str:
+    """Read a password: the first line of a file that only its owner may read.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, others may read or change it, or it has no password in it.
+    """
+    try:
+        first = (_start_of(file).splitlines() or [b""])[0].strip()
+        if len(first) > _LONGEST_PASSWORD:
+            refuse("password_file", str(file), f"at most {_LONGEST_PASSWORD} bytes are a password")
+        password = first.decode().strip()
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", None) or "it is no text"
+        needed = f"it cannot be read ({why}): give a file whose first line is the password"
+        raise InputError(f"is {shown(str(file))}; {needed}", "password_file") from error
+    if not password:
+        refuse("password_file", str(file), "it has no password in its first line: write one there")
+    return password
+
+
+def _start_of(file: Path) -> bytes:
+    """Read the start of a file of ours; a pipe is not waited for."""
+    modes = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    descriptor = os.open(file, modes)
+    try:
+        _check_owner(file, os.fstat(descriptor))
+        return os.read(descriptor, _LONGEST_PASSWORD + 1)
+    finally:
+        os.close(descriptor)
+
+
+def _check_owner(file: Path, found: os.stat_result) -> None:
+    """Refuse what is no file, or what others may read or change; Windows does not say who may."""
+    if not stat.S_ISREG(found.st_mode):
+        refuse(
+            "password_file", str(file), "it is no file: give one whose first line is the password"
+        )
+    if os.name != "posix":
+        return
+    if found.st_uid not in (0, os.geteuid()):
+        refuse("password_file", str(file), "it belongs to somebody else: give a file of your own")
+    if found.st_mode & 0o077:
+        needed = f"others may read or change it: chmod 600 {shlex.quote(str(file))}"
+        refuse("password_file", str(file), needed)

@@ -1,0 +1,39 @@
+"""What a server serves: its pages, their parts and figures, and the tasks that they may ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from roughline.lab.server.tasks import Place
+
+
+@dataclass(frozen=True)
+class Site:
+    """What a server serves.
+
+    Attributes
+    ----------
+    page : callable
+        Gives the page, as HTML.
+    login_page : callable
+        Gives the page that asks for the token, or else for the password, from that choice, a word
+        on what was wrong, and the address to go on to.
+    parts : Path
+        Folder of scripts and styles.
+    figures : mapping of str to str
+        Sets of empty figures that a page embeds at once, and the module of each, whose function
+        ``figures`` draws them; the first is wanted first.
+    tasks : mapping of str to Place
+        All tasks, by the names that pages know them by.
+    warm : str
+        Module that is loaded before processes are forked; its function ``up`` loads the rest.
+    """
+
+    page: Callable[[], str]
+    login_page: Callable[[bool, str, str], str]
+    parts: Path
+    figures: Mapping[str, str]
+    tasks: Mapping[str, Place]
+    warm: str

@@ -1,0 +1,76 @@
+"""Curves in the NetCDF files that roughline writes, for those who ask what such a file is."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.topography.files.archives import refuse_empty_datasets
+
+SHOWN = ("depth", "force", "stiffness", "area_fraction_corrected", "area_fraction")
+"""Quantities of a curve that are shown; the first three are in all of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class CurveInFile:
+    """What a file with a curve holds of it.
+
+    Attributes
+    ----------
+    file : str
+        Name of the file.
+    settings : mapping
+        How the curve was computed.
+    columns : mapping of str to ndarray, shape (loads,)
+        Those of the quantities `SHOWN` that the curve has; NaN where a load was not solved.
+    units : mapping of str to str
+        Unit of each of them.
+    """
+
+    file: str
+    settings: dict[str, Any]
+    columns: dict[str, Real]
+    units: dict[str, str]
+
+
+def curve_in(path: Path) -> CurveInFile | None:
+    """Return the curve in a file of :meth:`roughline.Curve.write`; None if there is none.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If it declares more values than it can hold.
+    """
+    if path.suffix != ".nc" or not os.path.isfile(path):  # noqa: PTH113 - as in reading
+        return None
+    refuse_empty_datasets(path, path.name)
+    import h5netcdf  # here because it loads slowly; xarray loads even more slowly
+
+    try:
+        with h5netcdf.File(path, "r") as file:
+            if "E_star" not in file.attrs or not set(SHOWN[:3]) <= set(file.variables):
+                return None
+            found = {name: file[name] for name in SHOWN if name in file.variables}
+            if any(variable.ndim != 1 for variable in found.values()):
+                return None
+            return CurveInFile(
+                file=path.name,
+                settings={
+                    name: value.item() if isinstance(value, np.generic) else value
+                    for name, value in file.attrs.items()
+                },
+                columns={name: np.asarray(each[:], np.float64) for name, each in found.items()},
+                units={name: str(each.attrs.get("units", "")) for name, each in found.items()},
+            )
+    except (OSError, ValueError, KeyError, AttributeError):  # the last of h5netcdf before 1.7
+        return None

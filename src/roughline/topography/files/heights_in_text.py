@@ -1,0 +1,259 @@
+"""Text as a measurement: a matrix, a line scan or a list of points, with what its head states."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.arrays import Real
+from roughline.errors import InputError
+from roughline.topography.files.instrument import read_instrument
+from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.points import is_grid, line_of, map_of
+from roughline.topography.files.text import (
+    Table,
+    is_even,
+    refuse_positions_beside_heights,
+    table_of,
+)
+from roughline.topography.settings import MEASURED
+from roughline.units import metres_per
+
+_STATED = re.compile(r"\d|unit|einheit|unité", re.IGNORECASE)
+_IN_BRACKETS = re.compile(r"[\[(]\s*([^\])]+?)\s*[\])]")
+_POINTS = re.compile(
+    r"\W*(?:number of |no\.? of |num[-_ ]?)?(?:data[-_ ]?)?(?:points|samples|columns|rows|lines|"
+    r"n[xy]|[xy][-_ ]?(?:points|pixels))\W+(\d+)\W*",
+    re.IGNORECASE,
+)
+_LENGTH = re.compile(
+    r"\W*(?:(?:scan|profile|traverse|measuring)[-_ ]?)?length\W+([\d.]+)\s*(\w+)\W*", re.IGNORECASE
+)
+_LENGTHS = re.compile(
+    r"[fpnuµμmcd]?m|Å|angstroms?|microns?|(?:nano|micro|milli|centi)?met(?:er|re)s?|in|inch|mil",
+    re.IGNORECASE,
+)
+_KEY_AND_VALUE = re.compile(r"\W*([^:=;,\t]+)[:=;,\t](.*)")
+_OF_ALL = re.compile(r"(?:all |length )?units?", re.IGNORECASE)
+_OF_POSITIONS = re.compile(r"(?:lateral|position|[xy])[- _]?units?", re.IGNORECASE)
+_OF_HEIGHTS = re.compile(r"(?:value|height|z)[- _]?units?", re.IGNORECASE)
+_MORE_THAN_A_LIST = 6  # columns; a list of points has x, y, z and little more
+_NEARLY = 0.98  # of the length that a line scan states
+_AXES = ("x", "y", "z")
+
+
+def read_text(path: Path, channel: int | str | None, name: str) -> Measurement | None:
+    """Read heights from text; None if the file is no text, or that of a program's own format.
+
+    Parameters
+    ----------
+    path, channel
+        As for :func:`roughline.read`.
+    name : str
+        What the file is called.
+
+    Raises
+    ------
+    InputError
+        If the text is damaged, was cut short, or can be read in more than one way.
+    """
+    table = table_of(path, name)
+    if table is None:
+        return None
+    if len(table.rows) == 1:
+        raise InputError(
+            f"{name} has one row of numbers: it was cut short, or a line scan stands in a row; "
+            "write one height, or x and z, in each line"
+        )
+    titles = _titles(table)
+    named = _named(titles)
+    _refuse_fewer_points(table, name)
+    if table.rows.shape[1] == 1:
+        return _measured(name, kind="profile", heights=table.rows[:, 0])
+    if table.rows.shape[1] <= len(_AXES) or named:
+        return _of_points(table, titles, named, name)
+    _refuse_unnamed_list(table, titles, name)
+    if len(table.rows) == 2:
+        raise InputError(f"{name} has two rows of numbers: write a line scan as lines of x z")
+    refuse_positions_beside_heights(table.rows, name)
+    if any(_STATED.search(line) for line in table.head):
+        return read_instrument(path, channel, name, _as_matrix(table))
+    return _measured(name, kind="surface", heights=table.rows.T)
+
+
+def _measured(name: str, **others: Any) -> Measurement:
+    stated: dict[str, Any] = {"unit": None, "sizes": None, **others}
+    return Measurement(file=name, settings={"origin": MEASURED, "file": name}, **stated)
+
+
+def _as_matrix(table: Table) -> str:
+    """The table as SurfaceTopography reads it, which knows what many programs write above it."""
+    head = []
+    for line in table.head:
+        text = re.sub(r"(\d),(\d)", r"\1.\2", line) if table.decimal == "," else line
+        if table.separator is not None and not re.search(r"[:=]", text):
+            text = text.replace(table.separator, ": ", 1).replace(table.separator, " ")
+        head.append(text.strip(" ;,\t"))
+    rows = [" ".join(map(repr, row)) for row in table.rows.tolist()]
+    return "\n".join([*head, *rows, ""])
+
+
+def _of_points(
+    table: Table, titles: list[list[str]], named: dict[str, int], name: str
+) -> Measurement:
+    """A line scan or a map from a list of points."""
+    rows = table.rows
+    order = named or dict(zip(_AXES if rows.shape[1] == 3 else ("x", "z"), range(3), strict=False))
+    unit, factor = _units_of_columns(table, titles, order, name)
+    columns = {axis: rows[:, i] for axis, i in order.items()}
+    if not all(np.isfinite(columns[axis]).all() for axis in columns if axis != "z"):
+        raise InputError(f"{name} lists points without a position: delete them")
+    x, y, z = columns["x"], columns.get("y"), columns["z"] * factor
+    if y is not None and (along := _along_a_line(x, y)) is not None:
+        x, y = along, None
+    if y is not None:
+        heights, sides = map_of(x, y, z, name)
+        return _measured(name, kind="surface", heights=heights, sizes=sides, unit=unit)
+    heights, positions, length = line_of(x, z, name)
+    _refuse_shorter_scan(table, unit, length, name)
+    return _measured(
+        name, kind="profile", heights=heights, sizes=(length,), unit=unit, positions=positions
+    )
+
+
+def _along_a_line(x: Real, y: Real) -> Real | None:
+    """Positions along a straight line of points; None if they are spread over a map."""
+    if x[0] == x[-1] and y[0] == y[-1]:
+        return None
+    if is_even(x, 1e-9) and abs(x[1] - x[0]) == 1 and x[0] in (0, 1) and len(np.unique(y)) > 2:
+        return y  # the first column counts the points
+    dx, dy = x - x[0], y - y[0]
+    length = float(np.hypot(dx[-1], dy[-1]))  # not 0: the ends differ
+    aside = np.abs(dx * dy[-1] - dy * dx[-1]).max() / length
+    return (dx * dx[-1] + dy * dy[-1]) / length if aside < 1e-6 * length else None
+
+
+def _titles(table: Table) -> list[list[str]]:
+    """The titles of columns in the last line above the rows, or their names and units in two."""
+    found: list[list[str]] = []
+    for line in reversed(table.head[-2:]):
+        text = re.sub(r"\s+([\[(])", r"\1", line.lstrip("#%!/ "))
+        cells = [each.strip(' "') for each in text.strip(" ;,\t").split(table.separator)]
+        if len(cells) != table.rows.shape[1] or any(re.match(r"[-+.\d]|$", cell) for cell in cells):
+            break
+        found.append(cells)
+        if not all(_is_length(cell.strip("[]()")) for cell in cells):
+            break  # these are the names
+    return found
+
+
+def _named(titles: list[list[str]]) -> dict[str, int]:
+    """The columns that titles call x, y and z; empty if x or z is not among them."""
+    for cells in titles:
+        found = {
+            axis: i
+            for axis in _AXES
+            for i, cell in enumerate(cells)
+            if re.match(rf"{axis}(?![a-z])", cell, re.IGNORECASE)
+        }
+        if {"x", "z"} <= set(found):
+            return found
+    return {}
+
+
+def _refuse_unnamed_list(table: Table, titles: list[list[str]], name: str) -> None:
+    """Refuse what is no matrix of heights: columns with titles, or points with more than heights.
+
+    Raises
+    ------
+    InputError
+        In both cases.
+    """
+    if titles:
+        raise InputError(
+            f"{name} has titles above its columns ({', '.join(titles[-1])[:60]}): call those of "
+            "positions and heights x, y and z, or delete the titles above a matrix of heights"
+        )
+    rows, columns = table.rows.shape
+    if columns > _MORE_THAN_A_LIST or rows < columns**2:
+        return
+    x, y = table.rows[:, 0], table.rows[:, 1]
+    if is_grid(x, y):
+        raise InputError(
+            f"{name} has {columns} columns, and the first two are positions on a grid: keep x, y "
+            "and z alone, or call the columns so in a line above them"
+        )
+
+
+def _units_of_columns(
+    table: Table, titles: list[list[str]], order: dict[str, int], name: str
+) -> tuple[str | None, float]:
+    """The unit of positions, and that of heights over it; no unit if none is stated."""
+    units: dict[str, str] = {}
+    for line in table.head:
+        stated = _KEY_AND_VALUE.match(line)
+        key, value = (each.strip(' ;,\t"') for each in stated.groups()) if stated else ("", "")
+        if not _is_length(value):
+            continue
+        if _OF_ALL.fullmatch(key) or _OF_POSITIONS.fullmatch(key):
+            units["x"] = value
+        if _OF_ALL.fullmatch(key) or _OF_HEIGHTS.fullmatch(key):
+            units["z"] = value
+    for cells in titles:
+        found = {axis: _unit_in(cells[i]) for axis, i in order.items()}
+        units.update({axis: unit for axis, unit in found.items() if unit})
+    if not units:
+        return None, 1.0
+    if not {"x", "z"} <= set(units) or _metres(units.get("y", units["x"])) != _metres(units["x"]):
+        said = ", ".join(f"{axis} in {unit}" for axis, unit in units.items())
+        raise InputError(
+            f"{name} states units of some columns alone ({said}), or different ones of x and y: "
+            "name one unit for the positions and one for the heights above the list, or none"
+        )
+    return units["x"], _metres(units["z"]) / _metres(units["x"])
+
+
+def _unit_in(title: str) -> str | None:
+    """The unit in the title of a column, such as "x [mm]", "Lateral um" or "mm"."""
+    in_brackets = _IN_BRACKETS.search(title)
+    candidate = in_brackets[1] if in_brackets else re.split(r"[\s/_]+", title)[-1]
+    return candidate if _is_length(candidate) else None
+
+
+def _is_length(text: str) -> bool:
+    """Whether a word is a unit of length."""
+    return bool(_LENGTHS.fullmatch(text))
+
+
+def _metres(unit: str) -> float:
+    """The length of a unit, however its name is capitalised. [m]"""
+    return metres_per(unit if len(unit) < 3 else unit.lower())
+
+
+def _refuse_fewer_points(table: Table, name: str) -> None:
+    """Refuse a table that has another number of rows and columns than its head says."""
+    rows, columns = table.rows.shape
+    for line in table.head:
+        stated = _POINTS.fullmatch(line)
+        possible = (rows,) if columns <= len(_AXES) else (rows, columns, rows * columns)
+        if stated and int(stated[1]) not in possible:
+            raise InputError(
+                f'{name} says "{line[:40]}" and has {rows} rows of {columns} numbers: it was cut '
+                "short or changed; export it again"
+            )
+
+
+def _refuse_shorter_scan(table: Table, unit: str | None, length: float, name: str) -> None:
+    """Refuse a line scan that is shorter than its head says."""
+    for line in table.head:
+        stated = _LENGTH.fullmatch(line)
+        if stated and unit and _is_length(stated[2]):
+            held = length * _metres(unit)
+            if held < _NEARLY * float(stated[1]) * _metres(stated[2]):
+                raise InputError(
+                    f'{name} says "{line[:40]}" and ends at {length:g} {unit}: it was cut short; '
+                    "export it again"
+                )

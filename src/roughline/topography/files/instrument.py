@@ -1,0 +1,195 @@
+"""Files of instruments, through SurfaceTopography's readers."""
+
+from __future__ import annotations
+
+import logging
+import math
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from functools import partial
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.errors import InputError, RoughlineError
+from roughline.topography.files.archives import refuse_too_few_bytes
+from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.text import READ_AS_TEXT, TEXT_SUFFIXES
+from roughline.topography.settings import MEASURED
+
+_WITHOUT_MARK = ("hgt", "nms")  # formats of SurfaceTopography that start like any other file
+_OPTICAL = ("al3d", "datx", "lext", "metropro", "opd", "opdx", "plu", "plux", "vk", "zon")
+"""Formats of optical instruments alone, whose heights are means over pixels."""
+
+_BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
+
+
+def read_instrument(
+    path: Path, channel: int | str | None, name: str, matrix: str | None = None
+) -> Measurement:
+    """Read the heights of an instrument's file, and what it states of them.
+
+    Parameters
+    ----------
+    path, channel
+        As for :func:`roughline.read`.
+    name : str
+        What the file is called.
+    matrix : str, optional
+        The text of the file, if it is a matrix below lines that state units or sizes.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged, of a type that is not known, or has no such channel.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ImportWarning)  # MPI is absent, and not needed
+        from SurfaceTopography.Exceptions import ReadFileError  # here because it loads slowly
+        from SurfaceTopography.IO import open_topography
+        from SurfaceTopography.IO.Text import AscReader
+
+    try:
+        opened = partial(open_topography, str(path), format=_marked_format(path))
+        if matrix is not None:
+            opened = partial(AscReader, StringIO(matrix))
+        with _silence(), opened() as reader:
+            _refuse_guessed_format(reader, path)
+            chosen = _channel_of(reader, channel, name)
+            refuse_too_few_bytes(chosen.nb_grid_pts, path, name)
+            _refuse_long_arrays(reader, chosen, name)
+            refuse_beyond_memory(
+                _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
+                f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {name}",
+                "crop it with the instrument's software",
+            )
+            return _measurement_of(reader, chosen, name)
+    except (RoughlineError, MemoryError):
+        raise
+    except ReadFileError as error:
+        allowed = f"; {READ_AS_TEXT}" if path.suffix.lower() in TEXT_SUFFIXES else ""
+        raise InputError(
+            f"{name} is damaged or of a type that is not known{allowed}: export it again, or to "
+            "another format such as X3P, SDF, SUR or GWY"
+        ) from error
+    except Exception as error:  # of a damaged file the readers raise errors of any type
+        first_line = (str(error).strip() or "no reason given").splitlines()[0][:120]
+        raise InputError(
+            f"{name} cannot be read ({type(error).__name__}: {first_line}): export it again"
+        ) from error
+
+
+def _marked_format(path: Path) -> str | None:
+    """The format whose mark the file starts with: damaged, it is read as no other one."""
+    from SurfaceTopography.IO import MAGIC_BUFFER_SIZE, MagicMatch, readers
+
+    with path.open("rb") as file:
+        start = file.read(MAGIC_BUFFER_SIZE)
+    marked = [each.format() for each in readers if each.can_read(start) == MagicMatch.YES]
+    return marked[0] if len(marked) == 1 else None
+
+
+def _refuse_long_arrays(reader: Any, channel: Any, name: str) -> None:
+    """Refuse a file of Mountains whose arrays, as it declares them, are longer than its map."""
+    if reader.format() != "mnt":
+        return
+    arrays = reader._arrays[channel.index]
+    longest = _BYTES_PER_POINT * math.prod(n + 2 for n in channel.nb_grid_pts)  # with a border
+    for array in (arrays["heights"], arrays["mask"]):
+        declared = int.from_bytes(array["data"]["_raw"][:8], "little") if array else 0
+        if declared > longest:
+            raise InputError(
+                f"{name} declares {declared / 1e6:.3g} MB for "
+                f"{' x '.join(map(str, channel.nb_grid_pts))} points: export it again"
+            )
+
+
+def _refuse_guessed_format(reader: Any, path: Path) -> None:
+    """Refuse a format that any bytes have, unless the name of the file says that it is the one."""
+    from SurfaceTopography.Exceptions import CannotDetectFileFormat
+
+    extensions = [f".{each.lower()}" for each in reader.file_extensions() or ()]
+    if reader.format() in _WITHOUT_MARK and path.suffix.lower() not in extensions:
+        raise CannotDetectFileFormat("no format has a mark that is at the start of the file")
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Keep messages of the readers off the terminal; some print damaged files in full."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings(), redirect_stdout(StringIO()), redirect_stderr(StringIO()):
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.disable(before)
+
+
+def _channel_of(reader: Any, wanted: int | str | None, file: str) -> Any:
+    """Find a channel of heights by number or name."""
+    channels = reader.channels
+    listed = ", ".join(f"{i} {each.name!r}" for i, each in enumerate(channels))
+    if wanted is None:
+        return reader.default_channel
+    text = str(wanted)
+    if text.isdigit() and int(text) < len(channels):
+        chosen = channels[int(text)]
+    else:
+        named = [each for each in channels if each.name.lower() == text.lower()]
+        if not named:
+            raise InputError(f"{file} has no channel {text!r}; it has {listed}")
+        if len(named) > 1:
+            raise InputError(
+                f"{file} has {len(named)} channels {text!r}: choose one by its number: {listed}"
+            )
+        chosen = named[0]
+    if not _holds_heights(chosen):
+        raise InputError(f"channel {text!r} of {file} holds no heights; it has {listed}")
+    return chosen
+
+
+def _holds_heights(channel: Any) -> bool:
+    of_lengths = not isinstance(channel.unit, tuple) or bool(channel.unit[1])
+    return bool(channel.is_height_channel) and of_lengths
+
+
+def _measurement_of(reader: Any, channel: Any, file: str) -> Measurement:
+    unit = channel.unit[0] if isinstance(channel.unit, tuple) else channel.unit
+    stated = channel.physical_sizes is not None
+    unit_of_sides = channel.info.get("raw_metadata", {}).get("xunit") if stated else None
+    if unit_of_sides and not unit:
+        raise InputError(
+            f"{file} states its sizes in {unit_of_sides} and no unit of its heights: write one "
+            'above them, such as "Value units: um"'
+        )
+    topography = reader.topography(
+        channel_index=channel.index,
+        # the reader requires a unit and sizes; where the file states none, any will do
+        **({} if unit else {"unit": "m"}),
+        **({} if stated else {"physical_sizes": tuple(map(float, channel.nb_grid_pts))}),
+    )
+    uneven = topography.dim == 1 and not topography.is_uniform
+    return Measurement(
+        file=file,
+        heights=topography.heights(),
+        unit=unit or None,
+        sizes=tuple(map(float, topography.physical_sizes)) if stated else None,
+        kind="surface" if topography.dim == 2 else "profile",
+        channel=channel.name,
+        channels=tuple(
+            f"{i} {each.name}" + ("" if _holds_heights(each) else " (no heights)")
+            for i, each in enumerate(reader.channels)
+        ),
+        positions=np.asarray(topography.positions(), dtype=np.float64) if uneven else None,
+        settings={
+            "origin": MEASURED,
+            "file": file,
+            "channel": channel.name,
+            **({"pixels": "means"} if reader.format() in _OPTICAL else {}),
+        },
+    )

@@ -1,0 +1,228 @@
+"""Files to bodies in metres: instruments' files, arrays, and files that roughline wrote."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.errors import InputError
+from roughline.errors.checks import shortened
+from roughline.errors.public import public
+from roughline.topography.body import Body, Surface
+from roughline.topography.crop import Crop
+from roughline.topography.files.archives import (
+    refuse_bombs,
+    refuse_empty_datasets,
+    refuse_empty_images,
+    refuse_many_datasets,
+    refuse_too_few_bytes,
+)
+from roughline.topography.files.curves import curve_in
+from roughline.topography.files.heights_in_text import read_text
+from roughline.topography.files.instrument import read_instrument
+from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.netcdf import read_body_file
+from roughline.topography.files.scale import Sizes
+from roughline.topography.missing import Filling, Missing
+from roughline.topography.settings import MEASURED
+from roughline.topography.trend import Trend, refuse_unknown_trend
+from roughline.units import engineering
+
+_RMS_RANGE = (1e-12, 1e-3)  # of roughness [m]
+
+
+@public
+def read(
+    path: str | Path,
+    unit: str | None = None,
+    *,
+    channel: int | str | None = None,
+    sizes: Sizes | None = None,
+    missing: Filling = "harmonic",
+    most_missing: float = 0.1,
+    trend: Trend = "tilt",
+    crop: Crop | None = None,
+) -> Body:
+    """Read a surface or a line from a file, in metres.
+
+    It reads NetCDF files that roughline wrote and the formats of SurfaceTopography, plain arrays
+    (NPY, text) included. A measured line scan is returned as a Line of kind "profile"; one with
+    uneven spacing is interpolated linearly to as many evenly spaced points. Points that the
+    instrument could not measure are filled, and the tilt of its stage is removed; the settings of
+    the result record both. Heights in files that roughline wrote are not changed.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    unit : str, optional
+        Unit of all lengths in a file that states none, such as "nm" or "um".
+    channel : int or str, optional
+        Number, from 0, or name of the channel; default: the file's first one of heights.
+    sizes : float, str, or sequence of them, optional
+        Length of a line, or both sides (Lx, Ly), for a file that states no sizes; one of them
+        makes a square of a square array. Numbers are in `unit` if that is given, like everything
+        else in the file, and in metres if not; texts have units of their own, "1 mm, 0.5 mm".
+    missing : {"harmonic", "nearest"}, optional
+        How missing points are filled: by the smoothest surface through their neighbours, or by
+        the nearest known height.
+    most_missing : float, optional
+        Share of missing points above which the file is refused.
+    trend : {"tilt", "none", "mean", "curvature"}, optional
+        Least-squares polynomial that is removed from what an instrument measured.
+    crop : tuple of float, optional
+        The piece to read, (x0, x1, y0, y1) of a map or (x0, x1) of a line, from 0 along each side.
+        Missing points are counted and filled, and the trend is removed, in the piece alone. [m]
+
+    Returns
+    -------
+    Surface or Line
+        In metres.
+
+    Raises
+    ------
+    UnitError
+        If the file states no unit and `unit` is not given, or if both give one.
+    InputError
+        If the file does not exist, has an unknown format, is damaged, or lacks points or sizes.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughline as rl
+    >>> heights = 1e-6 * np.random.default_rng(7).standard_normal((32, 32))
+    >>> rl.write(rl.Surface(heights, sizes=(1e-3, 1e-3), unit="m", is_cut_out=True), "map.nc")
+    >>> surface = rl.read("map.nc")
+    >>> print(surface.shape, surface.unit)
+    (32, 32) m
+    """
+    filling = Missing(missing, most_missing)
+    refuse_unknown_trend(trend)
+    content = measurement(path, channel)
+    if crop is not None:
+        content, sizes = content.piece(crop, unit, sizes), None
+    return content.body(unit, sizes, filling, trend, in_place=True)
+
+
+def measurement(
+    path: str | Path, channel: int | str | None = None, name: str | None = None
+) -> Measurement:
+    """Read the heights of a file, even if a unit, sizes or points are missing for a body.
+
+    Parameters
+    ----------
+    path, channel
+        As for :func:`read`.
+    name : str, optional
+        What the file is called in messages and in the settings; default: its own name.
+
+    Raises
+    ------
+    InputError
+        If the file does not exist, has an unknown format, is damaged, or has no such channel.
+    """
+    path = Path(path)
+    if not os.path.isfile(path):  # noqa: PTH113 - of a name that no file can have, Path raises
+        what = "is a folder" if os.path.isdir(path) else "does not exist"  # noqa: PTH112
+        raise InputError(f"{name or shortened(str(path))} {what}; give a file with a topography")
+    name = name or path.name
+    if path.stat().st_size == 0:
+        raise InputError(f"{name} is empty: export it again")
+    try:
+        return _measurement(path, channel, name)
+    except (MemoryError, OverflowError) as error:
+        raise InputError(
+            f"{name} declares more than memory can hold; if it should not, it is damaged: export "
+            "it again, or crop it with the instrument's software"
+        ) from error
+
+
+def _measurement(path: Path, channel: int | str | None, name: str) -> Measurement:
+    """Read a file that exists, by the first of the readers that knows it."""
+    measured = None
+    if path.suffix == ".nc":
+        refuse_empty_datasets(path, name)
+        measured = read_body_file(path, name)
+    if measured is None and curve_in(path):
+        raise InputError(
+            f"{name} holds a curve that roughline wrote, and no topography: `roughline info` shows "
+            "it, and xarray.open_dataset opens it"
+        )
+    if measured is None and path.suffix == ".npy":
+        measured = _read_array(path, name)
+    if measured is None:
+        measured = read_text(path, channel, name)
+    if measured is None:
+        for refuse in (
+            refuse_bombs,
+            refuse_empty_datasets,
+            refuse_empty_images,
+            refuse_many_datasets,
+        ):
+            refuse(path, name)
+        return read_instrument(path, channel, name)
+    if channel is not None and not measured.channels:
+        raise InputError(f"{name} has one channel only; leave channel= out")
+    return measured
+
+
+def _read_array(path: Path, name: str) -> Measurement:
+    """Read an array in NumPy's format, x along the first axis."""
+    try:
+        with np.errstate(over="ignore"):  # of points that no file can hold
+            stored = np.load(path, mmap_mode="r", allow_pickle=False)
+        if stored.ndim not in (1, 2) or not np.can_cast(stored.dtype, np.float64, "same_kind"):
+            raise ValueError(f"{stored.ndim} dimensions of type {stored.dtype}")
+    except (ValueError, OSError, EOFError, OverflowError) as error:
+        reason = str(error).splitlines()[0][:120] if str(error) else type(error).__name__
+        raise InputError(
+            f"{name} holds no array of real heights ({reason}): save one or two dimensions"
+        ) from error
+    refuse_too_few_bytes(stored.shape, path, name)
+    refuse_beyond_memory(
+        2 * 8 * stored.size,
+        f"reading the {' x '.join(map(str, stored.shape))} points of {name}",
+        "take a smaller piece",
+    )
+    return Measurement(
+        file=name,
+        heights=np.array(stored, dtype=np.float64),
+        unit=None,
+        sizes=None,
+        kind="surface" if stored.ndim == 2 else "profile",
+        settings={"origin": MEASURED, "file": name},
+    )
+
+
+def suspicions(body: Body) -> list[str]:
+    """List properties of a measured body that suggest a wrong unit or a wrong file.
+
+    Parameters
+    ----------
+    body : Surface or Line
+        In metres.
+    """
+    doubts = []
+    rms, slope = body.rms_height, body.rms_slope
+    if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:
+        doubts.append(
+            f"the rms height is {engineering(rms, 'm')}; roughness is mostly between 1 pm and "
+            "1 mm: check the unit, the tilt, and whether heights share the unit of the sides"
+        )
+    if rms == 0:
+        doubts.append("all heights are equal: this is a flat punch, or an empty channel")
+    if slope > 1:
+        doubts.append(
+            f"the rms slope is {slope:.3g}; theories and instruments do not reach slopes of 1: "
+            "check the unit, and outliers"
+        )
+    if isinstance(body, Surface):
+        dx, dy = body.spacing
+        if max(dx, dy) > 2 * min(dx, dy):
+            doubts.append(
+                f"pixels are {engineering(dx, 'm')} x {engineering(dy, 'm')}: check the sizes"
+            )
+    return doubts

@@ -1,0 +1,25 @@
+"""What a single surface shows of the difference between the two models."""
+
+import numpy as np
+
+from roughline.contact.comparison.single_surface import difference_of_one, scatter_of_surfaces
+
+
+def test_the_interval_beside_one_surface_holds_its_scatter(published_results):
+    """Each of 60 surfaces alone, against what all of them say of the two models."""
+    surfaces, lines = published_results.full, published_results.matched
+    half = 2  # loads, eight a decade: F̄ / 1.8
+    shares = []
+    for dimension in surfaces.fractal_dimension.values:
+        full, reduced = (
+            data.sel(fractal_dimension=dimension).stiffness.values for data in (surfaces, lines)
+        )
+        truth = (full.mean(axis=0) / reduced.mean(axis=0) - 1)[half:]
+        at_half, reduced = reduced[:, :-half], reduced[:, half:]
+        scatter = scatter_of_surfaces(reduced, at_half)
+        ends = [difference_of_one(surface[half:], reduced, scatter)[1:] for surface in full]
+        low, high = np.array(ends).transpose(1, 0, 2)
+        shares.append(((low <= truth) & (truth <= high)).mean(axis=0))
+    # 60 surfaces: 95 % less three standard errors is 87 %
+    assert np.min(shares) > 0.86
+    assert np.mean(shares) > 0.95

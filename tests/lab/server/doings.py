@@ -1,0 +1,112 @@
+"""Tasks that only tests ask for; processes of a lane import them by their name."""
+
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+import roughline as rl
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.errors import InputError
+from roughline.lab.controls import ControlError
+from roughline.lab.server import process as processes
+from roughline.lab.server.tasks import Place
+
+_serve = processes._serve
+
+
+def place_of(name):
+    """Where a task of this file is."""
+    return Place(__name__, name, reads_files=name == "read")
+
+
+def serve(connection, memory, warm):
+    """Do the tasks of this file, in a process."""
+    sys.modules.setdefault("lab.server.doings", sys.modules[__name__])
+    _serve(connection, memory, None)
+
+
+def echo(arguments, progress):
+    """Say what was said, by which process."""
+    return f"{arguments['say']} {os.getpid()} {arguments['crowded']}".encode()
+
+
+def read(arguments, progress):
+    """Say the same, after reading what a page has brought."""
+    return echo(arguments, progress)
+
+
+def sleep(arguments, progress):
+    """Take some time, and tell of it."""
+    if "mark" in arguments:
+        Path(arguments["mark"]).touch()
+    for step in range(100):
+        time.sleep(arguments["seconds"] / 100)
+        progress(step + 1, 100)
+    return b"slept"
+
+
+def compute(arguments, progress):
+    """Use a core without end."""
+    Path(arguments["mark"]).write_text(str(os.getpid()))
+    while True:
+        pass
+
+
+def die(arguments, progress):
+    """End as the system ends who takes too much."""
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def fail(arguments, progress):
+    """Fail for a reason that nobody knows."""
+    raise ZeroDivisionError(f"in {__file__}")
+
+
+def refuse(arguments, progress):
+    """Refuse, with the path of a file."""
+    raise InputError(f"cannot read {next(iter(arguments['session']['names']))}")
+
+
+def refuse_at(arguments, progress):
+    """Refuse what a control is set to."""
+    raise ControlError("too rough", "h")
+
+
+def take_memory(arguments, progress):
+    """Take more memory than allowed."""
+    return bytes(arguments["bytes"])
+
+
+def need_memory(arguments, progress):
+    """Refuse what is known to take more memory than allowed, before it is taken."""
+    refuse_beyond_memory(int(arguments["bytes"]), "this", "take less")
+    return b""
+
+
+def name_folders(arguments, progress):
+    """Refuse, with the names of folders of the lab and of the program."""
+    folder = arguments["session"]["folder"]
+    raise InputError(f"cannot read {folder}/a-1.pickle, nor {processes.__file__} (its name)")
+
+
+def fail_to_open(arguments, progress):
+    """Fail to open a file that is not there."""
+    return Path(arguments["session"]["folder"], "none").read_bytes()
+
+
+def write_surface(arguments, progress):
+    """Write a surface as the lab does."""
+    heights = np.random.default_rng(0).normal(size=(64, 64))
+    rl.write(rl.Surface(heights, (1.0, 1.0)), Path(arguments["session"]["folder"]) / "body.nc")
+    return b""
+
+
+def write_file(arguments, progress):
+    """Write a file that is too large."""
+    with Path(arguments["path"]).open("wb") as file:
+        file.truncate(3_000_000_000)
+    return b""

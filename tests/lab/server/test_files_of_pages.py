@@ -1,0 +1,152 @@
+"""Files that pages bring to the lab, and that it makes for them."""
+
+import asyncio
+import json
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+from lab.server.serving import (
+    becomes,
+    raw,
+    run,
+    upload,
+)
+from roughline.lab.server.session import Session
+from roughline.lab.server.settings import ServerSettings
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+
+
+def test_uploads_lie_under_random_names_and_are_gone_when_the_page_says_so(lab):
+    async def scenario():
+        async with lab.page() as page:
+            name = "<b>n\u00e4me</b>\n../../\x00 100%25.TXT"
+            answer = await upload(lab, page.token, b"1 2\n3 4\n", name)
+            assert answer.code == 200
+            said = json.loads(answer.body)
+            assert "<" not in said["name"]
+            assert "/" not in said["name"]
+            (file,) = (lab.folder / page.token).iterdir()
+            assert file.read_bytes() == b"1 2\n3 4\n"
+            assert re.fullmatch(r"[0-9a-f]{16}\.txt", file.name)
+            assert file.parent.stat().st_mode & 0o077 == 0
+            long = await upload(lab, page.token, b"1", "n" * 5000)
+            assert len(json.loads(long.body)["name"]) == 100
+            folder = lab.folder / page.token
+            await page.forget()
+            await becomes(lambda: not list(lab.folder.glob(f"{page.token}*")))
+            again = await upload(lab, page.token, b"1 2\n3 4\n", name)
+            assert json.loads(again.body)["digest"] == said["digest"] != ""
+            await page.forget()
+            await becomes(lambda: not folder.exists())
+        assert (await upload(lab, page.token, b"1", "late")).code == 404
+
+    run(scenario)
+
+
+def test_uploads_that_are_too_large_or_of_nobody_are_refused(lab):
+    async def scenario():
+        async with lab.page() as page:
+            assert (await upload(lab, "nobody", b"1", "a")).code == 404
+            assert (
+                await upload(lab, page.token, b"1", "a", origin="http://evil.example")
+            ).code == 403
+            for length in ("1000001", "9" * 5000):  # Python converts up to 4300 digits
+                large = (
+                    f"POST /upload?session={page.token}&name=a HTTP/1.1\r\n{lab.head}"
+                    f"Content-Length: {length}\r\n\r\nx"
+                )
+                said = await raw(lab, large.encode())
+                assert b" 413 " in said
+                assert b"larger than 1 MB" in said
+            chunked = (
+                f"POST /upload?session={page.token}&name=a HTTP/1.1\r\n{lab.head}"
+                "Transfer-Encoding: chunked\r\n\r\n2\r\nab\r\n0\r\n\r\n"
+            )
+            assert b" 411 " in await raw(lab, chunked.encode())
+            folder = lab.folder / page.token
+            assert not folder.exists() or not list(folder.iterdir())
+
+    run(scenario)
+
+
+def test_an_upload_that_is_broken_off_is_deleted(lab):
+    async def scenario():
+        async with lab.page() as page:
+            _, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
+            writer.write(
+                f"POST /upload?session={page.token}&name=a HTTP/1.1\r\n{lab.head}"
+                "Content-Length: 900000\r\n\r\n".encode()
+            )
+            writer.write(b"x" * 300_000)
+            folder = lab.folder / page.token
+            await becomes(lambda: folder.exists() and any(folder.iterdir()))
+            writer.transport.abort()
+            await becomes(lambda: not any(folder.iterdir()))
+
+    run(scenario)
+
+
+def test_files_of_one_page_are_bounded(lab):
+    async def scenario():
+        async with lab.page() as page:
+            sent = (upload(lab, page.token, bytes(900_000), f"{i}") for i in range(8))
+            codes = [answer.code for answer in await asyncio.gather(*sent)]
+            assert set(codes) <= {200, 410}
+            found = list((lab.folder / page.token).iterdir())
+            assert len(found) <= 3
+            assert sum(file.stat().st_size for file in found) <= 3_000_000
+
+    run(scenario)
+
+
+def test_results_are_given_to_their_page_under_a_policy_of_their_own(lab):
+    async def scenario():
+        async with lab.page() as page, lab.page() as other:
+            results = lab.folder / page.token / "results"
+            results.mkdir(parents=True)
+            (results / "report.html").write_text("<script>alert(1)</script>")
+            (results / "large.nc").write_bytes(bytes(5_000_000))
+            (results / "link.txt").symlink_to("/etc/hostname")
+            answer = await lab.fetch(f"/results/{page.token}/report.html")
+            assert answer.code == 200
+            policy = answer.headers["Content-Security-Policy"]
+            assert "default-src 'none'" in policy
+            assert "script" not in policy
+            assert policy.endswith("sandbox")
+            saved = await lab.fetch(f"/results/{page.token}/large.nc?save=1")
+            assert len(saved.body) == 5_000_000
+            assert saved.headers["Content-Disposition"] == 'attachment; filename="large.nc"'
+            for token, name in (
+                (other.token, "report.html"),
+                ("x", "report.html"),
+                (page.token, ".."),
+                (page.token, "."),
+                (page.token, "link.txt"),
+                (page.token, "%2e%2e"),
+                (page.token, "..%2f..%2fserver"),
+                (page.token, "a" * 5000),
+            ):
+                assert (await lab.fetch(f"/results/{token}/{name}")).code == 404, name
+        assert lab.log.read_text() == ""
+
+    run(scenario)
+
+
+def test_a_file_that_is_read_on_windows_is_forgotten_and_goes_with_the_page(tmp_path, monkeypatch):
+    """There a file that is open cannot be deleted."""
+
+    def refuses(path, **options):
+        raise PermissionError(13, "used by another process", str(path))
+
+    unused = dict.fromkeys(("site", "quick", "slow", "room", "line"))
+    page = Session("here", "", tmp_path, settings=ServerSettings(), **unused)
+    key, upload = page.new_upload("a.txt", 1)
+    upload.path.write_text("1")
+    monkeypatch.setattr(Path, "unlink", refuses)
+    page.forget_upload(key)
+    assert not page.uploads
+    assert upload.path.parent == page.folder

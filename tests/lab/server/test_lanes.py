@@ -1,0 +1,433 @@
+"""Lanes of processes: what is served, replaced, stopped and survived."""
+
+import asyncio
+import os
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import psutil
+import pytest
+
+from lab.server import doings
+from roughline.lab.server import lanes
+from roughline.lab.server import process as processes
+from roughline.lab.server.lanes import Lane
+from roughline.lab.server.requests import Limits, Request
+from roughline.lab.server.tasks import without_paths
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+LIMITS = Limits(count=2, most=4, per_session=2, seconds=20.0, memory=1e9)
+SESSION = {
+    "folder": "/tmp/roughline-lab-1/3F9r-token",
+    "names": {"/tmp/roughline-lab-1/3F9r-token/0123.txt": "my file.txt"},
+}
+
+
+class Asker:
+    """Asks a lane, and keeps what comes back."""
+
+    def __init__(self, lane):
+        self.lane, self.outcomes, self.steps = lane, {}, {}
+
+    def ask(self, task, slot="slot", session="session", name=None, **arguments):
+        """Ask for a task of :mod:`doings`."""
+        name = name or slot
+        self.lane.submit(
+            Request(
+                arguments.pop("address", "here"),
+                session,
+                slot,
+                doings.place_of(task),
+                {"session": SESSION, **arguments},
+                lambda outcome: self.outcomes.setdefault(name, outcome),
+                lambda *steps: self.steps.setdefault(name, []).append(steps),
+            )
+        )
+
+    async def of(self, name):
+        """The outcome of a question, when it is there."""
+        await becomes(lambda: name in self.outcomes)
+        return self.outcomes[name]
+
+
+async def becomes(is_so, seconds=20):
+    end = time.monotonic() + seconds
+    while not is_so():
+        assert time.monotonic() < end
+        await asyncio.sleep(0.005)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _doings():
+    """Let processes do the tasks of :mod:`doings`, forked from one that has loaded the lab."""
+    processes.start_forking("roughline.lab.warm")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(processes, "_serve", doings.serve)
+        yield
+
+
+def run(scenario, *, lasting, limits=LIMITS):
+    """Run a scenario with a lane, and check that nothing is left of it."""
+    errors = []
+
+    async def main():
+        asyncio.get_running_loop().set_exception_handler(lambda _, said: errors.append(said))
+        lane = Lane(limits, lasting=lasting)
+        try:
+            await scenario(lane, Asker(lane))
+        finally:
+            pids = lane.pids
+            await lane.close()
+        await becomes(lambda: not any(psutil.pid_exists(pid) for pid in pids))
+
+    asyncio.run(main())
+    assert not errors
+
+
+@pytest.mark.parametrize("lasting", [True, False])
+def test_questions_are_answered(lasting):
+    async def scenario(lane, asker):
+        for number in range(6):
+            asker.ask("echo" if lasting else "read", slot=str(number), say=number)
+        said = [(await asker.of(str(number))).answer.split()[:2] for number in range(6)]
+        assert [first for first, _ in said] == [str(number).encode() for number in range(6)]
+        used = {pid for _, pid in said}
+        assert len(used) <= 2 if lasting else len(used) == 6
+
+    run(scenario, lasting=lasting)
+
+
+@pytest.mark.parametrize(
+    ("task", "sentence", "at"),
+    [
+        ("fail", "for a reason that the lab does not know", ""),
+        ("refuse", "cannot read my file.txt", ""),
+        ("refuse_at", "too rough", "h"),
+        ("die", "ended unexpectedly", ""),
+        ("take_memory", "more memory than one session may have", ""),
+        ("write_file", "the lab has no room for the files of this now", ""),
+        ("need_memory", "more than one computation may have here, 1 GB: take less", ""),
+        ("name_folders", "cannot read a file of the lab, nor a file of the lab (its name)", ""),
+        ("fail_to_open", "could not be read or written (No such file or directory): ask", ""),
+    ],
+)
+def test_what_goes_wrong_is_one_sentence_and_the_next_question_is_answered(
+    task, sentence, at, tmp_path
+):
+    async def scenario(lane, asker):
+        asker.ask(task, bytes=3_000_000_000, path=str(tmp_path / "large"))
+        outcome = await asker.of("slot")
+        assert outcome.answer is None
+        assert sentence in outcome.error
+        assert outcome.at == at
+        assert "/" not in outcome.error
+        asker.ask("echo", slot="next", say="next")
+        assert (await asker.of("next")).answer.startswith(b"next")
+
+    for lasting in (True, False):
+        run(scenario, lasting=lasting)
+
+
+def test_a_question_that_cannot_be_sent_is_one_sentence():
+    async def scenario(lane, asker):
+        asker.ask("echo", say=lambda: None)
+        assert "ended unexpectedly" in (await asker.of("slot")).error
+        asker.ask("echo", slot="next", say="next")
+        assert (await asker.of("next")).answer.startswith(b"next")
+
+    run(scenario, lasting=True)
+
+
+def test_a_task_that_takes_too_long_is_stopped():
+    async def scenario(lane, asker):
+        asker.ask("sleep", seconds=20)
+        assert "longer than the 0.3 s" in (await asker.of("slot")).error
+        asker.ask("echo", slot="next", say="next")
+        assert (await asker.of("next")).answer.startswith(b"next")
+
+    limits = Limits(count=2, most=4, per_session=2, seconds=0.3, memory=1e9)
+    for lasting in (True, False):
+        run(scenario, lasting=lasting, limits=limits)
+
+
+def test_progress_is_told_until_the_answer():
+    async def scenario(lane, asker):
+        asker.ask("sleep", seconds=0.1)
+        assert (await asker.of("slot")).answer == b"slept"
+        assert asker.steps["slot"][-1] == (100, 100)
+
+    run(scenario, lasting=False)
+
+
+def test_the_latest_question_wins_and_the_others_are_not_answered():
+    async def scenario(lane, asker):
+        for number in range(30):
+            asker.ask("sleep", name=f"replaced {number}", seconds=20)
+            await asyncio.sleep(0.01)
+        asker.ask("echo", name="last", say="last")
+        assert (await asker.of("last")).answer.startswith(b"last")
+        assert list(asker.outcomes) == ["last"]
+
+    run(scenario, lasting=False)
+
+
+def test_a_lasting_process_answers_while_a_slider_moves():
+    """The one that runs and the last one are answered; those between are replaced."""
+
+    async def scenario(lane, asker):
+        asker.ask("sleep", name="first", seconds=0.2)
+        await asyncio.sleep(0.05)
+        for number in range(20):
+            asker.ask("echo", name=number, say=number)
+        await asker.of(19)
+        assert list(asker.outcomes) == ["first", 19]
+
+    run(scenario, lasting=True)
+
+
+def test_a_withdrawn_question_is_not_answered_and_a_new_one_in_its_place_is():
+    async def scenario(lane, asker):
+        asker.ask("sleep", name="withdrawn", seconds=0.2)
+        await asyncio.sleep(0.05)
+        lane.withdraw("session", "slot")
+        asker.ask("sleep", name="new", seconds=0.3)
+        assert (await asker.of("new")).answer == b"slept"
+        assert list(asker.outcomes) == ["new"]
+
+    for lasting in (True, False):
+        run(scenario, lasting=lasting)
+
+
+def test_a_stopped_task_frees_its_core_within_200_ms(tmp_path):
+    async def scenario(lane, asker):
+        mark = tmp_path / "mark"
+        asker.ask("compute", mark=str(mark))
+        await becomes(lambda: mark.exists() and mark.read_text())
+        pid = int(mark.read_text())
+        stopped = time.monotonic()
+        lane.withdraw("session")
+        await becomes(lambda: not psutil.pid_exists(pid))
+        assert time.monotonic() - stopped < 0.2
+        assert not asker.outcomes
+
+    run(scenario, lasting=False)
+
+
+def test_long_tasks_let_others_start_beside_them(tmp_path, monkeypatch):
+    monkeypatch.setattr("roughline.lab.server.lanes._PATIENCE", 0.1)
+
+    async def scenario(lane, asker):
+        marks = [tmp_path / f"{number}" for number in range(2)]
+        for number, mark in enumerate(marks):
+            asker.ask("compute", slot=str(number), session="long", mark=str(mark))
+        await becomes(lambda: all(mark.exists() and mark.read_text() for mark in marks))
+        asker.ask("echo", session="short", say="short")
+        assert (await asker.of("slot")).answer.startswith(b"short")
+        nice = [psutil.Process(int(mark.read_text())).nice() for mark in marks]
+        assert nice == [processes.LOWEST] * 2
+
+    run(scenario, lasting=False)
+
+
+def test_a_page_cannot_occupy_all_processes():
+    async def scenario(lane, asker):
+        for number in range(6):
+            asker.ask("sleep", slot=f"{number}", session="greedy", seconds=0.4)
+        asker.ask("echo", slot="modest", session="modest", say="here")
+        await asker.of("modest")
+        assert not asker.outcomes.keys() - {"modest"}
+
+    limits = Limits(count=2, most=4, per_session=1, seconds=20.0, memory=1e9)
+    run(scenario, lasting=False, limits=limits)
+
+
+def test_questions_of_a_page_that_wait_are_bounded():
+    async def scenario(lane, asker):
+        for number in range(30):
+            asker.ask("sleep", slot=f"{number}", seconds=0.5)
+        refused = [outcome for outcome in asker.outcomes.values() if "too many" in outcome.error]
+        assert len(refused) == 30 - 2 - 16
+        lane.withdraw("session")
+
+    run(scenario, lasting=False)
+
+
+def test_addresses_take_turns_and_refinements_come_last():
+    async def scenario(lane, asker):
+        asker.ask("sleep", slot="long", session="a", address="greedy", seconds=1.0)
+        asker.ask("sleep", slot="short", session="z", address="another", seconds=0.2)
+        asker.ask("echo", slot="finer", session="d", address="other", say="", refines=True)
+        for number in range(1, 4):
+            asker.ask("echo", slot=f"{number}", session=f"b{number}", address="greedy", say="")
+        asker.ask("echo", slot="modest", session="c", address="modest", say="")
+        await asker.of("finer")
+        assert list(asker.outcomes) == ["short", "modest", "1", "2", "3", "finer"]
+
+    limits = Limits(count=2, most=2, per_session=1, seconds=20.0, memory=1e9)
+    run(scenario, lasting=False, limits=limits)
+
+
+def test_many_that_wait_are_told_to_the_task(monkeypatch):
+    monkeypatch.setattr(lanes, "_SOON", 1e9)  # who has waited long is told as well
+
+    async def scenario(lane, asker):
+        for number in range(12):
+            asker.ask("echo", slot=f"{number}", session=f"{number}", say=number)
+        said = [(await asker.of(f"{number}")).answer.split()[2] for number in range(12)]
+        assert said[:2] == [b"False", b"False"] or said[2] == b"True"
+        assert said[2] == b"True"
+        assert said[-1] == b"False"
+
+    run(scenario, lasting=True)
+
+
+@pytest.mark.parametrize("lasting", [True, False])
+def test_processes_that_stand_by_are_replaced_when_they_are_killed(lasting):
+    async def scenario(lane, asker):
+        await lane.prepare()
+        for pid in lane.pids:
+            os.kill(pid, 9)
+        await asyncio.sleep(0.1)
+        asker.ask("echo", say="alive")
+        assert (await asker.of("slot")).answer.startswith(b"alive")
+        await becomes(lambda: len(lane.pids) == 2)
+
+    run(scenario, lasting=lasting)
+
+
+@pytest.mark.parametrize("lasting", [True, False])
+def test_the_loss_of_the_process_that_forks_is_survived(lasting):
+    if not processes._FORKS:
+        pytest.skip("nothing forks here")
+    from multiprocessing import forkserver
+
+    async def scenario(lane, asker):
+        await lane.prepare()
+        before = lane.pids
+        os.kill(forkserver._forkserver._forkserver_pid, 9)
+        await asyncio.sleep(0.1)
+        for number in range(4):
+            asker.ask("echo", slot=f"{number}", say="alive")
+            assert (await asker.of(f"{number}")).answer.startswith(b"alive")
+        await lane.prepare()
+        await becomes(lambda: not any(psutil.pid_exists(pid) for pid in before))
+
+    run(scenario, lasting=lasting)
+
+
+def test_an_answer_is_read_to_its_end_while_another_thread_ends_the_process():
+    class Slow:
+        """A connection from which an answer is read slowly."""
+
+        def __init__(self, connection):
+            self.connection, self.was_closed = connection, None
+
+        def __getattr__(self, name):
+            return getattr(self.connection, name)
+
+        def recv(self):
+            said = self.connection.recv()
+            begun.set()
+            time.sleep(0.5)
+            self.was_closed = self.connection.closed
+            return said
+
+    begun = threading.Event()
+    process = processes.Process(1e9)
+    slow = process._connection = Slow(process._connection)
+    with ThreadPoolExecutor(1) as threads:
+        sleep = doings.place_of("sleep")
+        asked = threads.submit(process.ask, sleep, {"seconds": 20}, lambda *_: None)
+        assert begun.wait(20)
+        process.end()
+        assert asked.result() == processes.LOST
+    assert slow.was_closed is False
+    assert slow.connection.closed
+    assert not process.is_alive
+
+
+def test_no_process_to_be_had_is_one_sentence(monkeypatch, caplog):
+    def refuse(*arguments, **options):
+        raise BlockingIOError(11, "no more processes")
+
+    async def scenario(lane, asker):
+        monkeypatch.setattr("roughline.lab.server.lanes.Process", refuse)
+        asker.ask("echo", say="alive")
+        assert "ended unexpectedly" in (await asker.of("slot")).error
+        monkeypatch.undo()
+        asker.ask("echo", slot="next", say="alive")
+        assert (await asker.of("next")).answer.startswith(b"alive")
+
+    run(scenario, lasting=False)
+    assert "no more processes" in caplog.text
+
+
+def test_replaced_questions_leave_nothing_behind():
+    async def scenario(lane, asker):
+        asker.ask("echo", slot="first", say="")
+        await asker.of("first")
+        await lane.prepare()
+        me = psutil.Process()
+        before, threads_before = me.num_fds(), threading.active_count()
+        for number in range(100):
+            asker.ask("sleep", name=f"{number}", seconds=20)
+            await asyncio.sleep(0.005)
+        asker.ask("echo", name="last", say="")
+        await asker.of("last")
+        await becomes(lambda: len(lane.pids) <= 2 and not lane._jobs and not lane._starting)
+        await becomes(lambda: me.num_fds() <= before + 8)
+        assert threading.active_count() <= threads_before + 2 * LIMITS.most + 2
+
+    run(scenario, lasting=False)
+
+
+def test_lasting_processes_are_renewed(monkeypatch):
+    monkeypatch.setattr("roughline.lab.server.lanes._MOST_TASKS", 3)
+
+    async def scenario(lane, asker):
+        for number in range(12):
+            asker.ask("echo", slot=f"{number}", say="")
+            await asker.of(f"{number}")
+        used = {outcome.answer.split()[0] for outcome in asker.outcomes.values()}
+        assert len(used) >= 4
+
+    run(scenario, lasting=True)
+
+
+def test_without_forking_processes_are_spawned(monkeypatch):
+    import multiprocessing
+
+    monkeypatch.setattr(processes, "_CONTEXT", multiprocessing.get_context("spawn"))
+
+    async def scenario(lane, asker):
+        asker.ask("echo", say="spawned")
+        assert (await asker.of("slot")).answer.startswith(b"spawned")
+
+    limits = Limits(count=1, most=1, per_session=1, seconds=20.0, memory=2e9)
+    run(scenario, lasting=True, limits=limits)
+
+
+def test_names_stand_for_paths_in_sentences():
+    arguments = {"session": {"names": {"/tmp/lab/abc/0123.txt": "mine.txt"}}}
+    said = without_paths("cannot read /tmp/lab/abc/0123.txt: 0123.txt is empty", arguments)
+    assert said == "cannot read mine.txt: mine.txt is empty"
+    arguments = {"session": {"names": {r"C:\lab\abc\0123.txt": "mine.txt"}}}
+    assert without_paths("0123.txt is empty", arguments) == "mine.txt is empty"
+
+
+def test_what_reads_no_file_shares_processes_until_they_are_renewed():
+    async def scenario(lane, asker):
+        used = []
+        for number in range(3):
+            asker.ask("echo", slot=str(number), say=number)
+            used.append((await asker.of(str(number))).answer.split()[1])
+            await becomes(lambda: lane.pids.count(int(used[-1])) == 1)
+        assert len(set(used)) <= LIMITS.count
+        lane.renew()
+        assert not {int(pid) for pid in used} & set(lane.pids)
+        asker.ask("echo", slot="after", say="after")
+        assert (await asker.of("after")).answer.split()[1] not in used
+
+    run(scenario, lasting=False)

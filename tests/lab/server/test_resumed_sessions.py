@@ -1,0 +1,239 @@
+"""Sessions that wait for their pages: whose they are, what goes on, and how long and how many."""
+
+import asyncio
+import json
+import sys
+from contextlib import asynccontextmanager
+from dataclasses import replace
+
+import pytest
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+
+from lab.server.serving import Lab, becomes, log_in, upload
+from roughline.lab.server import server as server_of_pages
+from roughline.lab.server.serve import application
+from roughline.lab.server.server import Server
+from roughline.lab.server.session import _MOST_HELD_BYTES, Visit
+from roughline.lab.server.settings import ServerSettings
+from roughline.lab.server.tasks import Outcome
+from roughline.lab.site import site
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+PASSWORD = "correct horse"
+
+
+class Lane:
+    """Takes requests, and answers them when a test says so."""
+
+    def __init__(self):
+        self.requests, self.withdrawn, self.renewed = [], [], 0
+
+    def submit(self, request):
+        self.requests.append(request)
+
+    def withdraw(self, session, slot=None):
+        self.withdrawn.append((session, slot))
+        return []
+
+    def renew(self):
+        self.renewed += 1
+
+    async def close(self):
+        pass
+
+
+@asynccontextmanager
+async def opened(folder, **settings):
+    """A lab in this process, whose tasks end when a test says so; and its server."""
+    server = Server(site(), ServerSettings(**settings), folder)
+    server.quick, server.slow = Lane(), Lane()
+    (listening,) = bind_sockets(0, "127.0.0.1")
+    http = HTTPServer(application(server))
+    http.add_sockets([listening])
+    key = f"?token={server.key.secret}" if server.key.is_token else ""
+    address = f"http://127.0.0.1:{listening.getsockname()[1]}/{key}"
+    try:
+        yield await asyncio.to_thread(Lab, address, None, folder, None, ""), server
+    finally:
+        http.stop()
+        await server.close()
+
+
+def run(scenario, folder, **settings):
+    async def main():
+        async with opened(folder, **settings) as (lab, server):
+            await scenario(lab, server)
+
+    asyncio.run(main())
+
+
+async def dropped(server, page):
+    """Drop the line of a page, and wait until the server knows."""
+    page.drop()
+    await becomes(lambda: getattr(server.sessions.get(page.token), "line", None) is None)
+
+
+def test_what_runs_while_the_line_is_down_is_answered_after_it_and_not_done_twice(tmp_path):
+    async def scenario(lab, server):
+        async with lab.page() as page:
+            assert page.said["resumed"] is False
+            await upload(lab, page.token, b"1 2", "a.txt")
+            for slot in ("ended", "running", "changed"):
+                await page.ask("measured.answer", slot, state={"loads": slot})
+            await becomes(lambda: len(server.slow.requests) == 3)
+            await dropped(server, page)
+            ended, running, _ = server.slow.requests
+            running.progress(1, 2)
+            ended.answer(Outcome(error="answered while nobody heard"))
+        async with lab.page(before=page.token) as again:
+            assert again.said["session"] == page.token
+            assert again.said["resumed"] is True
+            ((_, file),) = again.said["files"].items()
+            assert file["name"] == "a.txt"
+            assert len(file["digest"]) == 12
+            number = await again.ask("measured.answer", "ended", state={"loads": "ended"})
+            assert await again.answer() == (number, "answered while nobody heard")
+            number = await again.ask("measured.answer", "running", state={"loads": "running"})
+            await again.ask("measured.answer", "changed", state={"loads": "other"})
+            await becomes(lambda: len(server.slow.requests) == 4)
+            running.progress(2, 2)
+            assert json.loads(await again.heard())["id"] == number
+            running.answer(Outcome(error="went on"))
+            assert await again.answer() == (number, "went on")
+
+    run(scenario, tmp_path)
+
+
+def test_answers_that_nobody_heard_are_kept_up_to_a_size(tmp_path):
+    async def scenario(lab, server):
+        async with lab.page() as page:
+            for slot in ("small", "large"):
+                await page.ask("explore.full", slot)
+            await becomes(lambda: len(server.slow.requests) == 2)
+            await dropped(server, page)
+            small, large = server.slow.requests
+            small.answer(Outcome(b"1"))
+            large.answer(Outcome(bytes(_MOST_HELD_BYTES)))
+        assert list(server.sessions[page.token].asked) == ["small"]
+
+    run(scenario, tmp_path)
+
+
+def test_a_session_ends_with_its_time_and_at_once_if_it_has_nothing(tmp_path, monkeypatch):
+    monkeypatch.setattr(server_of_pages, "_WAITS", 0.2)
+
+    async def scenario(lab, server):
+        async with lab.page() as page, lab.page() as bare:
+            await upload(lab, page.token, b"1 2", "a.txt")
+            bare.drop()
+            await becomes(lambda: list(server.sessions) == [page.token])
+            assert server.slow.renewed == 0
+            page.drop()
+            await becomes(lambda: not server.sessions)
+            assert server.slow.renewed > 0
+            await becomes(lambda: not list(tmp_path.iterdir()))
+        for token in (page.token, "unknown", "\u00e4", "x" * 3000):
+            async with lab.page(before=token) as fresh:
+                assert fresh.said["resumed"] is False
+                assert fresh.token != token
+
+    run(scenario, tmp_path)
+
+
+def test_a_page_that_is_left_stops_its_work_soon_unless_it_is_loaded_again(tmp_path, monkeypatch):
+    monkeypatch.setattr(server_of_pages, "_RELOADS", 0.2)
+
+    async def scenario(lab, server):
+        async with lab.page() as page:
+            await page.ask("explore.full")
+            await becomes(lambda: server.slow.requests)
+        async with lab.page(before=page.token) as again:
+            assert again.said["resumed"] is True
+            await asyncio.sleep(0.4)
+            assert server.slow.withdrawn == []
+        await becomes(lambda: (page.token, None) in server.slow.withdrawn)
+        await becomes(lambda: not server.sessions)
+
+    run(scenario, tmp_path)
+
+
+def test_a_page_takes_over_from_another_that_is_told_so(tmp_path):
+    async def scenario(lab, server):
+        async with lab.page() as page, lab.page(before=page.token) as copied:
+            assert copied.said["resumed"] is True
+            assert await page.heard() is None
+            assert page.socket.close_code == 4001
+            await copied.ask("explore.code")
+            await becomes(lambda: server.quick.requests)
+            server.quick.requests[0].answer(Outcome(error="told to the other"))
+            assert (await copied.answer())[1] == "told to the other"
+            assert list(server.sessions) == [copied.token]
+
+    run(scenario, tmp_path)
+
+
+def test_a_session_belongs_to_its_login(tmp_path):
+    async def scenario(lab, server):
+        logins = []
+        for _ in range(2):
+            said = (await log_in(lab, PASSWORD)).headers["Set-Cookie"]
+            logins.append({"Origin": lab.address, "Cookie": said.partition(";")[0]})
+        own, others = logins
+        async with lab.page(own) as page:
+            path = f"/upload?session={page.token}&name=a"
+            sent = {"method": "POST", "body": b"1"}
+            assert (await lab.fetch(path, headers=others, **sent)).code == 404
+            assert (await lab.fetch(path, headers=own, **sent)).code == 200
+            await dropped(server, page)
+        async with lab.page(others, before=page.token) as stranger:
+            assert stranger.said["resumed"] is False
+            assert stranger.said["files"] == {}
+        async with lab.page(own, before=page.token) as again:
+            assert again.said["resumed"] is True
+
+    run(scenario, tmp_path, password=PASSWORD)
+
+
+def test_a_session_that_waits_ends_with_its_login(tmp_path):
+    async def scenario(lab, server):
+        async with lab.page() as page:
+            await upload(lab, page.token, b"1 2", "a.txt")
+            await dropped(server, page)
+            assert server.sessions
+            headers = {"Origin": lab.address}
+            await lab.fetch("/logout", method="POST", body="", headers=headers)
+            assert not server.sessions
+
+    run(scenario, tmp_path)
+
+
+def test_sessions_that_wait_are_bounded_and_give_way_to_pages(tmp_path, monkeypatch):
+    monkeypatch.setattr(server_of_pages, "_MOST_WAITING", 3)
+
+    class Opened:
+        """A line to a page."""
+
+        def give_way(self):
+            pass
+
+    async def scenario(lab, server):
+        def waiting(address):
+            session, _ = server.session_for(Opened(), Visit(address, "", ""))
+            session.uploads["key"] = None
+            server.line_closed(session, is_left=False)
+            return session
+
+        first = [waiting("one") for _ in range(5)]
+        assert list(server.sessions.values()) == first[2:]
+        other = waiting("other")
+        assert server.end_waiting("nobody") is False
+        server.settings = replace(server.settings, max_sessions=4)
+        open_page, _ = server.session_for(Opened(), Visit("one", "", ""))
+        assert list(server.sessions.values()) == [*first[3:], other, open_page]
+        for _ in range(3):
+            assert server.session_for(Opened(), Visit("third", "", ""))[0] is not None
+        assert server.session_for(Opened(), Visit("third", "", "")) == (None, False)
+        assert server.end_waiting() is False
+
+    run(scenario, tmp_path)

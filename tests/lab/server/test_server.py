@@ -1,0 +1,285 @@
+"""The server of the lab against pages that mean well, and others."""
+
+import asyncio
+import json
+import re
+import socket
+import sys
+
+import psutil
+import pytest
+from tornado.httpclient import HTTPClientError
+
+from lab.server.serving import (
+    alive,
+    held,
+    run,
+    upload,
+)
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+SMALL = {"n": "64"}
+
+
+def test_the_page_and_its_parts_come_under_a_strict_policy(lab):
+    async def scenario():
+        paths = (
+            "/",
+            "/lab/lab.js",
+            "/bokeh/bokeh.min.js",
+            "/figures/explore",
+            "/lab/nothing",
+            "/no",
+        )
+        for path in paths:
+            answer = await lab.fetch(path)
+            assert answer.code == (404 if "no" in path.split("/")[-1] else 200), path
+            policy = answer.headers["Content-Security-Policy"]
+            assert "default-src 'none'; script-src 'self';" in policy
+            assert "unsafe-eval" not in policy
+            assert answer.headers["X-Content-Type-Options"] == "nosniff"
+            assert answer.headers["Referrer-Policy"] == "no-referrer"
+            assert answer.headers["Server"] == "roughline"
+            assert not re.search("tornado", str(dict(answer.headers)), re.IGNORECASE)
+
+    run(scenario)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "/lab/../server.py",
+        "/lab/%2e%2e/server.py",
+        "/lab/..%2fserver.py",
+        "/lab//etc/passwd",
+        "/lab/%00",
+        "/bokeh/bokeh.js.map",
+        "/bokeh/../../server.py",
+        "/results/x/y",
+        "/results/..%2f/..",
+        "/figures/server",
+        "/figures/%3Cscript%3E",
+    ],
+)
+def test_nothing_else_can_be_read(lab, path):
+    async def scenario():
+        answer = await lab.fetch(path)
+        assert answer.code in (403, 404)
+        assert b"<" not in answer.body
+        assert len(answer.body) < 100
+
+    run(scenario)
+
+
+def test_other_names_and_pages_of_others_are_refused(lab):
+    async def scenario():
+        port = lab.address.rpartition(":")[2]
+        for host in (f"rebound.example:{port}", f"127.0.0.1.example:{port}", "[::1"):
+            for path in ("/", "/lab/lab.js", "/figures/explore"):
+                answer = await lab.fetch(path, headers={"Host": host})
+                assert answer.code in (400, 403), (host, path)
+        for origin in ("http://evil.example", "null", f"http://localhost:{port}", "http://["):
+            answer = await lab.fetch("/figures/explore", headers={"Origin": origin})
+            assert answer.code == 403
+            answer = await lab.fetch("/login", method="POST", body="", headers={"Origin": origin})
+            assert answer.code == 403
+            with pytest.raises(HTTPClientError, match="403"):
+                async with lab.page({"Origin": origin}):
+                    pass
+        assert (await lab.fetch("/login", method="POST", body="")).code == 403
+        with pytest.raises(HTTPClientError, match="403"):
+            async with lab.page({}):
+                pass
+
+    run(scenario)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "no json",
+        "[]",
+        "null",
+        "7",
+        "[" * 30_000,
+        '{"id": 1' + "0" * 9000 + "}",
+        b"\x00\xff binary",
+        '{"id": 1}',
+        '{"id": 1, "slot": 5, "task": "explore.coarse", "arguments": {}}',
+        '{"id": 1, "slot": "", "task": "explore.coarse", "arguments": {}}',
+        '{"id": 1, "slot": "' + "s" * 41 + '", "task": "explore.coarse", "arguments": {}}',
+        '{"id": 1, "slot": "s", "task": "os.system", "arguments": {}}',
+        '{"id": 1, "slot": "s", "task": ["explore.coarse"], "arguments": {}}',
+        '{"id": 1, "slot": "s", "task": {"a": 1}, "arguments": {}}',
+        '{"id": 1, "slot": "s", "task": "explore.coarse", "arguments": []}',
+        '{"id": 1, "slot": "s", "task": "explore.coarse"}',
+        '{"id": -1, "slot": "s", "task": "none", "arguments": {}}',
+        '{"id": 1e999, "slot": "s", "task": "none", "arguments": {}}',
+        '{"id": {"a": []}, "slot": "s", "task": "none", "arguments": {}}',
+    ],
+)
+def test_messages_that_make_no_sense_are_answered_in_one_sentence(lab, text):
+    async def scenario():
+        async with lab.page() as page:
+            await page.say(text)
+            number, sentence = await page.answer()
+            assert number in (0, 1)
+            assert "reload the page" in sentence or "not in a form the lab knows" in sentence
+            number = await page.ask("explore.code", state=SMALL)
+            assert (await page.answer())[0] == number
+
+    run(scenario)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        {},
+        {"state": None},
+        {"state": []},
+        {"state": "n=64"},
+        {"state": {"n": 64}},
+        {"state": {"n": None}},
+        {"state": {"n": {"a": []}}},
+        {"state": {"D_f": [1]}},
+        {"state": {"seed": "9" * 60_000}},
+        {"state": {"seed": "1e999"}},
+        {"state": {"F": "nan"}},
+        {"state": {"L": "<script>alert(1)</script>"}},
+        {"state": {"L": "\x00\n\u202e"}},
+        {"state": {"E": "1e-400 Pa"}},
+        {"state": {"theories": "../../etc/passwd"}},
+        {"state": {"n": "512"}},
+        {"state": {"n": "64"}, "session": {"folder": "/etc", "names": None}, "crowded": 7},
+        {"state": json.loads("[" * 200 + "]" * 200)},
+    ],
+)
+@pytest.mark.parametrize("task", ["explore.reduced", "explore.full", "explore.code"])
+def test_arguments_of_any_kind_are_answered(lab, task, arguments):
+    async def scenario():
+        async with lab.page() as page:
+            number = await page.ask(task, **arguments)
+            answered, said = await page.answer()
+            assert answered == number
+            if isinstance(said, str):
+                assert 10 < len(said) < 1000
+                assert "\n" not in said
+            else:  # what cannot be used is told at its control, and all else is answered
+                is_whole = arguments == {} or arguments["state"] == SMALL
+                assert is_whole or set(said["refused"]) == set(arguments["state"])
+
+    run(scenario)
+
+
+def test_a_message_that_is_too_large_closes_the_page_and_only_it(lab):
+    async def scenario():
+        async with lab.page() as other:
+            async with lab.page() as page:
+                await page.say("x" * 70_000)
+                assert await page.heard() is None
+                assert page.socket.close_code == 1009
+            await other.ask("explore.code", state=SMALL)
+            assert (await other.answer())[0] == 1
+
+    run(scenario)
+
+
+def test_a_flood_is_refused_and_then_closed_while_others_are_served(lab):
+    async def scenario():
+        async with lab.page() as other, lab.page() as flood:
+            said = json.dumps({"id": 1, "slot": "s", "stop": True})
+            for _ in range(3000):
+                flood.socket.write_message(said)
+            await other.ask("explore.code", state=SMALL)
+            assert (await other.answer())[0] == 1
+            while (message := await flood.heard()) is not None:
+                assert "too many questions at once" in json.loads(message)["error"]
+            assert flood.socket.close_code == 1008
+
+    run(scenario)
+
+
+def test_a_page_that_does_not_read_is_not_sent_more_and_more(lab):
+    """Its questions are held; the server's memory stays bounded."""
+
+    async def scenario():
+        before = psutil.Process(lab.process.pid).memory_info().rss
+        reader, writer = await asyncio.open_connection("127.0.0.1", lab.address.rpartition(":")[2])
+        writer.transport.set_write_buffer_limits(high=2**24)
+        writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        writer.write(
+            (
+                f"GET /link HTTP/1.1\r\n{lab.head}"
+                "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+            ).encode()
+        )
+        await reader.readuntil(b"\r\n\r\n")
+        reader._transport.pause_reading()
+        for number in range(150):
+            said = json.dumps(
+                {
+                    "id": number,
+                    "slot": "s",
+                    "task": "explore.coarse",
+                    "arguments": {"state": {"n": "128", "F": f"{0.1 + number / 1000}"}},
+                }
+            ).encode()
+            writer.write(bytes((0x81, 0x80 | 126, *divmod(len(said), 256), 0, 0, 0, 0)) + said)
+            await asyncio.sleep(0.02)
+        await asyncio.sleep(0.5)
+        grown = psutil.Process(lab.process.pid).memory_info().rss - before
+        writer.transport.abort()
+        assert grown < 40e6
+
+    run(scenario)
+
+
+def test_a_killed_process_is_one_sentence_and_the_next_question_is_answered(lab):
+    async def scenario():
+        async with lab.page() as page:
+            await page.ask("explore.curve", state={"n": "256"})
+            await asyncio.sleep(0.2)
+            for child in alive(lab):
+                child.kill()
+            assert (await page.answer())[1].startswith("the process that computed this ended")
+            await page.ask("explore.coarse", state=SMALL)
+            assert (await page.answer())[1]["points"] == 64
+
+    run(scenario)
+
+
+def test_twenty_pages_are_answered(lab):
+    async def scenario():
+        pages = [lab.page() for _ in range(20)]
+        opened = [await page.__aenter__() for page in pages]
+        for seed, page in enumerate(opened):
+            await page.ask("explore.coarse", state=SMALL | {"seed": str(seed)})
+        for seed, page in enumerate(opened):
+            assert (await page.answer())[1]["state"]["seed"] == str(seed)
+        for page in pages:
+            await page.__aexit__(None, None, None)
+
+    run(scenario)
+
+
+def test_fifty_pages_opened_and_closed_leave_no_memory_and_no_files(lab):
+    async def visit(seed):
+        async with lab.page() as page:
+            await page.ask("explore.full", state={"n": "128", "seed": str(seed)})
+            await page.answer()
+            await upload(lab, page.token, b"1 2\n3 4\n", "a.txt")
+            await page.forget()
+
+    async def scenario():
+        for first in (0, 10):
+            before = held(lab)
+            for seed in range(first, 5 * first + 10):
+                await visit(seed)
+        await asyncio.sleep(0.5)
+        assert held(lab)[0] - before[0] < 15e6
+        assert held(lab)[1] - before[1] < 60e6
+        assert not list(lab.folder.iterdir())
+
+    run(scenario)

@@ -1,0 +1,203 @@
+"""How the lab starts, refuses to, and ends."""
+
+import asyncio
+import gc
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import psutil
+import pytest
+from tornado.httpclient import HTTPRequest
+from tornado.httpserver import HTTPServer
+from tornado.netutil import bind_sockets
+from tornado.websocket import websocket_connect
+
+from lab.server.serving import (
+    alive_still,
+    becomes,
+    entered,
+    run,
+    running_lab,
+    upload,
+    wait_until,
+)
+from roughline.lab.server.interrupts import noted_interrupts
+from roughline.lab.server.serve import application
+from roughline.lab.server.server import Server
+from roughline.lab.server.settings import ServerSettings
+from roughline.lab.site import site
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+PASSWORD = "correct horse"
+LEFT_SOCKETS = pytest.mark.filterwarnings(  # Tornado leaves those that it cannot bind unclosed
+    "ignore:Exception ignored in. <socket:pytest.PytestUnraisableExceptionWarning",
+    "ignore:unclosed <socket:ResourceWarning",
+)
+
+
+def stopped_with_pages_open(lab, stop):
+    """Stop a lab by a signal while it computes for a page."""
+
+    async def scenario():
+        async with lab.page() as page:
+            await upload(lab, page.token, b"1 2\n", "a.txt")
+            await page.ask("explore.full", state={"n": "512"})
+            await asyncio.sleep(0.1)
+            children = psutil.Process(lab.process.pid).children(recursive=True)
+            asked = time.monotonic()
+            lab.process.send_signal(stop)
+            while await page.heard() is not None:
+                pass
+        lab.process.wait(10)
+        assert time.monotonic() - asked < 5
+        wait_until(lambda: not any(child.is_running() for child in children), 5)
+
+    run(scenario)
+    assert lab.process.returncode == 0
+    assert lab.process.stdout.read() == "The lab is closed.\n"
+    for word in ("Task was", "never retrieved", "KeyboardInterrupt", "ignored", "tornado"):
+        assert word not in lab.log.read_text()
+    assert not list(lab.temporary.glob(f"roughline-lab-{lab.process.pid}-*"))
+
+
+def test_it_is_stopped_with_pages_open(tmp_path):
+    with running_lab(temporary=tmp_path) as lab:
+        folder = lab.folder
+        stopped_with_pages_open(lab, signal.SIGTERM)
+        assert not folder.exists()
+
+
+def test_what_a_killed_server_leaves_is_removed_by_the_next_which_stops_by_ctrl_c(tmp_path):
+    with running_lab(temporary=tmp_path, closes=False) as lab:
+        children = psutil.Process(lab.process.pid).children(recursive=True)
+        left = lab.folder
+    wait_until(lambda: not any(alive_still(child) for child in children), 10)
+    assert left.is_dir()
+    others = tmp_path / "roughline-lab-mine"
+    others.mkdir()
+    (tmp_path / "roughline-lab-999999-linked").symlink_to(others)
+    with running_lab(temporary=tmp_path) as lab:
+        assert not left.exists()
+        stopped_with_pages_open(lab, signal.SIGINT)
+    assert others.is_dir()
+
+
+@LEFT_SOCKETS
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--host", "0.0.0.0"), "--password-file"),
+        (("--host", ""), '--host is ""; give a value'),
+        (("--host", "192.0.2.1", "--password-file", "password"), "cannot listen on 192.0.2.1"),
+        (
+            ("--host", "no.such.invalid", "--password-file", "password"),
+            "no address of this machine",
+        ),
+        (("--password-file", "missing"), '--password-file is "missing"; it cannot be read'),
+        (("--password-file", "empty"), "no password in its first line"),
+        (("--password-file", "short"), "fewer than 8"),
+        (("--password-file", "read by all"), "others may read or change it: chmod 600 'read by"),
+        (("--password-file", "."), '--password-file is "."; it is no file'),
+        (("--behind-proxy", "127.0.0.1"), '--behind-proxy is "127.0.0.1"; through a proxy other'),
+        (("--behind-proxy", "0.0.0.0/0"), "this trusts everybody"),
+        (("--behind-proxy", ""), '--behind-proxy is ""; '),
+        (("--port", "70000"), "--port is 70000"),
+        (("--max-upload", "0"), "--max-upload is 0.0; a positive, finite number"),
+        (("--max-upload", "nan"), "--max-upload is nan; a positive, finite number"),
+        (("--max-seconds", "-1"), "--max-seconds is -1.0; a positive, finite number"),
+        (("--max-memory", "inf"), "--max-memory is inf; a positive, finite number"),
+        (("--max-points", "0"), "--max-points is 0; a positive, finite number"),
+    ],
+)
+def test_options_that_make_no_sense_are_one_line(invoke, tmp_path, monkeypatch, options, said):
+    monkeypatch.chdir(tmp_path)
+    for name, content in {"password": PASSWORD, "empty": "", "short": "1234567"}.items():
+        (tmp_path / name).write_text(content)
+        (tmp_path / name).chmod(0o600)
+    (tmp_path / "read by all").write_text(PASSWORD)
+    (tmp_path / "read by all").chmod(0o644)
+    code, out, errors = invoke("lab", "--no-browser", *options)
+    gc.collect()
+    assert code == 2
+    assert out == ""
+    assert said in errors
+    assert errors.count("\n") == 1
+
+
+@LEFT_SOCKETS
+def test_a_port_that_is_taken_is_one_line(invoke):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = str(taken.getsockname()[1])
+        code, _, errors = invoke("lab", "--no-browser", "--port", port)
+    gc.collect()
+    assert code == 2
+    assert f"port {port}" in errors
+    assert "--port" in errors
+
+
+@pytest.mark.parametrize("moment", ["forking", "folder"])
+def test_ctrl_c_before_it_is_up_ends_it_quietly(moment, tmp_path):
+    """In a terminal it reaches all processes of the lab at once."""
+    command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0"]
+    with subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        env=os.environ | {"TMPDIR": str(tmp_path), "PYTHONFAULTHANDLER": "1"},
+        start_new_session=True,
+    ) as process:
+        if moment == "forking":
+            wait_until(psutil.Process(process.pid).children)
+        else:
+            wait_until(lambda: list(tmp_path.glob("roughline-lab-*")))
+        os.killpg(process.pid, signal.SIGINT)
+        try:
+            said = process.communicate(timeout=20)[0]
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGABRT)  # it says where it waits
+            pytest.fail(process.communicate(timeout=20)[0])
+    assert "KeyboardInterrupt" not in said
+    assert "Task" not in said
+    assert not list(tmp_path.glob("roughline-lab-*"))
+
+
+def test_ctrl_c_while_modules_are_loaded_is_not_lost():
+    """Python ignores what is raised in the calls that it makes itself then."""
+    before = signal.getsignal(signal.SIGINT)
+    with noted_interrupts() as interrupted:
+        assert not interrupted()
+        signal.raise_signal(signal.SIGINT)
+        assert interrupted()
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_page_that_vanishes_without_a_word_is_closed(tmp_path, monkeypatch):
+    monkeypatch.setattr("roughline.lab.server.serve._PING", 0.3)
+    monkeypatch.setattr("roughline.lab.server.server._WAITS", 0.3)
+
+    async def scenario():
+        lab = Server(site(), ServerSettings(), tmp_path)
+        (listening,) = bind_sockets(0, "127.0.0.1")
+        server = HTTPServer(application(lab))
+        server.add_sockets([listening])
+        port = listening.getsockname()[1]
+        opened = f"http://127.0.0.1:{port}/?token={lab.key.secret}"
+        address, cookie = await asyncio.to_thread(entered, opened)
+        headers = {"Origin": address, "Cookie": cookie}
+        page = await websocket_connect(HTTPRequest(f"ws://127.0.0.1:{port}/link", headers=headers))
+        await page.read_message()
+        await asyncio.sleep(0.7)
+        (session,) = lab.sessions.values()
+        session.new_upload("a.txt", 1)[1].path.write_text("1")
+        page.protocol._handle_message = lambda opcode, data: None  # it answers no ping any more
+        await becomes(lambda: not lab.sessions and not list(tmp_path.iterdir()), 15)
+        page.close()
+        server.stop()
+        await lab.close()
+
+    run(scenario)
