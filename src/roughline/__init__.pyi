@@ -10,10 +10,10 @@ from roughline.assessment.line_scan import press_scan as press_scan
 from roughline.assessment.part import PartAssessment as PartAssessment
 from roughline.assessment.question import Question as Question
 from roughline.assessment.reading import Reading as Reading
+from roughline.computing.fft import set_threads as set_threads
 from roughline.contact.comparison.models import Comparison as Comparison
 from roughline.contact.comparison.models import compare as compare
 from roughline.contact.comparison.trust import trust_map as trust_map
-from roughline.computing.fft import set_threads as set_threads
 from roughline.contact.curve import Curve as Curve
 from roughline.contact.estimates import Estimate as Estimate
 from roughline.contact.estimates import estimate as estimate
@@ -36,8 +36,6 @@ from roughline.errors import PreparationWarning as PreparationWarning
 from roughline.errors import RoughlineError as RoughlineError
 from roughline.errors import StoreError as StoreError
 from roughline.errors import UnitError as UnitError
-from roughline.topography.files.netcdf import write as write
-from roughline.topography.files.read import read as read
 from roughline.halfspace.elasticity.half_space import HalfSpace as HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous as Homogeneous
 from roughline.halfspace.laws.law import ContactLaw as ContactLaw
@@ -56,6 +54,8 @@ from roughline.statistics.window import find_window as find_window
 from roughline.theories.theory import theory as theory
 from roughline.topography.body import Line as Line
 from roughline.topography.body import Surface as Surface
+from roughline.topography.files.netcdf import write as write
+from roughline.topography.files.read import read as read
 from roughline.topography.preparation import Preparation as Preparation
 from roughline.topography.preparation import prepared as prepared
 from roughline.topography.two_bodies import facing as facing

@@ -7,10 +7,10 @@ from roughline.assessment.answers import broken_assumptions
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import departures_in_words
 from roughline.assessment.grid import why_without_grid_error
-from roughline.topography.files.read import suspicions
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Line, Surface
 from roughline.topography.effects import grave_effects
+from roughline.topography.files.read import suspicions
 
 
 def warnings_of(
