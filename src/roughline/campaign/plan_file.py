@@ -19,6 +19,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.errors.public import public
 
+Kind = Callable[[Any], Any]
 _MOST_VALUES = 10_000  # of one range; more values are a typing error
 
 
@@ -70,108 +71,57 @@ def plan_from(content: dict[str, Any], default_name: str = "campaign") -> Plan:
     """
     if not isinstance(content, Mapping):
         refuse("content", content, "a dict as tomllib reads it is needed; a file: read_plan(path)")
-    top = _Table(content, "the plan", _PLAN_KEYS)
-    name = top.take("name", _text, default_name)
-    seed = top.take("seed", _whole, 0)
-    tables = top.take("ensemble", _tables)
+    plan = _values(content, "the plan", _PLAN, name=default_name, seed=0)
     ensembles = [
         ensemble
-        for number, table in enumerate(tables, 1)
-        for ensemble in _ensembles(_table_of_ensemble(table, number), seed)
+        for number, table in enumerate(plan["ensemble"], 1)
+        for ensemble in _ensembles(table, number, plan["seed"])
     ]
-    return Plan(name, tuple(ensembles))
+    return Plan(plan["name"], tuple(ensembles))
 
 
-def _table_of_ensemble(table: dict[str, Any], number: int) -> _Table:
-    """The table of an ensemble, called by its name, or by its number where it has none."""
-    name = table.get("name")
-    return _Table(
-        table, f"ensemble {name!r}" if isinstance(name, str) else f"ensemble {number}", _KEYS
+def _ensembles(table: dict[str, Any], number: int, seed: int) -> Iterable[Ensemble]:
+    """The ensembles of a table, which is called by its name, or by its number if it has none."""
+    called = repr(table["name"]) if isinstance(table.get("name"), str) else number
+    given = _values(
+        table,
+        f"ensemble {called}",
+        _ENSEMBLE,
+        roll_off_ratios=(1.0,),
+        cutoff_ratio=None,
+        boundary="none" if table.get("model") == "reduced" else "free",
+        hardness_bar=(math.inf,),
     )
-
-
-def _ensembles(table: _Table, seed: int) -> Iterable[Ensemble]:
-    name = table.take("name", _text)
-    model = table.take("model", _text)
-    dimensions = table.take("fractal_dimensions", _numbers)
-    points = table.take("points", _wholes)
-    roll_offs = table.take("roll_off_ratios", _numbers, (1.0,))
-    realisations = table.take("realisations", _whole)
-    forces = table.take("force_bars", _numbers)
-    cutoff = table.take("cutoff_ratio", _number, None)
-    boundary = table.take("boundary", _text, "none" if model == "reduced" else "free")
-    hardnesses = table.take("hardness_bar", _numbers, (math.inf,))
+    name, several = given.pop("name"), ("points", "roll_off_ratios", "hardness_bar")
+    points, roll_offs, hardnesses = (given.pop(key) for key in several)
     for n, roll_off, hardness in product(points, roll_offs, hardnesses):
         parts = [name]
         parts += [f"n{n}"] if len(points) > 1 else []
         parts += [f"roll{roll_off:g}"] if len(roll_offs) > 1 else []
         yielding = f"hardness{hardness:g}" if hardness < math.inf else "elastic"
         parts += [yielding] if len(hardnesses) > 1 else []
-        yield Ensemble(
-            name="-".join(parts),
-            model=model,
-            fractal_dimensions=dimensions,
-            n=n,
-            realisations=realisations,
-            force_bars=forces,
-            seed=seed,
-            boundary=boundary,
-            roll_off_ratio=roll_off,
-            cutoff_ratio=cutoff,
-            hardness_bar=hardness,
-        )
+        own = {"n": n, "seed": seed, "roll_off_ratio": roll_off, "hardness_bar": hardness}
+        yield Ensemble(name="-".join(parts), **own, **given)
 
 
-_NEEDED: Any = object()
-_PLAN_KEYS = ("name", "seed", "ensemble")
-_KEYS = (
-    "name",
-    "model",
-    "fractal_dimensions",
-    "points",
-    "roll_off_ratios",
-    "realisations",
-    "force_bars",
-    "cutoff_ratio",
-    "boundary",
-    "hardness_bar",
-)
-"""Keys of an ensemble."""
-
-_MEANT = {
-    "hurst": ("fractal_dimensions,", "which are 3 - H"),
-    "H": ("fractal_dimensions,", "which are 3 - H"),
-    "n": ("points",),
-    "surfaces": ("realisations",),
-    "hardness": ("hardness_bar,", "H / (E* times the rms slope)"),
-    "forces": ("force_bars,", "F / (E* h L)"),
-    "loads": ("force_bars,", "F / (E* h L)"),
-    "periodic": ("boundary", '= "periodic"'),
-}
-"""Keys that others may be meant by, and how."""
-
-
-class _Table:
-    """A table of the file, of which all keys are known; they are taken from it one by one."""
-
-    def __init__(self, content: Mapping[str, Any], place: str, known: Sequence[str]) -> None:
-        self.place = place
-        self._content = content
-        for key in content:
-            if key not in known:
-                raise InputError(f"{place}: {key!r} is not known; {_hint(key, known)}")
-
-    def take(self, key: str, kind: Callable[[Any], Any], default: Any = _NEEDED) -> Any:
-        """Take a key's value, of the right kind, or its default."""
-        if key not in self._content:
-            if default is _NEEDED:
-                raise InputError(f"{self.place} has no {key!r}, which is needed")
-            return default
-        value = self._content[key]
-        try:
-            return kind(value)
-        except _WrongKindError as error:
-            raise InputError(f"{self.place}: {key} is {shown(value)}; {error} is needed") from None
+def _values(
+    table: Mapping[str, Any], place: str, kinds: Mapping[str, Kind], **left_out: Any
+) -> dict[str, Any]:
+    """The values of a table by their keys, each of its kind, and of those that are left out."""
+    for key in table:
+        if key not in kinds:
+            raise InputError(f"{place}: {key!r} is not known; {_hint(key, list(kinds))}")
+    found = {}
+    for key, kind in kinds.items():
+        if key in table:
+            try:
+                found[key] = kind(table[key])
+            except _WrongKindError as error:
+                told = f"{place}: {key} is {shown(table[key])}; {error} is needed"
+                raise InputError(told) from None
+        elif key not in left_out:
+            raise InputError(f"{place} has no {key!r}, which is needed")
+    return left_out | found
 
 
 def _hint(key: str, known: Sequence[str]) -> str:
@@ -239,3 +189,31 @@ def _range(value: dict[str, Any]) -> tuple[float, ...]:
     if not (1 <= count <= 1000 and 0 < low < high):
         raise _WrongKindError("0 < from < to and 1 to 1000 values per_decade")
     return decades(low, high, count)
+
+
+_PLAN = {"name": _text, "seed": _whole, "ensemble": _tables}
+_ENSEMBLE = {
+    "name": _text,
+    "model": _text,
+    "fractal_dimensions": _numbers,
+    "points": _wholes,
+    "roll_off_ratios": _numbers,
+    "realisations": _whole,
+    "force_bars": _numbers,
+    "cutoff_ratio": _number,
+    "boundary": _text,
+    "hardness_bar": _numbers,
+}
+"""Keys of an ensemble, and of what kind each is."""
+
+_MEANT = {
+    "hurst": ("fractal_dimensions,", "which are 3 - H"),
+    "H": ("fractal_dimensions,", "which are 3 - H"),
+    "n": ("points",),
+    "surfaces": ("realisations",),
+    "hardness": ("hardness_bar,", "H / (E* times the rms slope)"),
+    "forces": ("force_bars,", "F / (E* h L)"),
+    "loads": ("force_bars,", "F / (E* h L)"),
+    "periodic": ("boundary", '= "periodic"'),
+}
+"""Keys that others may be meant by, and how."""
