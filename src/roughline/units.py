@@ -28,21 +28,7 @@ LEAST_CHANGE = 0.05
 SI = ("m", "N", "N/m", "Pa", "J")
 """Units that get a prefix where values are shown."""
 
-_PREFIXES = {
-    -18: "a",
-    -15: "f",
-    -12: "p",
-    -9: "n",
-    -6: "µ",
-    -3: "m",
-    0: "",
-    3: "k",
-    6: "M",
-    9: "G",
-    12: "T",
-    15: "P",
-    18: "E",
-}
+_PREFIXES = dict(zip(range(-18, 19, 3), (*"afpnµm", "", *"kMGTPE"), strict=True))
 _POWERS = {prefix: power for power, prefix in _PREFIXES.items()}
 _PREFIXED = re.compile(r"(?P<prefix>[afpnuµμmkMGTPE]?)(?P<unit>m|N|Pa|Hz)")
 _SIGNS = {"ohm": "Ω", "ohm m²": "Ω m²"}
@@ -118,39 +104,13 @@ def in_si(text: str, unit: str, name: str) -> float:
 
 
 def lengths(text: str, name: str) -> list[float]:
-    """Read lengths with units between commas. [m]
-
-    Parameters
-    ----------
-    text : str
-        Such as "0 um, 50 um".
-    name : str
-        Name of the quantity, for the message.
-
-    Raises
-    ------
-    UnitError
-        If one of them is no length with a unit, or has a decimal comma.
-    """
+    """Read lengths with units between commas, such as "0 um, 50 um", as :func:`in_si` does. [m]"""
     refuse_decimal_comma(text, name)
     return [in_si(part, "m", name) for part in text.split(",")]
 
 
 def refuse_decimal_comma(text: str, name: str) -> None:
-    """Refuse a number such as 0,33.
-
-    Parameters
-    ----------
-    text : str
-        Number, with or without a unit.
-    name : str
-        Name of the quantity, for the message.
-
-    Raises
-    ------
-    UnitError
-        If a comma stands between digits.
-    """
+    """Refuse a number such as 0,33, with or without a unit, by a UnitError of a name."""
     if comma := _DECIMAL_COMMA.search(text):
         raise UnitError(
             f'is {shown(text)}, with a comma in "{comma[0]}"; numbers take a decimal point, such '
@@ -171,13 +131,7 @@ def is_unit_of_length(unit: str) -> bool:
 
 
 def metres_per(unit: str) -> float:
-    """Return the length of a unit such as "nm" or "um" in metres.
-
-    Raises
-    ------
-    UnitError
-        If it is not a unit of length.
-    """
+    """Return the length of a unit such as "nm" or "um" in metres; raise a UnitError of others."""
     try:
         return in_si(f"1 {unit}", "m", "unit")
     except UnitError as error:
@@ -186,20 +140,7 @@ def metres_per(unit: str) -> float:
 
 
 def load_in_newtons(text: str, area: float) -> float:
-    """Read a load, a total force such as "10 N" or a mean pressure such as "2 MPa".
-
-    Parameters
-    ----------
-    text : str
-        Number and unit.
-    area : float
-        Nominal area that a pressure acts on. [m²]
-
-    Raises
-    ------
-    UnitError
-        If it is neither a force nor a pressure.
-    """
+    """Read a load: a force such as "10 N", or a pressure such as "2 MPa" on a nominal area [m²]."""
     refuse_decimal_comma(text, "loads")
     for unit, factor in (("N", 1.0), ("Pa", area)):
         try:
@@ -242,15 +183,10 @@ def prefix(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, s
     if value == 0 or not math.isfinite(value):
         return 1.0, sign
     exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
-    if unit == "m²":  # the prefix is squared as well, and areas run from 0.01 to 10000
-        thousands = _within_prefixes(3 * ((exponent + 2) // 6))
-        return 10.0 ** (-2 * thousands), f"{_PREFIXES[thousands]}{sign}"
-    thousands = _within_prefixes(3 * (exponent // 3))
-    return 10.0**-thousands, f"{_PREFIXES[thousands]}{sign}"
-
-
-def _within_prefixes(exponent: int) -> int:
-    return min(max(exponent, min(_PREFIXES)), max(_PREFIXES))
+    power = 2 if unit == "m²" else 1  # that the prefix has; areas run from 0.01 to 10000
+    thousands = 3 * ((exponent + 2 * (power - 1)) // (3 * power))
+    thousands = min(max(thousands, min(_PREFIXES)), max(_PREFIXES))
+    return 10.0 ** (-power * thousands), f"{_PREFIXES[thousands]}{sign}"
 
 
 def supported_digits(

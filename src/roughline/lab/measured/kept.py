@@ -23,20 +23,9 @@ def kept(
     make: Callable[[], Value],
     most: int | None = None,
 ) -> Value:
-    """Return what was kept of a kind for a question, or else make and keep it.
+    """Return what a page has kept of a kind for a question, or else make and keep it.
 
-    Parameters
-    ----------
-    session : mapping
-        Of the page.
-    kind : {"measurement", "body", "assessment", "comparison"}
-        What it is; the oldest ones go.
-    asked : object
-        What it depends on; two that print alike are the same.
-    make : callable
-        Makes it.
-    most : int, optional
-        How many of the kind are kept, if more than usual.
+    Two questions that print alike are the same. The oldest of more than so many go.
     """
     folder = Path(session["folder"])
     place = folder / f"{kind}-{digest(asked)}.pickle"
