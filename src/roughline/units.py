@@ -223,6 +223,20 @@ def decimal(value: float, digits: int) -> str:
     )
 
 
+def in_words(value: float, unit: str | None, digits: int = MOST_DIGITS) -> str:
+    """Write a value with its unit; SI units get a prefix, None gives the number alone."""
+    if unit in SI:
+        return engineering(value, unit, digits)
+    return f"{decimal(value, digits)} {unit or ''}".strip()
+
+
+def digits_known(value: float, error: float | None) -> int:
+    """Return how many digits of a value v its error e supports: v / (1 + e / v) to v + e."""
+    if error is None or not value > 0:
+        return MOST_DIGITS
+    return supported_digits(value, (value / (1 + error / value), value + error))
+
+
 def change_in_words(least: float, largest: float) -> str:
     """Write how far a least and a largest ratio are from one, such as "-11 to +6%"."""
 

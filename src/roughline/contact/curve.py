@@ -16,7 +16,7 @@ from roughline.computing.disk import write_dataset
 from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation
-from roughline.contact.notebook import described, html_of_curve
+from roughline.contact.notebook import Column, described, html_of_loads, with_unit
 from roughline.contact.quantities import IN_FILES
 from roughline.contact.quantity import OVER_LOADS, Quantity, unit_of
 from roughline.contact.status import STATUS_FLAGS, Status
@@ -137,8 +137,30 @@ class Curve:
     dents: Sequence[Indentation | None] = field(default=(), repr=False)
     law: ContactLaw | None = field(default=None, repr=False)
 
-    __repr__ = described
-    _repr_html_ = html_of_curve
+    def __repr__(self) -> str:
+        return described(self.force, self.status, self.unit)
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows: a table of the loads."""
+        columns: list[Column] = [
+            ("depth d", self.depth, None, "length"),
+            ("force F", self.force, None, "force"),
+            ("stiffness k", self.stiffness, self.stiffness_error, "force/length"),
+        ]
+        if self.hardness is not None and self.unloading_stiffness is not None:
+            unloading = self.unloading_stiffness, self.unloading_stiffness_error
+            columns.append(("unloading stiffness", *unloading, "force/length"))
+        if self.area_fraction is not None:
+            columns.append(("raw area", self.area_fraction, None, None))
+        if self.area_fraction_corrected is not None:
+            area = self.area_fraction_corrected, self.area_fraction_error
+            columns.append(("corrected area A/A_0", *area, None))
+        model = "reduced model" if self.area_fraction is None else "full model"
+        boundary = self.settings.get("boundary")
+        place = f", {boundary} half-space" if boundary else ""
+        title = f"Curve of the {model}{place}, E* = {with_unit(self.E_star, 'pressure', self.unit)}"
+        grid_decides = ~self.resolved & (self.force != 0)
+        return html_of_loads(title, columns, self.status, grid_decides, self.unit)
 
     @property
     def E_star(self) -> float:

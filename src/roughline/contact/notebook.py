@@ -2,92 +2,82 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
+from roughline.computing.arrays import Mask, Real
 from roughline.contact.quantity import unit_of
 from roughline.contact.status import Status
-from roughline.topography.notebook import digits_known, html, in_words
+from roughline.topography.notebook import html
+from roughline.units import digits_known, in_words
 
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
-    from roughline.contact.curve import Curve
-
-_Column = tuple[str, "Real", "Real | None", "str | None"]
-"""Name, values, errors and unit."""
+Column: TypeAlias = "tuple[str, Real, Real | None, str | None]"
+"""Name, values over the loads, their errors, and their dimension; None for numbers."""
 
 _FIRST, _LAST = 12, 4  # loads of a long curve that are shown
 
 
-def described(curve: Curve) -> str:
+def described(force: Real, status: NDArray[np.int8], unit: str | None) -> str:
     """Describe a curve in a line: its loads, its forces, and how many were solved."""
-    count, solved = curve.status.size, curve.converged
+    count, solved = status.size, status == Status.CONVERGED
     loads = f"{count} load{'' if count == 1 else 's'}"
     if not solved.any():
         return f"<Curve: {loads}, none solved>"
-    unit = unit_of("force", "m") if curve.unit == "m" else None
-    low, high = (in_words(float(end(curve.force[solved])), unit) for end in (np.min, np.max))
+    low, high = (with_unit(float(end(force[solved])), "force", unit) for end in (np.min, np.max))
     missing = "" if solved.all() else f", {count - int(solved.sum())} of them not solved"
     return f"<Curve: {loads}, force {low} to {high}{missing}>"
 
 
-def html_of_curve(curve: Curve) -> str:
+def html_of_loads(
+    title: str,
+    columns: Sequence[Column],
+    status: NDArray[np.int8],
+    grid_decides: Mask,
+    unit: str | None,
+) -> str:
     """Return what a notebook shows of a curve: a table of its loads."""
-    units = {name: _unit(name, curve) for name in ("length", "force", "force/length", "pressure")}
-    columns: list[_Column] = [
-        ("depth d", curve.depth, None, units["length"]),
-        ("force F", curve.force, None, units["force"]),
-        ("stiffness k", curve.stiffness, curve.stiffness_error, units["force/length"]),
-    ]
-    if curve.hardness is not None and curve.unloading_stiffness is not None:
-        k_u, error = curve.unloading_stiffness, curve.unloading_stiffness_error
-        columns.append(("unloading stiffness", k_u, error, units["force/length"]))
-    if curve.area_fraction is not None:
-        columns.append(("raw area", curve.area_fraction, None, None))
-    if curve.area_fraction_corrected is not None:
-        area, error = curve.area_fraction_corrected, curve.area_fraction_error
-        columns.append(("corrected area A/A_0", area, error, None))
     header = ["load", *(name for name, *_ in columns), "remark"]
-    reached = np.flatnonzero(curve.status != Status.INTERRUPTED)
+    reached = np.flatnonzero(status != Status.INTERRUPTED)
     rows = [
         [
             str(i),
-            *(_cell(i, values, errors, unit) for _, values, errors, unit in columns),
-            _remark(curve, i),
+            *(_cell(i, values, errors, kind, unit) for _, values, errors, kind in columns),
+            _remark(Status(status[i]), grid_decides=bool(grid_decides[i])),
         ]
         for i in reached[_shown(reached.size)].tolist()
     ]
     if len(rows) < reached.size:
         rows.insert(_FIRST, ["…"] * len(header))
-    if left := curve.status.size - reached.size:  # told once
+    if left := status.size - reached.size:  # told once
         missing = ["–"] * len(columns)
-        rows.append([f"{left} of {curve.status.size}", *missing, Status.INTERRUPTED.reason])
-    model = "reduced model" if curve.area_fraction is None else "full model"
-    boundary = curve.settings.get("boundary")
-    place = f", {boundary} half-space" if boundary else ""
-    modulus = in_words(curve.E_star, units["pressure"])
-    return html(f"Curve of the {model}{place}, E* = {modulus}", header, rows)
+        rows.append([f"{left} of {status.size}", *missing, Status.INTERRUPTED.reason])
+    return html(title, header, rows)
 
 
-def _unit(dimension: str, curve: Curve) -> str | None:
-    return unit_of(dimension, "m") if curve.unit == "m" else None
+def with_unit(
+    value: float, dimension: str | None, unit: str | None, error: float | None = None
+) -> str:
+    """Write a value with the digits that its error supports, in SI where lengths are in metres."""
+    named = unit_of(dimension, "m") if dimension and unit == "m" else None
+    return in_words(value, named, digits_known(value, error))
 
 
-def _cell(load: int, values: Real, errors: Real | None, unit: str | None) -> str:
-    """Write a value with the digits that its error supports."""
+def _cell(
+    load: int, values: Real, errors: Real | None, dimension: str | None, unit: str | None
+) -> str:
     value = float(values[load])
     if not np.isfinite(value):
         return "infinite" if np.isinf(value) else "–"
-    return in_words(
-        value, unit, digits_known(value, None if errors is None else float(errors[load]))
-    )
+    return with_unit(value, dimension, unit, None if errors is None else float(errors[load]))
 
 
-def _remark(curve: Curve, load: int) -> str:
-    if not curve.converged[load]:
-        return Status(curve.status[load]).reason
-    return "" if curve.resolved[load] or curve.force[load] == 0 else "the grid decides"
+def _remark(status: Status, *, grid_decides: bool) -> str:
+    if status != Status.CONVERGED:
+        return status.reason
+    return "the grid decides" if grid_decides else ""
 
 
 def _shown(count: int) -> list[int]:

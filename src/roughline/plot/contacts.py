@@ -14,8 +14,7 @@ from roughline.errors.public import public
 from roughline.plot.bodies import draw_map, extent, label_sides
 from roughline.plot.style import drawing_on
 from roughline.plot.units import in_unit
-from roughline.topography.notebook import digits_known, in_words
-from roughline.units import decimal
+from roughline.units import decimal, digits_known, in_words
 
 if TYPE_CHECKING:
     from roughline.contact.curve import Curve

@@ -12,7 +12,7 @@ from roughline.computing.arrays import Real
 from roughline.spectra.chance import Finding, score_of_square
 from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Surface
-from roughline.topography.notebook import in_words
+from roughline.units import in_words
 
 _VARIES = 0.05  # relative scatter of rms slopes between places that matters
 _TILES = (2, 4, 8)  # along a side, whose slopes are compared

@@ -11,7 +11,7 @@ from scipy import special
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from roughline.topography.notebook import in_words
+from roughline.units import in_words
 
 MOST = 512
 """Cells along a side of a map, from which correlations are taken."""

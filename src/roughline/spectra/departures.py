@@ -19,8 +19,8 @@ from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.spectra.gaussian_heights import of_heights
 from roughline.spectra.longer_waves import LongShape, long_shapes, tilt_of
 from roughline.topography.body import Body, Line, Surface
-from roughline.topography.notebook import in_words
 from roughline.topography.settings import MOUNTING, TILT
+from roughline.units import in_words
 
 Assumption = Literal[
     "gaussian",

@@ -21,7 +21,7 @@ from roughline.spectra.chance import (
 )
 from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Body, Surface
-from roughline.topography.notebook import in_words
+from roughline.units import in_words
 
 _LEAST_VALUES = 8  # independent values, from which a skewness or a kurtosis says something
 _SKEW = 0.45  # skewness that matters

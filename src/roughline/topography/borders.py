@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
+from roughline.computing.arrays import Real
+from roughline.topography.settings import Settings
 from roughline.units import decimal
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
-    from roughline.topography.body import Body
-    from roughline.topography.settings import Settings
 
 _JUMP = 1e-3  # chance below which a step across the borders is no ordinary one
 _UNCLEAR = (1e-6, 1e-2)  # chances between which the heights leave it open
@@ -24,6 +21,17 @@ _ROUNDING = 32 * np.finfo(np.float64).eps  # of the largest height, below which 
 _EVEN = 1e-6  # least relative variance of ordinary steps
 
 _STEP, _CHANCE = "border_step", "border_chance"  # names in the settings
+
+
+class _Body(Protocol):
+    """What is asked of a Surface or a Line."""
+
+    @property
+    def heights(self) -> Real: ...
+    @property
+    def settings(self) -> Settings: ...
+    @property
+    def is_cut_out(self) -> bool: ...
 
 
 @dataclass(frozen=True)
@@ -91,7 +99,7 @@ def borders_of(heights: Real) -> Borders:
     return least
 
 
-def decided(body: Body) -> Borders | None:
+def decided(body: _Body) -> Borders | None:
     """Return what was seen at the borders of a body; None if its heights did not decide."""
     if _CHANCE not in body.settings:
         return None
@@ -100,13 +108,13 @@ def decided(body: Body) -> Borders | None:
     return borders if borders.jump == body.is_cut_out else None
 
 
-def whole_or_piece(body: Body) -> str:
+def whole_or_piece(body: _Body) -> str:
     """Say whether a body is periodic or cut out, and why where its heights decided that."""
     name, borders = "cut out of a larger one" if body.is_cut_out else "periodic", decided(body)
     return name if borders is None else f"{name} ({borders.in_words(_borders_of_a(body))})"
 
 
-def border_doubts(body: Body) -> tuple[str, ...]:
+def border_doubts(body: _Body) -> tuple[str, ...]:
     """Warn where the heights do not say clearly whether a body is a piece of a larger one."""
     borders = decided(body)
     if borders is None or not borders.are_unclear:
@@ -119,7 +127,7 @@ def border_doubts(body: Body) -> tuple[str, ...]:
     )
 
 
-def _borders_of_a(body: Body) -> str:
+def _borders_of_a(body: _Body) -> str:
     return "opposite borders" if body.heights.ndim == 2 else "its ends"
 
 

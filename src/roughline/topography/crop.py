@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.errors import InputError
-from roughline.topography.notebook import in_words
+from roughline.units import in_words
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real

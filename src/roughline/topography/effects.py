@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from roughline.topography.notebook import in_words
+from roughline.units import in_words
 
 if TYPE_CHECKING:
     from roughline.topography.body import Body, BodyType

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from roughline.topography.borders import whole_or_piece
-from roughline.units import MOST_DIGITS, SI, decimal, engineering, supported_digits
+from roughline.units import MOST_DIGITS, decimal, in_words
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
@@ -19,20 +19,6 @@ if TYPE_CHECKING:
 _WIDTH, _HEIGHT = 3.2, 1.6  # of a thumbnail [inch]
 _MOST_POINTS = 2000  # of a line in a thumbnail
 _MOST_PIXELS = 200  # of a surface in a thumbnail, along a side
-
-
-def in_words(value: float, unit: str | None, digits: int = MOST_DIGITS) -> str:
-    """Write a value with its unit; SI units get a prefix, None gives the number alone."""
-    if unit in SI:
-        return engineering(value, unit, digits)
-    return f"{decimal(value, digits)} {unit or ''}".strip()
-
-
-def digits_known(value: float, error: float | None) -> int:
-    """Return how many digits of a value v its error e supports: v / (1 + e / v) to v + e."""
-    if error is None or not value > 0:
-        return MOST_DIGITS
-    return supported_digits(value, (value / (1 + error / value), value + error))
 
 
 def described(body: Any) -> str:

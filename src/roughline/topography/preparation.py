@@ -17,8 +17,8 @@ from roughline.topography.body import Body, BodyType, Surface, with_heights
 from roughline.topography.crop import Crop, points_in, settings_of_piece
 from roughline.topography.effects import effects, with_effect
 from roughline.topography.missing import Missing
-from roughline.topography.notebook import in_words
 from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
+from roughline.units import in_words
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Mask, Real

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.topography.notebook import in_words
-from roughline.units import decimal
+from roughline.units import decimal, in_words
 
 if TYPE_CHECKING:
     from roughline.topography.body import Surface
