@@ -80,20 +80,6 @@ def evaluate(batch: Batch, threads: int, version: str) -> BatchResult:
     """Generate and press the bodies of a batch one by one; one that fails does not stop the others.
 
     Everything is dimensionless: stiffness over E* L, depth over h.
-
-    Parameters
-    ----------
-    batch : Batch
-        The bodies.
-    threads : int
-        Threads for each.
-    version : str
-        Version of roughline that the campaign runs with.
-
-    Raises
-    ------
-    VersionError
-        If this process has another version.
     """
     check_version(version)
     fft.set_threads(min(threads, available_cores()))

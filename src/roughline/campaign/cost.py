@@ -77,15 +77,7 @@ def chunk_shape(ensemble: Ensemble) -> tuple[int, int]:
 
 
 def cost_of(plan: Plan, missing: dict[str, int]) -> Cost:
-    """Estimate the cost of what is missing, from the time of one small problem of each kind.
-
-    Parameters
-    ----------
-    plan : Plan
-        The campaign.
-    missing : dict
-        Number of missing cases by name of the ensemble.
-    """
+    """Estimate the cost of what is missing, from the time of one small problem of each kind."""
     seconds, memory = 0.0, 0
     for ensemble in plan.ensembles:
         count = missing[ensemble.name]
@@ -108,15 +100,7 @@ def memory_of(ensemble: Ensemble) -> int:
 
 
 def disk_of(plan: Plan, missing: dict[str, int]) -> int:
-    """Return the size of results, before compression. [bytes]
-
-    Parameters
-    ----------
-    plan : Plan
-        The campaign.
-    missing : dict
-        Number of missing cases by name of the ensemble.
-    """
+    """Return the size of results, before compression. [bytes]"""
     return sum(
         _bytes_on_disk(ensemble, missing[ensemble.name])
         for ensemble in plan.ensembles
@@ -125,25 +109,13 @@ def disk_of(plan: Plan, missing: dict[str, int]) -> int:
 
 
 def refuse_countless(plan: Plan) -> None:
-    """Refuse a campaign with more cases than memory can list.
-
-    Raises
-    ------
-    InputError
-        If memory cannot list them.
-    """
+    """Refuse a campaign with more cases than memory can list."""
     needed = _BYTES_PER_CASE * plan.cases
     refuse_beyond_memory(needed, f"a campaign of {plan.cases} cases", "split the plan")
 
 
 def refuse_beyond_disk(plan: Plan, missing: dict[str, int], store: Path) -> None:
-    """Refuse a campaign whose results the disk cannot hold.
-
-    Raises
-    ------
-    StoreError
-        If the results are larger than what is free.
-    """
+    """Refuse a campaign whose results the disk cannot hold."""
     folder = store.absolute()
     while not folder.exists():
         folder = folder.parent
@@ -201,13 +173,7 @@ def _duration(seconds: float) -> str:
 
 
 def workers_that_fit(memory: int, wanted: int | None) -> int:
-    """Return how many workers this machine's cores and memory allow.
-
-    Raises
-    ------
-    InputError
-        If the memory does not suffice for one, or for as many as are wanted.
-    """
+    """Return how many workers this machine's cores and memory allow."""
     free = free_memory()
     fitting = int(0.95 * free // memory)
     if fitting < (wanted or 1):

@@ -41,18 +41,7 @@ def evaluate_gallery(gallery: Gallery, threads: int, version: str) -> Results:
 def bodies_of(gallery: Gallery, fractal_dimension: float) -> dict[str, NDArray[Any]]:
     """Press the surface and the line of one fractal dimension.
 
-    Parameters
-    ----------
-    gallery : Gallery
-        Points, force and seed.
-    fractal_dimension : float
-        D_f.
-
-    Returns
-    -------
-    dict of ndarray
-        heights, contact and displacement, shape (n, n), over h; line_heights, shape (n_line,), and
-        line_depth, over h.
+    Arrays are over h: heights, contact and displacement of shape (n, n), line_heights, line_depth.
     """
     spectrum = SelfAffine(fractal_dimension=fractal_dimension, rms_height=1.0)
     surface = spectrum.surface(gallery.n, gallery.seed)
@@ -88,11 +77,6 @@ def gallery_is_whole(root: Any, gallery: Gallery, path: Path) -> bool:
     """Whether all of a gallery that was marked done is there and can be read.
 
     One of other fractal dimensions is not: they are drawn instead, as a study grows by them.
-
-    Raises
-    ------
-    StoreError
-        If it has other settings.
     """
     group = root[GALLERY]
     wanted = json.loads(json.dumps(_settings(gallery)))

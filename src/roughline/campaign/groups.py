@@ -26,11 +26,6 @@ def refuse_other_settings(root: Any, ensemble: Ensemble, path: Path) -> None:
     """Refuse a store that holds results under an ensemble's name but with other settings.
 
     Where nothing was computed under that name yet, its group is removed instead.
-
-    Raises
-    ------
-    StoreError
-        If there are such results.
     """
     if ensemble.name not in root:
         return

@@ -77,13 +77,7 @@ class Writer:
         return batches
 
     def put(self, batch: Batch, result: BatchResult) -> None:
-        """Write a batch: values first, reasons of failures next, marks last.
-
-        Raises
-        ------
-        StoreError
-            If the disk is full or the folder cannot be written; what was there stays.
-        """
+        """Write a batch: values first, reasons of failures next, marks last."""
         arrays = self._arrays[batch.ensemble.name]
         marks = np.full(len(batch.cells), DONE)
         marks[list(result.failures)] = FAILED
@@ -96,13 +90,7 @@ class Writer:
             raise _unwritable(self._path, error) from error
 
     def put_gallery(self, gallery: Gallery, results: Results) -> None:
-        """Write the gallery.
-
-        Raises
-        ------
-        StoreError
-            If the disk is full or the folder cannot be written.
-        """
+        """Write the gallery."""
         try:
             write_gallery(self._root, gallery, results)
         except OSError as error:
@@ -136,21 +124,7 @@ class Writer:
 
 @contextmanager
 def writing(path: str | Path, plan: Plan) -> Iterator[Writer]:
-    """Lock a store for writing; it is made, enlarged or repaired as the plan needs.
-
-    Parameters
-    ----------
-    path : str or Path
-        The folder.
-    plan : Plan
-        What is to be stored.
-
-    Raises
-    ------
-    StoreError
-        If the folder is in use by another campaign, is not a store, holds results of other
-        settings or of another version, or cannot be written.
-    """
+    """Lock a store for writing; it is made, enlarged or repaired as the plan needs."""
     import filelock
     import zarr
 

@@ -15,20 +15,7 @@ _BESIDE_DATA = 100_000  # of a file, for attributes and names [bytes]
 
 
 def write_dataset(data: xarray.Dataset, path: Path) -> None:
-    """Write a dataset; its room is taken first, since HDF5 may end the process if it finds none.
-
-    Parameters
-    ----------
-    data : xarray.Dataset
-        What is written.
-    path : Path
-        The file.
-
-    Raises
-    ------
-    OSError
-        If there is no room, or the file cannot be written.
-    """
+    """Write a dataset; its room is taken first, since HDF5 may end the process if it finds none."""
     with path.open("wb") as file:
         try:
             if hasattr(os, "posix_fallocate"):

@@ -50,11 +50,6 @@ def limit_process(memory: int) -> None:
     """Let this process take no more memory than it has now and so much in addition.
 
     What is known to need more is refused. Where the system can, it refuses the rest itself.
-
-    Parameters
-    ----------
-    memory : int
-        In addition to what is held now. [bytes]
     """
     global _limit
     _limit = _Limit(memory, _held() + memory)
@@ -73,20 +68,7 @@ def fits_into_memory(needed: int) -> bool:
 
 
 def refuse_beyond_memory(needed: int, what: str, advice: str) -> None:
-    """Refuse work that needs more memory than is free, or than this process may take.
-
-    Parameters
-    ----------
-    needed : int
-        Memory that the work takes. [bytes]
-    what, advice : str
-        The work, and what to do instead.
-
-    Raises
-    ------
-    InputError
-        If that is more. Where the process has a limit, the message tells nothing of the machine.
-    """
+    """Refuse work that needs more memory than is free, or than this process may take."""
     if fits_into_memory(needed):
         return
     if _limit is None:

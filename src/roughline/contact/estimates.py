@@ -161,17 +161,7 @@ def memory_for(
     several: bool = True,
     area_fraction: float | None = None,
 ) -> int:
-    """Return the memory that pressing a surface takes beside the surface, with a margin. [bytes]
-
-    Parameters
-    ----------
-    shape, periodic, yielding, area_fraction
-        As for :func:`estimate`.
-    kept_fields : int
-        Number of loads whose fields are kept.
-    several : bool
-        Whether there is more than one load.
-    """
+    """Return the memory that pressing a surface takes beside the surface, with a margin. [bytes]"""
     share = area_fraction
     if share is None:
         share = _FULL if periodic else _SATURATED

@@ -42,13 +42,7 @@ def press_surface(
     kept: frozenset[int] = frozenset(),
     progress: Callable[[int, int], None] | None = None,
 ) -> Curve:
-    """Press a surface, as :func:`roughline.press` does; keep the fields of loads by their numbers.
-
-    Raises
-    ------
-    Interrupted
-        On Ctrl-C.
-    """
+    """Press a surface as :func:`roughline.press` does; keep fields of loads by their numbers."""
     # where the order of loads does not matter, each is solved once, as they rise
     values, places = loads.values, np.arange(loads.values.size)
     if law.memory == "none":

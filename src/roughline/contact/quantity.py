@@ -64,13 +64,7 @@ class Quantity:
         object.__setattr__(self, "attribute", self.attribute or self.name)
 
     def unit_in(self, length_unit: str | None) -> str | None:
-        """Return the unit where lengths have this one; None for a flag.
-
-        Parameters
-        ----------
-        length_unit : str or None
-            Unit of lengths; "m" gives SI units, None the dimension itself.
-        """
+        """Return the unit where lengths have this one; None for a flag."""
         return None if self.dimension is None else unit_of(self.dimension, length_unit)
 
     def attributes(self, length_unit: str | None) -> dict[str, str]:
@@ -83,18 +77,8 @@ class Quantity:
 def unit_of(dimension: str, length_unit: str | None) -> str:
     """Return the unit of a dimension where lengths have a given unit.
 
-    Parameters
-    ----------
-    dimension : str
-        "1", "length", "force", "pressure", "energy" or a quotient of two of them.
-    length_unit : str or None
-        Unit of lengths; "m" gives SI units, None the dimension itself. With any other unit,
-        only lengths have a unit.
-
-    Raises
-    ------
-    ValueError
-        If the dimension is not one of these.
+    Lengths in "m" give SI units; without a unit of lengths the dimension itself is returned, and
+    with any other unit only lengths have one.
     """
     parts = dimension.split("/")
     for part in parts:

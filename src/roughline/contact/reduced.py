@@ -18,13 +18,7 @@ from roughline.topography.settings import as_body
 
 
 def press_line(line: Line, half_space: Homogeneous, given: GivenLoads) -> Curve:
-    """Press a reduced line on springs with the modulus of a half-space.
-
-    Raises
-    ------
-    InputError
-        For a measured profile, and for loads that cannot be used.
-    """
+    """Press a reduced line on springs with the modulus of a half-space."""
     if line.kind == "profile":
         raise InputError(
             "this line is a measured profile, a straight cut, and not the reduced line of its "

@@ -20,19 +20,7 @@ PUNCH_GRID_ERROR = 0.396
 
 
 def force_bar(force: Value, E_star: float, rms_height: float, length: float) -> Value:
-    """Dimensionless force F / (E* h L), the paper's eq. 2.
-
-    Parameters
-    ----------
-    force : float or ndarray
-        Total force. [force]
-    E_star : float
-        Contact modulus. [pressure]
-    rms_height : float
-        Root-mean-square height h. [length]
-    length : float
-        sqrt(A_0) of a surface, or the length of a line. [length]
-    """
+    """Dimensionless force F / (E* h L), the paper's eq. 2."""
     return force / (E_star * rms_height * length)
 
 
@@ -41,16 +29,7 @@ def stiffness_bar(
 ) -> Value:
     """Dimensionless stiffness k / (punch E* L), the paper's eq. 1.
 
-    Parameters
-    ----------
-    stiffness : float or ndarray
-        k = dF/dd. [force / length]
-    E_star : float
-        Contact modulus. [pressure]
-    length : float
-        sqrt(A_0) of a surface, or the length of a line. [length]
-    punch : float, optional
-        Saturated stiffness over E* L: :data:`PAPER_PUNCH` or :data:`EXACT_PUNCH` for a surface,
-        1 for a line or for the raw stiffness k / (E* L).
+    The punch is :data:`PAPER_PUNCH` or :data:`EXACT_PUNCH` for a surface, and 1 for a line or for
+    the raw stiffness k / (E* L).
     """
     return stiffness / (punch * E_star * length)

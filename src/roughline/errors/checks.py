@@ -16,19 +16,7 @@ _Choice = TypeVar("_Choice")
 def refuse(argument: str, given: Any, needed: str) -> NoReturn:
     """Refuse a value.
 
-    Parameters
-    ----------
-    argument : str
-        Name of the argument.
-    given : object
-        What came.
-    needed : str
-        What is allowed, as a clause: "a positive number is needed".
-
-    Raises
-    ------
-    InputError
-        Always.
+    What is needed is a clause, such as "a positive number is needed".
     """
     raise InputError(f"is {shown(given)}; {needed}", argument)
 

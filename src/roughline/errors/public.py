@@ -96,10 +96,7 @@ def public(door: _Door) -> _Door:
     in the tables above; ranges are the function's own matter. Of a class, this holds for its making
     and for its public methods.
 
-    Parameters
-    ----------
-    door : function or class
-        Its annotations are texts, as ``from __future__ import annotations`` leaves them.
+    Annotations are texts, as ``from __future__ import annotations`` leaves them.
     """
     if not inspect.isclass(door):
         return _held(door, door.__name__, _refuse_other_kinds)  # type: ignore[return-value]
@@ -114,11 +111,6 @@ def public_names(door: _Door) -> _Door:
     """Return a function as :func:`public` does, of which the names of arguments alone are held.
 
     It looks at all values itself.
-
-    Parameters
-    ----------
-    door : function
-        What users call.
     """
     return _held(door, door.__name__, None)  # type: ignore[return-value]
 

@@ -167,13 +167,7 @@ def _label(curve: Curve, name: str, values: Real) -> tuple[str, float]:
 
 
 def name_of(quantity: str) -> str:
-    """Name a quantity over the loads in words, with its symbol.
-
-    Raises
-    ------
-    InputError
-        If there is no such quantity.
-    """
+    """Name a quantity over the loads in words, with its symbol."""
     known = [each for each, declared in QUANTITIES.items() if declared.dims == OVER_LOADS]
     if quantity not in known:
         raise InputError(

@@ -15,17 +15,8 @@ def in_unit(
 ) -> tuple[str, float]:
     """Return the label of an axis with its unit, and the factor from the values to that unit.
 
-    Parameters
-    ----------
-    name : str
-        What the axis shows.
-    values : array_like
-        What will be drawn; the largest chooses the prefix.
-    unit : str or None
-        Their unit. SI units get a prefix; a dimension such as "force/length", which stands for any
-        coherent unit, and None are left out of the label.
-    scale : float, optional
-        What the values are multiplied by first; the factor includes it.
+    The largest value chooses the prefix of an SI unit. A dimension such as "force/length", which
+    stands for any coherent unit, and None are left out of the label.
     """
     if unit in (None, "1") or _DIMENSIONS & set(unit.split("/")):
         return name, scale

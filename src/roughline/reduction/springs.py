@@ -40,17 +40,7 @@ class Springs:
 
     @classmethod
     def under(cls, heights: Real, spacing: float, E_star: float) -> Springs:
-        """Put springs under the points of a line.
-
-        Parameters
-        ----------
-        heights : ndarray, shape (n,)
-            Heights. [length]
-        spacing : float
-            Length that one spring stands for. [length]
-        E_star : float
-            Stiffness per length, the contact modulus. [pressure]
-        """
+        """Put springs under the points of a line."""
         return cls(heights, E_star * spacing)
 
     @cached_property
@@ -140,15 +130,9 @@ class Springs:
     ) -> SpringsInContact:
         """Return the springs in contact under each load.
 
-        Parameters
-        ----------
-        bins : ndarray of int, shape (loads,)
-            The bin in which the contact under each load ends.
-        springs : _SortedSprings
-            The springs of these bins.
-        ends : ndarray of int, shape (loads,)
-            Position among them of the first spring that is not in contact. If it belongs to another
-            bin, all springs of its load's bin are in contact.
+        `bins` says in which bin the contact under each load ends, `ends` which of its springs is
+        the first that does not touch. If that one belongs to another bin, all of its load's bin
+        touch.
         """
         counts, sums = self._below
         position = np.minimum(ends, springs.bin.size - 1)

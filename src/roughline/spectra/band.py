@@ -41,13 +41,7 @@ class Band:
         return shape
 
     def moment(self, order: int) -> float:
-        """Integral over the plane of wavevectors, 2 pi int q^(1 + order) shape dq.
-
-        Raises
-        ------
-        InputError
-            If it diverges, because ``q_high`` is infinite.
-        """
+        """Integral over the plane of wavevectors, 2 pi int q^(1 + order) shape dq."""
         if self.q_high == math.inf and 2 + order - self.decay >= 0:
             raise InputError(
                 f"the moment of order {order} diverges for H = {self.decay / 2 - 1:g} without a "

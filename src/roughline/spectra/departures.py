@@ -60,13 +60,7 @@ class Departure:
 
 
 def departures(body: Body) -> tuple[Departure, ...]:
-    """Return how a topography departs from what predictions rest on, gravest first.
-
-    Parameters
-    ----------
-    body : Surface or Line
-        Prepared. [length] A reduced line is no topography, and departs from nothing.
-    """
+    """Return how a topography departs from what predictions rest on, gravest first."""
     if body not in _KNOWN:
         _KNOWN[body] = _departures(body)
     return _KNOWN[body]

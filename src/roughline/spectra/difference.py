@@ -19,11 +19,6 @@ def sum_over_integral(band: Band, order: int, body: BodyName) -> float:
     """Moment over the whole lattice of wavevectors, over the integral.
 
     The sum is taken over the longest waves; over shorter ones it equals the integral.
-
-    Raises
-    ------
-    InputError
-        If the integral diverges.
     """
     whole = band.moment(order)
     summed = LatticeSpectrum.of(band, 1.0, 2 * _SUMMED + 1, body)

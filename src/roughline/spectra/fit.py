@@ -228,13 +228,7 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
 
 
 def fitted(body: Body) -> tuple[Spectrum, SelfAffineFit]:
-    """Return the spectrum of a body and the law that fits it, computed once for each body.
-
-    Raises
-    ------
-    InputError
-        If it has no spectrum, or no law fits it.
-    """
+    """Return the spectrum of a body and the law that fits it, computed once for each body."""
     if body not in _KNOWN:
         spectrum = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
         _KNOWN[body] = spectrum, fit_self_affine(spectrum)

@@ -175,11 +175,6 @@ def waves_of(surface: Surface) -> tuple[Real, Real]:
     """Wavenumbers of the modes of a surface, and their shares of <h²>, as an FFT orders them.
 
     A piece of a larger surface is seen through a Hann window.
-
-    Raises
-    ------
-    InputError
-        As for :func:`isotropic_spectrum`.
     """
     if min(surface.shape) < 8:
         raise InputError(f"the surface has {surface.shape} points; a spectrum needs 8 x 8 or more")

@@ -57,13 +57,6 @@ def long_shapes(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShap
 
     As far as they are known. A tilt that several pieces have is the mounting's; it counts how much
     they are tilted differently.
-
-    Parameters
-    ----------
-    bodies : sequence of (Surface or Line)
-        Cut out of a larger one, and of the same size.
-    fit : SelfAffineFit
-        The law of their mean spectrum.
     """
     level = [body.detrended() for body in bodies]
     found = [_mean_squares(each) for each in level]

@@ -37,11 +37,6 @@ def bands(roughness: SurfaceOrSpectrum) -> Bands:
     windowed spectrum. A LatticeSpectrum is summed over its wavevectors, as a generated surface has
     them; a continuum, or a SelfAffine itself, is integrated. An IsotropicSpectrum without a window
     is summed over the square lattice of its length, one with a window is integrated.
-
-    Raises
-    ------
-    InputError
-        For a continuum without ``q_high``, and for the lattice of a line.
     """
     if isinstance(roughness, Surface):
         if roughness.is_cut_out:

@@ -113,10 +113,7 @@ class ScanBins(Observed):
         longer waves have in a piece as large as the scan is added to its longest wave. The piece
         has few long waves, pi m of wavenumber m, so their mean power is drawn too.
 
-        Yields
-        ------
-        ndarray, shape (waves,)
-            Powers q_low² C_2d at the scan's waves 1, 2, ...
+        Yields powers q_low² C_2d at the waves 1, 2, ... of the scan.
         """
         m = np.arange(1.0, round(float(self.edges[-1])))
         for drawn in self._drawn(count, generator):
@@ -127,10 +124,7 @@ class ScanBins(Observed):
     def drawn_cuts(self, points: int, count: int, generator: np.random.Generator) -> Iterator[Real]:
         """Draw straight cuts, as long as the scan, of Gaussian surfaces that it may be cut from.
 
-        Yields
-        ------
-        ndarray, shape (points,)
-            Heights, in the unit of the scan's.
+        Heights are in the unit of the scan.
         """
         last = float(self.edges[-1])
         waves = np.arange(1, _TIMES_AS_LONG * points // 2) / _TIMES_AS_LONG

@@ -60,11 +60,6 @@ class Means:
         """Weigh mean powers, each of a number of independent modes.
 
         Under a window stronger waves leak into others.
-
-        Raises
-        ------
-        InputError
-            If fewer than 12 of them have modes.
         """
         q, power, modes = (array[modes > 0] for array in (q, power, modes))
         if q.size < LEAST_MEANS:

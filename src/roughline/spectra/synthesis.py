@@ -23,16 +23,6 @@ def generators(rng: Seed) -> tuple[np.random.Generator, np.random.Generator]:
     """Return the generators of phases and of amplitudes that belong to a seed.
 
     Realisation i of an ensemble has the seed ``SeedSequence(root, spawn_key=(i,))``.
-
-    Parameters
-    ----------
-    rng : int, numpy.random.SeedSequence, numpy.random.Generator or None
-        A seed, or a generator that is used as it is; None draws a fresh seed.
-
-    Raises
-    ------
-    InputError
-        If it is none of these, or a negative integer.
     """
     if isinstance(rng, np.random.Generator):
         return rng, rng.spawn(1)[0]
@@ -69,11 +59,8 @@ def line_draws(n: int, rng: np.random.Generator) -> Real:
 def surface_draws(n: int, rng: np.random.Generator) -> Real:
     """Draw one number in [0, 1) for each mode of the half plane with max(|mx|, |my|) < n / 2.
 
-    Returns
-    -------
-    ndarray, shape (n, n // 2 + 1)
-        The draws where the real inverse FFT wants its modes; the negative half of the line
-        my = 0 is left to Hermitian symmetry.
+    They have the shape (n, n // 2 + 1) and lie where the real inverse FFT wants its modes; the
+    negative half of the line my = 0 is left to Hermitian symmetry.
     """
     rings = (n - 1) // 2
     stream = rng.random(2 * rings * (rings + 1))
@@ -100,16 +87,8 @@ def rms_of(amplitudes: Real) -> float:
 def line_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: int) -> Real:
     """Sum modes of given amplitudes and random phases to a periodic line.
 
-    Parameters
-    ----------
-    amplitudes : ndarray, shape ((n - 1) // 2,)
-        Moduli of the modes 0 < m < n / 2, in units of `scale`.
-    rng : numpy.random.Generator
-        Draws the phases over 2 pi, as :func:`line_draws` does.
-    scale : float
-        Unit of the amplitudes. [length]
-    n : int
-        Points. The mean and, for even n, the Nyquist mode are zero.
+    The amplitudes, in units of `scale`, are those of 0 < m < n / 2; the mean and, for even n, the
+    Nyquist mode are zero.
     """
     from roughline.spectra.loops import set_line_modes  # here because numba loads slowly
 

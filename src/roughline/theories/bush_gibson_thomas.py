@@ -19,13 +19,7 @@ KAPPA = math.sqrt(2 * math.pi)
 
 
 def bush_gibson_thomas(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> TheoryCurve:
-    """Asymptotic area of Bush, Gibson and Thomas, A / A_0 = sqrt(2 pi) p / (E* rms |grad h|).
-
-    Parameters
-    ----------
-    roughness, E_star, pressure
-        As for :func:`roughline.theory`.
-    """
+    """Asymptotic area of Bush, Gibson and Thomas, A / A_0 = sqrt(2 pi) p / (E* rms |grad h|)."""
     slope = moments(roughness).rms_slope
     return TheoryCurve(
         "bush-gibson-thomas",

@@ -22,18 +22,7 @@ from roughline.theories.theory_curve import TheoryCurve
 def greenwood_williamson(
     roughness: SurfaceOrSpectrum, E_star: float, pressure: Real
 ) -> TheoryCurve:
-    """Greenwood and Williamson's independent spheres, with summits after Nayak and McCool.
-
-    Parameters
-    ----------
-    roughness, E_star, pressure
-        As for :func:`roughline.theory`.
-
-    Raises
-    ------
-    InputError
-        If a pressure is so high that the mean planes of the bodies would cross.
-    """
+    """Greenwood and Williamson's independent spheres, with summits after Nayak and McCool."""
     of_surface = moments(roughness)
     density, radius = of_surface.summit_density, of_surface.summit_radius
     deviation = of_surface.summit_deviation

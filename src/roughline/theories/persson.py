@@ -29,13 +29,7 @@ _SMALLEST, _LARGEST, _STEPS = 1e-4, 6.0, 20_000  # of the table of the energy in
 
 
 def persson(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> TheoryCurve:
-    """Persson's theory, with Yang and Persson's share of elastic energy, gamma = 0.45.
-
-    Parameters
-    ----------
-    roughness, E_star, pressure
-        As for :func:`roughline.theory`.
-    """
+    """Persson's theory, with Yang and Persson's share of elastic energy, gamma = 0.45."""
     spectrum = bands(roughness)
     # With t² = pi int q³ C dq up to q, the integrals over q are sums over bands of one over t:
     # a band may carry much of the slopes, as the longest waves do.

@@ -86,11 +86,5 @@ def theory(
 
 
 def refuse_unknown(name: str, argument: str = "name") -> None:
-    """Refuse a name, the value of an argument, that no theory has.
-
-    Raises
-    ------
-    InputError
-        With the names that there are.
-    """
+    """Refuse a name, the value of an argument, that no theory has."""
     one_of(argument, name, THEORIES)

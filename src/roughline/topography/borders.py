@@ -82,11 +82,6 @@ def borders_of(heights: Real) -> Borders:
     side it has about a gamma distribution with the mean and the variance that are found within.
     The chance of the step across follows from it. A slope of the whole and a piece of a larger
     surface both raise the step across.
-
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny) or (n,)
-        Checked heights. [length]
     """
     least = Borders(0.0, 1.0)
     rounding = _ROUNDING * float(max(heights.max(), -heights.min()))

@@ -27,24 +27,7 @@ _OF_THE_WHOLE = (
 def points_in(
     crop: Crop, sides: tuple[float, ...], shape: tuple[int, ...], unit: str | None
 ) -> tuple[slice, ...]:
-    """Return the points along each side that a crop keeps.
-
-    Parameters
-    ----------
-    crop : tuple of float
-        From and to along each side. [length]
-    sides : tuple of float
-        Sides of the map, or length of the line. [length]
-    shape : tuple of int
-        Points along each side.
-    unit : str or None
-        Of the lengths.
-
-    Raises
-    ------
-    InputError
-        If the crop is not within the sides, or keeps fewer than two points along one of them.
-    """
+    """Return the points along each side that a crop keeps."""
     _refuse_misplaced(crop, sides, unit)
     kept = []
     for low, high, side, n in zip(crop[::2], crop[1::2], sides, shape, strict=True):
@@ -58,17 +41,7 @@ def points_in(
 def points_between(crop: Crop, positions: Real) -> tuple[slice]:
     """Return the points of an uneven line that a crop keeps.
 
-    Parameters
-    ----------
-    crop : tuple of float
-        From and to. [m]
-    positions : ndarray, shape (n,)
-        Of the points, rising from 0. [m]
-
-    Raises
-    ------
-    InputError
-        If the crop is not within the line, or keeps fewer than two points.
+    Lengths are in metres.
     """
     _refuse_misplaced(crop, (float(positions[-1]),), "m")
     first, end = (int(each) for each in np.searchsorted(positions, crop))
@@ -79,17 +52,7 @@ def points_between(crop: Crop, positions: Real) -> tuple[slice]:
 def settings_of_piece(
     settings: Settings, kept: tuple[slice, ...], shape: tuple[int, ...]
 ) -> Settings:
-    """Return the settings of a piece: what was cropped, and nothing that is said of the whole.
-
-    Parameters
-    ----------
-    settings : mapping
-        Of the whole.
-    kept : tuple of slice
-        Points along each side that are in the piece.
-    shape : tuple of int
-        Points along each side of the whole.
-    """
+    """Return the settings of a piece: what was cropped, and nothing that is said of the whole."""
     ranges = [f"{each.start}:{each.stop}" for each in kept]
     cropped = ranges[0] if len(kept) == 1 else f"x {ranges[0]}, y {ranges[1]}"
     before = settings.get("missing_points", settings.get("filled_before_crop"))

@@ -18,15 +18,7 @@ _LEFT = "left_of_rms_"  # part of the names in the settings
 
 
 def with_effect(before: BodyType, after: BodyType, step: str) -> BodyType:
-    """Return a body after a step; its settings record the shares that the step left.
-
-    Parameters
-    ----------
-    before, after : Surface or Line
-        The body before and after the step.
-    step : str
-        Name of the step in the settings.
-    """
+    """Return a body after a step; its settings record the shares that the step left."""
     left = {
         f"{step}_{_LEFT}height": _share(after.rms_height, before.rms_height),
         f"{step}_{_LEFT}slope": _share(after.rms_slope, before.rms_slope),
@@ -35,13 +27,7 @@ def with_effect(before: BodyType, after: BodyType, step: str) -> BodyType:
 
 
 def effect_of_trend(before: float, after: float) -> Settings:
-    """Return the record of a trend that was most of the rms height; nothing of a smaller one.
-
-    Parameters
-    ----------
-    before, after : float
-        Rms height with the trend and without it. [length]
-    """
+    """Return the record of a trend that was most of the rms height; nothing of a smaller one."""
     share = _share(after, before)
     return {f"detrended_{_LEFT}height": share} if share < 1 - _MOST else {}
 

@@ -18,20 +18,7 @@ _BLOCK = 2**16  # heights summed at a time
 
 
 def checked_heights(heights: Any, dimensions: int) -> Real:
-    """Return heights as a read-only array of finite numbers, without a copy where possible.
-
-    Parameters
-    ----------
-    heights : array_like
-        Heights of a Line or a Surface. [length]
-    dimensions : {1, 2}
-        Number of dimensions that the array must have.
-
-    Raises
-    ------
-    InputError
-        If they are not real and finite, are masked, or have another number of dimensions.
-    """
+    """Return heights as a read-only array of finite numbers, without a copy where possible."""
     if isinstance(heights, np.ma.MaskedArray):
         missing = int(np.count_nonzero(np.ma.getmaskarray(heights)))
         if missing:
@@ -70,36 +57,14 @@ def checked_heights(heights: Any, dimensions: int) -> Real:
 
 
 def checked_unit(unit: str | None) -> str | None:
-    """Return the unit of a body's lengths.
-
-    Parameters
-    ----------
-    unit : str or None
-        None: it is not known.
-
-    Raises
-    ------
-    InputError
-        If it is no unit of length.
-    """
+    """Return the unit of a body's lengths."""
     if unit is not None and not is_unit_of_length(unit):
         refuse("unit", unit, 'a unit of length is needed, such as "um", "mm" or "m"')
     return unit
 
 
 def checked_sides(sizes: Any) -> tuple[float, float]:
-    """Return the sides of a surface.
-
-    Parameters
-    ----------
-    sizes : sequence of float
-        Both sides, (Lx, Ly). [length]
-
-    Raises
-    ------
-    InputError
-        If they are not two positive, finite numbers.
-    """
+    """Return the sides of a surface."""
     try:
         sides = tuple(float(size) for size in sizes)
     except (TypeError, ValueError):
@@ -110,18 +75,7 @@ def checked_sides(sizes: Any) -> tuple[float, float]:
 
 
 def checked_length(length: Any) -> float:
-    """Return the length of a line.
-
-    Parameters
-    ----------
-    length : float
-        Of the line. [length]
-
-    Raises
-    ------
-    InputError
-        If it is not a positive, finite number.
-    """
+    """Return the length of a line."""
     try:
         value = float(length)
     except (TypeError, ValueError):
@@ -145,14 +99,7 @@ def rms(values: Real, mean: float = 0.0, largest: float | None = None) -> float:
 
     Blocks are summed one at a time, so that large arrays need no memory of their own size.
 
-    Parameters
-    ----------
-    values : ndarray
-        Any numbers.
-    mean : float
-        Deviations are from this.
-    largest : float, optional
-        Largest deviation; computed from the values where it is not given.
+    Deviations are from `mean`; the largest of them is computed where it is not given.
     """
     if largest is None:
         largest = float(max(values.max(initial=0.0), -values.min(initial=0.0)))

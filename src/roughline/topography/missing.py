@@ -52,20 +52,7 @@ class Missing:
         return "nearest" if self.method == "harmonic" else "harmonic"
 
     def completed(self, heights: Any, name: str) -> tuple[Real, dict[str, str | int | float]]:
-        """Return the heights with all points known, and settings that record what was filled.
-
-        Parameters
-        ----------
-        heights : array or masked array, shape (nx, ny) or (n,)
-            Heights; unknown ones are masked or not finite.
-        name : str
-            Name of the topography, for the message.
-
-        Raises
-        ------
-        InputError
-            If more than the largest share is missing.
-        """
+        """Return the heights with all points known, and settings that record what was filled."""
         if not np.isfinite(np.ma.getdata(heights)).all():
             heights = np.ma.masked_invalid(heights, copy=False)
         unknown = int(np.count_nonzero(np.ma.getmaskarray(heights)))
@@ -148,12 +135,7 @@ class MissingPattern:
 def missing_pattern(unknown: Mask, sides: tuple[float, ...] | None = None) -> MissingPattern:
     """Describe where points are missing.
 
-    Parameters
-    ----------
-    unknown : ndarray of bool, shape (nx, ny) or (n,)
-        Which points are missing.
-    sides : tuple of float, optional
-        Sides of the topography, so that its map in characters keeps their ratio. [length]
+    With its sides the map in characters keeps their ratio.
     """
     from scipy import ndimage  # here because it loads slowly
 

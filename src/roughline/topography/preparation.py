@@ -266,18 +266,6 @@ def resampled(body: BodyType, points: int | tuple[int, ...]) -> BodyType:
     """Return the body on another grid over the same sides.
 
     Means over cells where the new grid is coarser, cubic splines where it is finer.
-
-    Parameters
-    ----------
-    body : Surface or Line
-        Any body.
-    points : int or tuple of int
-        As for :class:`Preparation`.
-
-    Raises
-    ------
-    InputError
-        If there are not as many numbers as the body has sides.
     """
     from scipy import ndimage
 

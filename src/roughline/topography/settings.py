@@ -23,13 +23,7 @@ Settings = Mapping[str, str | int | float]
 
 
 def checked_settings(given: Any) -> Settings:
-    """Return settings as they are given.
-
-    Raises
-    ------
-    InputError
-        If they are no mapping.
-    """
+    """Return settings as they are given."""
     if not isinstance(given, Mapping):
         refuse("settings", given, "a mapping of names to texts and numbers is needed")
     return given
@@ -66,20 +60,7 @@ GENERATED = "self-affine"
 
 
 def checked_cut_out(given: object, settings: Settings) -> bool | None:
-    """Say whether a body is cut out of a larger one; None where neither caller nor record tells.
-
-    Parameters
-    ----------
-    given : bool or None
-        What the caller says; None: what the settings record.
-    settings : mapping
-        They record a crop, a measurement, or that the heights were generated.
-
-    Raises
-    ------
-    InputError
-        If something else is given.
-    """
+    """Say whether a body is cut out of a larger one; None where neither caller nor record tells."""
     if given is None:
         origin = str(settings.get("origin"))
         if "cropped" in settings or origin in (MEASURED, PIECE):
@@ -91,20 +72,7 @@ def checked_cut_out(given: object, settings: Settings) -> bool | None:
 
 
 def checked_trend(given: Trend | None, settings: Settings) -> Trend:
-    """Return the trend that was removed from a body.
-
-    Parameters
-    ----------
-    given : {"none", "mean", "tilt", "curvature"} or None
-        What the caller says; None: what the settings record.
-    settings : mapping
-        They record the last trend that was removed.
-
-    Raises
-    ------
-    InputError
-        If no trend has the name given.
-    """
+    """Return the trend that was removed from a body."""
     if given is None:
         names: tuple[Trend, ...] = get_args(Trend)
         return next((name for name in names if name == settings.get("detrended")), "none")
@@ -114,19 +82,7 @@ def checked_trend(given: Trend | None, settings: Settings) -> Trend:
 def record_of_tilt(
     heights: Real, spacings: Sequence[float], trend: Trend, before: Settings
 ) -> Settings:
-    """Return the record of the plane that is removed with a trend, and of those removed before.
-
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny) or (n,)
-        Heights from which the trend is removed. [length]
-    spacings : sequence of float
-        Distance of points along each side. [length]
-    trend : {"none", "mean", "tilt", "curvature"}
-        The trend.
-    before : mapping
-        Settings of the body.
-    """
+    """Return the record of the plane that is removed with a trend, and of those removed before."""
     if trend not in ("tilt", "curvature"):
         return {}
     slopes = slopes_of_plane(heights, spacings)

@@ -14,23 +14,7 @@ def fields_of_topography(
 ) -> dict[str, Any]:
     """Return heights, sizes, unit and settings of a topography, as fields of a Surface.
 
-    Parameters
-    ----------
-    topography : SurfaceTopography.Topography
-        A map; one that states its unit is converted to metres.
-    has_sizes : bool
-        Whether the caller gives sizes.
-    unit : str or None
-        Unit that the caller gives.
-    settings : mapping
-        Further settings that the caller gives.
-
-    Raises
-    ------
-    InputError
-        If it is a line scan, or its sizes or unit are given a second time.
-    UnitError
-        If its unit is none of length.
+    A map that states its unit is converted to metres.
     """
     if topography.dim != 2:
         raise InputError("the topography is a line scan; a Surface needs a map: make a Line of it")

@@ -22,15 +22,7 @@ _ROUNDING = 1e-13  # of the largest height, below which what is left is of round
 
 
 def without_trend(heights: Real, trend: Trend) -> Real:
-    """Return heights less their least-squares polynomial of a total degree.
-
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny) or (n,)
-        Heights on an even grid. [length]
-    trend : {"none", "mean", "tilt", "curvature"}
-        Name of the polynomial.
-    """
+    """Return heights less their least-squares polynomial of a total degree."""
     rest = np.array(heights)
     remove_trend(rest, trend)
     return rest
@@ -40,11 +32,6 @@ def remove_trend(heights: Real, trend: Trend) -> None:
     """Subtract the least-squares polynomial from heights in place, without a second copy of them.
 
     Heights that are such a polynomial become zero, without the rounding of the subtraction.
-
-    Parameters
-    ----------
-    heights, trend
-        As for :func:`without_trend`; the heights are changed.
     """
     degree = DEGREES[trend]
     if degree < 0:
@@ -70,15 +57,7 @@ def remove_trend(heights: Real, trend: Trend) -> None:
 
 
 def tilt_share(heights: Real, rms_height: float) -> float:
-    """Return the share of the mean square height that lies in the least-squares plane. [1]
-
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny)
-        Heights on an even grid. [length]
-    rms_height : float
-        Their root-mean-square deviation from the mean. [length]
-    """
+    """Return the share of the mean square height that lies in the least-squares plane. [1]"""
     if rms_height == 0:
         return 0.0
     mean, share = heights.mean(), 0.0
@@ -90,15 +69,7 @@ def tilt_share(heights: Real, rms_height: float) -> float:
 
 
 def slopes_of_plane(heights: Real, spacings: Sequence[float]) -> tuple[float, ...]:
-    """Return the slopes of the least-squares plane along each side. [1]
-
-    Parameters
-    ----------
-    heights : ndarray, shape (nx, ny) or (n,)
-        Heights on an even grid. [length]
-    spacings : sequence of float
-        Distance of points along each side. [length]
-    """
+    """Return the slopes of the least-squares plane along each side. [1]"""
     slopes = []
     for axis, (n, spacing) in enumerate(zip(heights.shape, spacings, strict=True)):
         x = np.arange(n) - (n - 1) / 2
@@ -110,13 +81,7 @@ def slopes_of_plane(heights: Real, spacings: Sequence[float]) -> tuple[float, ..
 
 
 def refuse_unknown_trend(trend: str) -> None:
-    """Refuse an unknown name of a trend.
-
-    Raises
-    ------
-    InputError
-        If no trend has this name; the message lists the known names.
-    """
+    """Refuse an unknown name of a trend."""
     one_of("trend", trend, DEGREES)
 
 

@@ -102,10 +102,7 @@ class TrustMap:
     def from_rows(cls, rows: Real) -> TrustMap:
         """Make a map from the rows of its file, which are sorted by the axes.
 
-        Parameters
-        ----------
-        rows : ndarray, shape (points, 8)
-            Values in the order of :data:`COLUMNS`.
+        Their columns are those of :data:`COLUMNS`.
         """
         roll_offs, dimensions, forces = (np.unique(rows[:, i]) for i in range(3))
         shape = (roll_offs.size, dimensions.size, forces.size)

@@ -36,22 +36,7 @@ _SAME_FORCE = 1e-13  # forces that differ by no more than this part count as one
 def solve_path(
     problem: Problem, loads: Sequence[Load], method: Method
 ) -> Iterator[tuple[Contact, Response | None]]:
-    """Solve the contact under each load in turn; each meets the surfaces that the last one left.
-
-    Parameters
-    ----------
-    problem : Problem
-        The untouched bodies and the half-space.
-    loads : sequence of Load
-        Loads, all by force or all by depth.
-    method : Method
-        Tolerance, bound on the convolutions and precision.
-
-    Yields
-    ------
-    tuple of Contact and Response
-        For each load; without a response where the contact was not certified.
-    """
+    """Solve the contact under each load in turn; each meets the surfaces that the last one left."""
     path = _Path(problem, method)
     for load, next_load in zip_longest(loads, loads[1:]):
         yield path.under(load, next_load)

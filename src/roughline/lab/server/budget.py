@@ -32,18 +32,7 @@ def memory_for_tasks() -> float:
 
 
 def memory_of_one(memory: float, wished: float) -> float:
-    """Memory of the largest task: what is wished, or less if all together have no more. [bytes]
-
-    Parameters
-    ----------
-    memory, wished : float
-        Of all tasks together, and of the largest one. [bytes]
-
-    Raises
-    ------
-    InputError
-        If that is too little for any task.
-    """
+    """Memory of the largest task: what is wished, or less if all together have no more. [bytes]"""
     least_quick = min(_QUICK_MEMORY + _PROCESS, _FOR_QUICK * memory)
     most = memory - least_quick - _PROCESS
     if most < LEAST_MEMORY:
@@ -56,20 +45,7 @@ def memory_of_one(memory: float, wished: float) -> float:
 
 
 def limits_within(memory: float, max_memory: float, seconds: float) -> tuple[Limits, Limits]:
-    """Processes for quick tasks, and for the others, whose tasks never take more than a budget.
-
-    Parameters
-    ----------
-    memory : float
-        Of all tasks together. [bytes]
-    max_memory, seconds : float
-        Of one task that is not quick. [bytes], [s]
-
-    Raises
-    ------
-    InputError
-        If the memory is too little.
-    """
+    """Processes for quick tasks, and for the others, whose tasks never take more than a budget."""
     cores = available_cores()
     slow_memory = memory_of_one(memory, max_memory)
     left = memory - slow_memory - 2 * _PROCESS
@@ -109,12 +85,7 @@ class Disk:
     def room(self, tokens: Iterable[str], announced: dict[Path, int]) -> float:
         """Size that further files may have. [bytes]
 
-        Parameters
-        ----------
-        tokens : iterable of str
-            Sessions that have files; those of others are being deleted.
-        announced : mapping of Path to int
-            Size that files will have that come now. [bytes]
+        Sessions without a token here are being deleted; announced files will have these sizes.
         """
         if time.monotonic() - self._looked >= _LOOKS:
             self.look()

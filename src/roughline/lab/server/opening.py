@@ -18,13 +18,6 @@ def open_page(address: str, opened: ExitStack) -> None:
     """Open an address in the browser through a file that only this user may read.
 
     The command line of a browser, where an address would stand, is seen by all users.
-
-    Parameters
-    ----------
-    address : str
-        Of the page, with its token.
-    opened : ExitStack
-        Deletes the file when it is closed.
     """
     to = html.escape(address)
     content = (

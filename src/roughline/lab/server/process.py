@@ -123,10 +123,8 @@ class Process:
 def start_forking(warm: str) -> None:
     """Start the process that the others are forked from, so that the first task need not wait.
 
-    Parameters
-    ----------
-    warm : str
-        Module that it loads; its function ``up`` is called in every process before the first task.
+    It loads the module `warm`, whose function ``up`` is called in each process before its first
+    task.
     """
     global _loaded_first
     _loaded_first = warm

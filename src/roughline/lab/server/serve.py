@@ -77,21 +77,8 @@ def serve(
 ) -> None:
     """Serve until Ctrl-C.
 
-    Parameters
-    ----------
-    site : Site
-        What is served.
-    settings : ServerSettings
-        What to listen to, and the limits of a session.
-    ready : callable
-        Told the address of the page, with its token if it has one, as soon as it can be opened.
-    interrupted : callable
-        Says whether Ctrl-C came before the server listens to it.
-
-    Raises
-    ------
-    InputError
-        If the address is not free, or not one of this machine.
+    `ready` is told the address of the page, with its token if it has one, as soon as it can be
+    opened; `interrupted` says whether Ctrl-C came before the server listens to it.
     """
     logging.getLogger("tornado.general").setLevel(logging.ERROR)  # refusals are told to the page
     with suppress(KeyboardInterrupt), ExitStack() as opened:

@@ -135,13 +135,7 @@ def _has_this_machine(network: IPv4Network | IPv6Network) -> bool:
 
 
 def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
-    """Read addresses and networks of proxies, separated by commas.
-
-    Raises
-    ------
-    InputError
-        If one of them is none, or is everybody.
-    """
+    """Read addresses and networks of proxies, separated by commas."""
     needed = "addresses or networks are needed, such as 127.0.0.1 or 10.0.0.0/8,fd00::/8"
     try:
         networks = tuple(ip_network(each.strip(), strict=False) for each in text.split(","))
@@ -153,13 +147,7 @@ def networks_in(text: str) -> tuple[IPv4Network | IPv6Network, ...]:
 
 
 def password_in(file: Path) -> str:
-    """Read a password: the first line of a file that only its owner may read.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, others may read or change it, or it has no password in it.
-    """
+    """Read a password: the first line of a file that only its owner may read."""
     try:
         first = (_start_of(file).splitlines() or [b""])[0].strip()
         if len(first) > _LONGEST_PASSWORD:

@@ -35,18 +35,8 @@ _FEW_ROWS, _SPARSE = 1000, 20  # rows of a table, and rows for each of its cells
 def refuse_bombs(path: Path, name: str) -> None:
     """Refuse an archive, such as X3P or XLSX, whose parts are too large for a measurement.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    name : str
-        What it is called.
-
-    Raises
-    ------
-    InputError
-        If it unpacks to more than 64 MiB, and to more than 200 times its size, if a table in it
-        has hardly any cells for its rows, or if it lists more scans than it has parts.
+    One is too large if it unpacks to more than 64 MiB and to more than 200 times its size, if a
+    table in it has hardly any cells for its rows, or if it lists more scans than it has parts.
     """
     if not zipfile.is_zipfile(path):
         return
@@ -121,20 +111,7 @@ def _refuse_more_than(most: int, stated: list[bytes], what: str, name: str) -> N
 
 
 def refuse_many_datasets(path: Path, name: str) -> None:
-    """Refuse a file of easyScan that lists more datasets than it has bytes.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    name : str
-        What it is called.
-
-    Raises
-    ------
-    InputError
-        If it does.
-    """
+    """Refuse a file of easyScan that lists more datasets than it has bytes."""
     with path.open("rb") as file:
         if file.read(len(_DATASETS)) != _DATASETS:
             return
@@ -147,18 +124,8 @@ def refuse_many_datasets(path: Path, name: str) -> None:
 def refuse_empty_images(path: Path, name: str) -> None:
     """Refuse a file of TIFF one of whose images it is too small to hold, or unpacks to too much.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    name : str
-        What it is called.
-
-    Raises
-    ------
-    InputError
-        If an image, or a tile of it, has more than 200 numbers for each byte of the file, or if
-        the images unpack to more than 64 MiB and to more than 200 times the size of the file.
+    An image, or a tile of it, may have 200 numbers for each byte of the file, and images may unpack
+    to 64 MiB, or to 200 times the size of the file.
     """
     with path.open("rb") as file:
         if file.read(4) not in _TIFF:
@@ -211,18 +178,8 @@ def _pieces_of_image(page: Any, file: Any) -> Iterator[int]:
 def refuse_empty_datasets(path: Path, name: str) -> None:
     """Refuse a file of HDF5, such as NetCDF, one of whose datasets it is too small to hold.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    name : str
-        What it is called.
-
-    Raises
-    ------
-    InputError
-        If a dataset has more than 200 numbers, or one text, for each byte of the file, or if
-        nearly all of a large one was never written.
+    A dataset may have 200 numbers, or one text, for each byte of the file, and of a large one not
+    nearly all may be unwritten.
     """
     with path.open("rb") as file:
         if not any(_starts_hdf5(file, place) for place in _STARTS_OF_HDF5):
@@ -260,19 +217,7 @@ def _too_small(points: tuple[int, ...], size: int, name: str) -> InputError:
 def refuse_too_few_bytes(points: tuple[int, ...], path: Path, name: str) -> None:
     """Refuse a file that is too small for the points that it declares, before they are read.
 
-    Parameters
-    ----------
-    points : tuple of int
-        Points along each axis, as the file declares them.
-    path : Path
-        The file.
-    name : str
-        What it is called.
-
-    Raises
-    ------
-    InputError
-        If there are more than 200 points for each byte, or fewer than two.
+    It may have 200 points for each byte, and has at least two.
     """
     count, declared = math.prod(points), " x ".join(map(str, points))
     if count < 2:

@@ -39,18 +39,7 @@ class CurveInFile:
 
 
 def curve_in(path: Path) -> CurveInFile | None:
-    """Return the curve in a file of :meth:`roughline.Curve.write`; None if there is none.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-
-    Raises
-    ------
-    InputError
-        If it declares more values than it can hold.
-    """
+    """Return the curve in a file of :meth:`roughline.Curve.write`; None if there is none."""
     if path.suffix != ".nc" or not os.path.isfile(path):  # noqa: PTH113 - as in reading
         return None
     refuse_empty_datasets(path, path.name)

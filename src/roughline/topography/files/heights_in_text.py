@@ -46,20 +46,7 @@ _AXES = ("x", "y", "z")
 
 
 def read_text(path: Path, channel: int | str | None, name: str) -> Measurement | None:
-    """Read heights from text; None if the file is no text, or that of a program's own format.
-
-    Parameters
-    ----------
-    path, channel
-        As for :func:`roughline.read`.
-    name : str
-        What the file is called.
-
-    Raises
-    ------
-    InputError
-        If the text is damaged, was cut short, or can be read in more than one way.
-    """
+    """Read heights from text; None if the file is no text, or that of a program's own format."""
     table = table_of(path, name)
     if table is None:
         return None
@@ -165,13 +152,7 @@ def _named(titles: list[list[str]]) -> dict[str, int]:
 
 
 def _refuse_unnamed_list(table: Table, titles: list[list[str]], name: str) -> None:
-    """Refuse what is no matrix of heights: columns with titles, or points with more than heights.
-
-    Raises
-    ------
-    InputError
-        In both cases.
-    """
+    """Refuse what is no matrix of heights: columns with titles, points with more than heights."""
     if titles:
         raise InputError(
             f"{name} has titles above its columns ({', '.join(titles[-1])[:60]}): call those of "

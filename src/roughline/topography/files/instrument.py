@@ -31,22 +31,7 @@ _BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
 def read_instrument(
     path: Path, channel: int | str | None, name: str, matrix: str | None = None
 ) -> Measurement:
-    """Read the heights of an instrument's file, and what it states of them.
-
-    Parameters
-    ----------
-    path, channel
-        As for :func:`roughline.read`.
-    name : str
-        What the file is called.
-    matrix : str, optional
-        The text of the file, if it is a matrix below lines that state units or sizes.
-
-    Raises
-    ------
-    InputError
-        If the file is damaged, of a type that is not known, or has no such channel.
-    """
+    """Read the heights of an instrument's file, and what it states of them."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ImportWarning)  # MPI is absent, and not needed
         from SurfaceTopography.Exceptions import ReadFileError  # here because it loads slowly

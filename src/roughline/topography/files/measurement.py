@@ -74,18 +74,6 @@ class Measurement:
         """Return a piece, with its own sizes, in which missing points are still missing.
 
         What is missing elsewhere does not count, and the heights elsewhere fill nothing in it.
-
-        Parameters
-        ----------
-        crop : tuple of float
-            As for :class:`roughline.Preparation`. [m]
-        unit, sizes
-            As for :meth:`body`.
-
-        Raises
-        ------
-        InputError
-            If the crop does not suit the measurement, or its unit or sizes are not known.
         """
         scale = self._scale(unit, sizes)
         for obstacle in scale.obstacles():
@@ -117,18 +105,7 @@ class Measurement:
     def obstacles(
         self, unit: str | None, sizes: Sizes | None, missing: Missing
     ) -> list[InputError]:
-        """List what is still needed before there is a body: a unit, sizes, more known points.
-
-        Parameters
-        ----------
-        unit, sizes, missing
-            As for :meth:`body`.
-
-        Raises
-        ------
-        InputError
-            If the caller gives what the file states too, or a unit that is not one of length.
-        """
+        """List what is still needed before there is a body: a unit, sizes, more known points."""
         return self._obstacles(self._scale(unit, sizes), missing)
 
     def scale_obstacles(self, unit: str | None, sizes: Sizes | None) -> list[InputError]:
@@ -148,25 +125,6 @@ class Measurement:
 
         The measurement is not changed, so that another body with another filling can follow from
         it; `in_place` gives that up.
-
-        Parameters
-        ----------
-        unit : str or None
-            Unit of all lengths, if the file states none.
-        sizes : float, str, sequence of them, or None
-            Sides, if the file states none; numbers are in `unit`, or else in metres.
-        missing : Missing
-            How missing points are filled.
-        trend : {"none", "mean", "tilt", "curvature"}
-            Polynomial that is removed from the heights of an instrument's file.
-        in_place : bool, optional
-            Whether the body may take the memory of the heights, which saves a copy of them. The
-            measurement is not to be used again then.
-
-        Raises
-        ------
-        InputError
-            If something is missing, or given although the file states it.
         """
         scale = self._scale(unit, sizes)
         for obstacle in self._obstacles(scale, missing):

@@ -74,20 +74,7 @@ def write(body: Body, path: str | Path) -> None:
 
 
 def read_body_file(path: Path, name: str) -> Measurement | None:
-    """Read a file that roughline wrote; None if it has another format.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    name : str
-        What it is called.
-
-    Raises
-    ------
-    InputError
-        If memory cannot hold its heights, or the file cannot.
-    """
+    """Read a file that roughline wrote; None if it has another format."""
     import h5netcdf  # here because it loads slowly; xarray loads even more slowly
 
     try:

@@ -16,20 +16,7 @@ _SPARSE = 20  # nodes of the grid for each point of a list, at most
 
 
 def line_of(x: Real, z: Real, name: str) -> tuple[Real, Real | None, float]:
-    """Return the heights of a line in order, the positions if they are uneven, and the length.
-
-    Parameters
-    ----------
-    x, z : ndarray, shape (n,)
-        Positions and heights. [length]
-    name : str
-        What the file is called.
-
-    Raises
-    ------
-    InputError
-        If the positions neither rise nor fall from point to point.
-    """
+    """Return the heights of a line in order, the positions if they are uneven, and the length."""
     if x.size < 2:
         raise InputError(f"{name} lists {x.size} point: at least 2 are needed; it was cut short")
     if x[0] > x[-1]:
@@ -51,18 +38,8 @@ def map_of(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float, flo
 
     Nodes of the grid that the list leaves out are NaN.
 
-    Parameters
-    ----------
-    x, y, z : ndarray, shape (n,)
-        Positions and heights, in any order. [length]
-    name : str
-        What the file is called.
-
-    Raises
-    ------
-    InputError
-        If the points lie on no regular grid, if two heights are at one place, or if the last row
-        alone lacks its end, as in a file that was cut short.
+    Refused are points on no regular grid, two heights at one place, and a last row that alone lacks
+    its end, as in a file that was cut short.
     """
     (i, dx), (j, dy) = (_nodes(positions, name, axis) for positions, axis in ((x, "x"), (y, "y")))
     if dx == 0 or dy == 0:

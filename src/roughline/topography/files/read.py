@@ -110,20 +110,7 @@ def read(
 def measurement(
     path: str | Path, channel: int | str | None = None, name: str | None = None
 ) -> Measurement:
-    """Read the heights of a file, even if a unit, sizes or points are missing for a body.
-
-    Parameters
-    ----------
-    path, channel
-        As for :func:`read`.
-    name : str, optional
-        What the file is called in messages and in the settings; default: its own name.
-
-    Raises
-    ------
-    InputError
-        If the file does not exist, has an unknown format, is damaged, or has no such channel.
-    """
+    """Read the heights of a file, even if a unit, sizes or points are missing for a body."""
     path = Path(path)
     if not os.path.isfile(path):  # noqa: PTH113 - of a name that no file can have, Path raises
         what = "is a folder" if os.path.isdir(path) else "does not exist"  # noqa: PTH112
@@ -198,13 +185,7 @@ def _read_array(path: Path, name: str) -> Measurement:
 
 
 def suspicions(body: Body) -> list[str]:
-    """List properties of a measured body that suggest a wrong unit or a wrong file.
-
-    Parameters
-    ----------
-    body : Surface or Line
-        In metres.
-    """
+    """List properties of a measured body that suggest a wrong unit or a wrong file."""
     doubts = []
     rms, slope = body.rms_height, body.rms_slope
     if rms > _RMS_RANGE[1] or 0 < rms < _RMS_RANGE[0]:

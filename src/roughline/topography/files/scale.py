@@ -44,15 +44,7 @@ class Scale:
     given_sizes: Sizes | None
 
     def obstacles(self) -> list[InputError]:
-        """List what neither the file nor the caller states: the unit, the sizes.
-
-        Raises
-        ------
-        UnitError
-            If both the file and the caller state the unit, or if it is not a unit of length.
-        InputError
-            If both the file and the caller state the sizes.
-        """
+        """List what neither the file nor the caller states: the unit, the sizes."""
         obstacles: list[InputError] = []
         if self.stated_unit or self.given_unit:
             _ = self.metres
@@ -66,13 +58,7 @@ class Scale:
 
     @cached_property
     def metres(self) -> float:
-        """Metres in the unit of the file.
-
-        Raises
-        ------
-        UnitError
-            If both or neither states it, or if it is not a unit of length.
-        """
+        """Metres in the unit of the file."""
         if self.stated_unit and self.given_unit:
             raise UnitError(
                 f"{self.file} states its unit, {self.stated_unit}; "
@@ -85,16 +71,7 @@ class Scale:
 
     @property
     def sides(self) -> tuple[float, ...]:
-        """Sides of the map, or length of the line. [m]
-
-        Raises
-        ------
-        UnitError
-            If a text is no length with a unit.
-        InputError
-            If neither the file nor the caller states them, or if those given are not one positive
-            length for each axis.
-        """
+        """Sides of the map, or length of the line. [m]"""
         if self.stated_sizes is not None:
             return tuple(self.metres * float(size) for size in self.stated_sizes)
         given = self.given_sizes

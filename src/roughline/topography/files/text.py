@@ -80,20 +80,7 @@ _Cells = list[tuple[int, list[str]]]
 
 
 def table_of(path: Path, name: str) -> Table | None:
-    """Read the rows of numbers in a text file; None if there are none, or a program's own format.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    name : str
-        What it is called.
-
-    Raises
-    ------
-    InputError
-        If the rows are damaged, differ in length, or can be read in more than one way.
-    """
+    """Read the rows of numbers in a text; None if there are none, or a program's own format."""
     text = _text_of(path, name)
     if text is None or _OF_PROGRAMS.match(text):
         return None
@@ -350,13 +337,7 @@ def is_even(positions: Real, tolerance: float = 0.01) -> bool:
 
 
 def refuse_positions_beside_heights(rows: Real, name: str) -> None:
-    """Refuse a matrix whose first row or column holds positions or counts, not heights.
-
-    Raises
-    ------
-    InputError
-        If its numbers rise or fall evenly, and those of the next one do not.
-    """
+    """Refuse a matrix whose first row or column holds positions or counts, not heights."""
     for what, table in (("row", rows), ("column", rows.T)):
         first, second = table[0, 1:], table[1, 1:]
         if min(first.size, 8) == 8 and is_even(first, 1e-4) and not is_even(second, 1e-4):
