@@ -3,23 +3,42 @@
 import pytest
 
 import roughline as rl
-from roughline.cli.flags import in_flags
+from roughline.cli.flags import FLAGS
+from roughline.errors.words import called, speaking
 
 
 @pytest.mark.parametrize(
-    ("message", "told"),
+    ("argument", "in_python", "as_flag"),
     [
-        ("give E_star= or materials=", "give --modulus or --materials"),
-        ('such as unit="um"', "such as --unit um"),
-        ('such as sizes="1 mm, 0.5 mm"', "such as --size '1 mm, 0.5 mm'"),
-        ("with grid_error=True it is", "with --grid-error it is"),
-        ("a unit = um is not an argument", "a unit = um is not an argument"),
-        ("my_unit=3", "my_unit=3"),
-        ('give it with the material, as "hardness=..."',) * 2,
+        (("E_star",), "E_star=", "--modulus"),
+        (("unit", "um"), 'unit="um"', "--unit um"),
+        (("sizes", "1 mm, 0.5 mm"), 'sizes="1 mm, 0.5 mm"', "--size '1 mm, 0.5 mm'"),
+        (("grid_error", True), "grid_error=True", "--grid-error"),
+        (("my_unit",), "my_unit=", "my_unit="),
     ],
 )
-def test_arguments_become_flags(message, told):
-    assert in_flags(message) == told
+def test_arguments_are_called_as_the_caller_writes_them(argument, in_python, as_flag):
+    assert called(*argument) == in_python
+    with speaking(FLAGS):
+        assert called(*argument) == as_flag
+        with speaking(None):
+            assert called(*argument) == in_python
+    assert called(*argument) == in_python
+
+
+def test_a_refusal_begins_with_what_the_caller_calls_its_argument():
+    for words, begun in ((None, "n_loads"), (FLAGS, "--loads")):
+        with speaking(words), pytest.raises(rl.InputError) as refused:
+            rl.Question("scan.x3p", E_star=1e9, n_loads=1)
+        assert refused.value.argument == "n_loads"
+        assert str(refused.value).startswith(f"{begun} is 1; a whole number")
+
+
+def test_values_of_a_description_are_called_the_same_for_everyone():
+    with speaking(FLAGS), pytest.raises(rl.InputError) as refused:
+        rl.Question("scan.x3p", materials="steel hardness=-1 GPa, copper")
+    assert str(refused.value).startswith("--materials ")
+    assert "--hardness" not in str(refused.value)
 
 
 def test_a_file_without_unit_is_refused_in_the_words_of_the_caller(tmp_path, invoke):

@@ -49,6 +49,7 @@ from roughline.contact.loads import Loads
 from roughline.engineering.intervals import Intervals
 from roughline.errors import InputError
 from roughline.errors.public import public
+from roughline.errors.words import called
 from roughline.theories.theory_curve import TheoryCurve
 from roughline.topography.body import Body, Line, Surface
 
@@ -166,7 +167,8 @@ def _tell_cost(question: Question, body: Body, case: LoadCase, announce: Announc
             memory_for(body.shape, True, 0, yielding=yielding, area_fraction=share),
             f"pressing {body.shape[0]} x {body.shape[1]} points periodically, for the "
             "interface alone,",
-            "take a smaller piece or every other point, or E_star= instead of materials",
+            f"take a smaller piece or every other point, or {called('E_star')} instead of "
+            "materials",
         )
     if announce is not None and (large or case.count >= _MANY):
         cost_of = partial(estimate, n_loads=case.count, yielding=yielding, area_fraction=share)

@@ -35,6 +35,7 @@ from roughline.assessment.tiles import FEWEST, MOST_DOUBLINGS, Beyond, Tiles, lo
 from roughline.computing.arrays import Real
 from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
+from roughline.errors.words import called
 from roughline.spectra.fit import SelfAffineFit, fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum, mean_spectrum
 from roughline.spectra.longer_waves import long_shapes
@@ -46,10 +47,6 @@ _EDGE = 2.0  # standard deviations from the middle to the roughest places
 _SAME_SIDE = 0.05  # logarithm of sides, up to which maps have the same waves
 _CHANCE = 0.01  # of a tilt and bow that the waves of the maps explain
 _FEWEST = 16  # points along a side, whose quarters have an rms height
-_WITHOUT_TILES = (
-    "maps without the error of their grid (grid_error=True), or with fewer than "
-    f"{FEWEST} points a side, do not tell how they differ from the part behind them"
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +104,10 @@ def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:
     if not untold and not beyond.is_told:
         untold = _without_roll_off(beyond)
     if not untold and not tiles:
-        untold = _WITHOUT_TILES
+        untold = (
+            f"maps without the error of their grid ({called('grid_error', True)}), or with fewer "
+            f"than {FEWEST} points a side, do not tell how they differ from the part behind them"
+        )
     return BehindMaps(roll_offs, agree, alike, sharing, untold)
 
 

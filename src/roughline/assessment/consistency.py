@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from roughline.errors import InputError
 from roughline.errors.checks import whole
+from roughline.errors.words import called
 
 if TYPE_CHECKING:
     from roughline.assessment.question import Question
@@ -21,16 +22,22 @@ def refuse_inconsistent_loads(question: Question) -> None:
     """
     given = (question.n_loads, question.loads or None, question.depths or None)
     if sum(each is not None for each in given) > 1:
-        raise InputError("give one of loads=, depths= and n_loads=")
+        raise InputError(
+            f"give one of {called('loads')}, {called('depths')} and {called('n_loads')}"
+        )
     if question.n_loads is not None:
         whole("n_loads", question.n_loads, 2, "a whole number of at least 2 is needed")
     if question.unload and (not question.loads or question.history):
         raise InputError(
-            "unload=True takes off the largest of the loads (loads=); in a history, and for "
+            f"{called('unload', True)} takes off the largest of the loads "
+            f"({called('loads')}); in a history, and for "
             "depths, write the falling values yourself"
         )
     if question.history and not (question.loads or question.depths):
-        raise InputError("history=True needs loads= or depths= in the order of the history")
+        raise InputError(
+            f"{called('history', True)} needs {called('loads')} or {called('depths')} in the "
+            "order of the history"
+        )
 
 
 def refuse_inconsistent_joint(question: Question) -> None:
@@ -44,10 +51,14 @@ def refuse_inconsistent_joint(question: Question) -> None:
     if question.joint_area is None:
         return
     if question.materials is None:
-        raise InputError("answers of a joint (joint_area=) need two materials (materials=)")
+        raise InputError(
+            f"answers of a joint ({called('joint_area')}) need two materials "
+            f"({called('materials')})"
+        )
     if question.depths:
         raise InputError(
-            "a joint (joint_area=) is pressed by loads (loads=): its depth counts from the "
+            f"a joint ({called('joint_area')}) is pressed by loads ({called('loads')}): its "
+            "depth counts from the "
             "touch of its highest point, which a map does not show"
         )
 
@@ -65,17 +76,22 @@ def refuse_inconsistent_maps(question: Question) -> None:
         return
     if question.materials is None:
         raise InputError(
-            "several maps are compared by their answers, which need two materials (materials=)"
+            "several maps are compared by their answers, which need two materials "
+            f"({called('materials')})"
         )
     if not question.loads and not question.depths:
-        raise InputError("several maps are pressed under the same loads: give them (loads=)")
+        raise InputError(
+            f"several maps are pressed under the same loads: give them ({called('loads')})"
+        )
     if question.against is not None:
         raise InputError(
-            "several maps are pressed into a smooth body: the one second topography (against=) "
+            "several maps are pressed into a smooth body: the one second topography "
+            f"({called('against')}) "
             "would be the same for all maps, and its own scatter between places would not show; "
-            "press each map against it alone, or leave against= out"
+            f"press each map against it alone, or leave {called('against')} out"
         )
     if question.reading.name is not None:
         raise InputError(
-            "the name in reading= is that of one file, and there are several maps: leave it out"
+            f"the name in {called('reading')} is that of one file, and there are several "
+            "maps: leave it out"
         )

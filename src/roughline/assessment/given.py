@@ -12,6 +12,7 @@ import numpy as np
 from roughline.engineering.materials import Material, material
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, shown
+from roughline.errors.words import speaking
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import example_of, in_si, load_in_newtons, refuse_decimal_comma
 
@@ -105,6 +106,7 @@ def _material_of(given: Any) -> Material:
     if not isinstance(given, str):
         refuse("materials", given, 'a Material or a text such as "steel" is needed for each body')
     try:
-        return material(given)
+        with speaking(None):  # a description calls its values the same for everyone
+            return material(given)
     except InputError as error:
         raise type(error)(f"{shown(given)} cannot be used: {error}", "materials") from error

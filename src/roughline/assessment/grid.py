@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from roughline.assessment.loads import LoadCase
 from roughline.assessment.question import Question
+from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 
 _COARSENED_FROM = 64  # points a side from which on the grid's error is estimated unasked
@@ -26,9 +27,10 @@ def why_without_grid_error(question: Question, body: Surface, tried: bool) -> st
         why = "switched off"
     elif min(body.shape) < _COARSENED_FROM:
         why = (
-            f"fewer than {_COARSENED_FROM} points a side; with grid_error=True it is estimated "
-            "nevertheless"
+            f"fewer than {_COARSENED_FROM} points a side; with {called('grid_error', True)} it "
+            "is estimated nevertheless"
         )
     else:
-        why = "that takes about twice as long; with grid_error=True it is estimated"
+        asked = called("grid_error", True)
+        why = f"that takes about twice as long; with {asked} it is estimated"
     return f"grid error not estimated, so values come without intervals ({why})"

@@ -9,6 +9,7 @@ from roughline.assessment.given import as_si
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
+from roughline.errors.words import called
 from roughline.units import engineering
 
 if TYPE_CHECKING:
@@ -54,9 +55,16 @@ def checked_hardness(given: float | str | None, *, elastic: bool) -> float | Non
         return None
     hardness = as_si(given, "Pa", "hardness")
     if not hardness > 0:
-        refuse("hardness", given, "a positive pressure is needed, or elastic=True for no yield")
+        refuse(
+            "hardness",
+            given,
+            f"a positive pressure is needed, or {called('elastic', True)} for no yield",
+        )
     if elastic:
-        raise InputError("hardness= and elastic=True contradict each other; give one of them")
+        raise InputError(
+            f"{called('hardness')} and {called('elastic', True)} contradict each other; give "
+            "one of them"
+        )
     return hardness
 
 
@@ -90,10 +98,13 @@ def refuse_beyond_hardness(question: Question, area: float) -> None:
             most = engineering(hardness.value * area * question.scale(area), "N")
             on, joint = "the joint", ""
             if question.joint is None:
-                on, joint = "the map", "the area of the joint that carries them (joint_area=), "
+                on, joint = (
+                    "the map",
+                    f"the area of the joint that carries them ({called('joint_area')}), ",
+                )
             raise InputError(
                 f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and "
                 f"{bearer}, of hardness {engineering(hardness.value, 'Pa')}, bears less than "
                 f"{most} on {on} (H A_0): give smaller loads, {joint}or a larger hardness "
-                "(hardness=) if the body has it"
+                f"({called('hardness')}) if the body has it"
             )

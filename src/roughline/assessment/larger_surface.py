@@ -18,6 +18,7 @@ from roughline.engineering.formulas import interface_stiffness
 from roughline.engineering.intervals import Ends, Intervals, ends_at
 from roughline.engineering.pressed import Interface
 from roughline.errors import InputError
+from roughline.errors.words import called
 from roughline.spectra.fit import SelfAffineFit, fitted
 from roughline.topography.body import Body, Line, Surface
 
@@ -249,7 +250,7 @@ def _which(beyond: Beyond) -> str:
     if not beyond.is_joint:
         return (
             f"of a surface {times}: on a larger one longer waves lower the stiffness further; give "
-            "the joint's area (joint_area=), or measure a larger map"
+            f"the joint's area ({called('joint_area')}), or measure a larger map"
         )
     if beyond.is_told:
         return f"of a joint {times}: the interval allows for waves as long as the joint"

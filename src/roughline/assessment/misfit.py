@@ -8,6 +8,7 @@ from roughline.assessment.hardness import WITHOUT_YIELD
 from roughline.assessment.kinds import has_spectrum
 from roughline.assessment.nominal import nominal_area
 from roughline.errors import InputError
+from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import decimal, engineering
 
@@ -32,9 +33,9 @@ def refuse_misfit(question: Question, body: Body) -> None:
             "loads, through its spectrum: leave them out, or press a map"
         )
     given = {
-        "hardness=": question.hardness is not None,
-        "history=True": question.history,
-        "unload=True": question.unload,
+        called("hardness"): question.hardness is not None,
+        called("history", True): question.history,
+        called("unload", True): question.unload,
     }
     if isinstance(body, Line) and any(given.values()):
         came = " and ".join(name for name, is_given in given.items() if is_given)
@@ -74,11 +75,12 @@ def _refuse_as_piece_of_a_joint(body: Body, joint: float) -> None:
     """Refuse a body that cannot stand for a joint of some area [m²]."""
     if isinstance(body, Line):
         raise InputError(
-            "joint_area= belongs to a surface: a line stands for the square of its length alone, "
-            "and what lies beyond is not known; leave joint_area= out"
+            f"{called('joint_area')} belongs to a surface: a line stands for the square of "
+            "its length alone, "
+            f"and what lies beyond is not known; leave {called('joint_area')} out"
         )
     if body.area > joint * (1 + 1e-9):  # sides are rounded
         raise InputError(
             f"the joint has an area of {engineering(joint, 'm²')}, less than the map, which has "
-            f"{engineering(body.area, 'm²')}: crop the map, or leave joint_area= out"
+            f"{engineering(body.area, 'm²')}: crop the map, or leave {called('joint_area')} out"
         )

@@ -21,6 +21,7 @@ from roughline.engineering.rules.mechanical import (
     INTERFACE_STIFFNESS,
     UNLOADING_STIFFNESS,
 )
+from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump
@@ -95,7 +96,8 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
     if has_forces(question.loads) and question.joint is None and is_map(body):
         notes.append(
             "forces act on the map alone, not on the part that it was cut out of; if the area of "
-            "the joint is given (joint_area=), they act on the joint, and the answers are those of "
+            f"the joint is given ({called('joint_area')}), they act on the joint, and the "
+            "answers are those of "
             "the joint"
         )
     return notes

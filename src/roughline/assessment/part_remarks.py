@@ -12,6 +12,7 @@ from roughline.assessment.assumptions import listed
 from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.part import PartAnswer
+from roughline.errors.words import called
 from roughline.spectra.departures import departures
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
@@ -58,7 +59,7 @@ def differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
         found.append(
             "the maps differ in size, so quantities of a whole map have no common mean; give mean "
             "pressures as loads to compare quantities per area"
-            + (", or the area of the joint (joint_area=)" if kinds == {True} else "")
+            + (f", or the area of the joint ({called('joint_area')})" if kinds == {True} else "")
         )
     return found
 
@@ -96,7 +97,7 @@ def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
     if any(each.intervals is None for each in results):
         notes.append(
             "some maps have no interval of their own; where they have none, the part's interval "
-            "is that of the scatter alone (grid_error=True gives the maps intervals)"
+            f"is that of the scatter alone ({called('grid_error', True)} gives the maps intervals)"
         )
     return notes
 

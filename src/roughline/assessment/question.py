@@ -29,6 +29,7 @@ from roughline.engineering.pair import MaterialPair, contact_modulus
 from roughline.errors import InputError
 from roughline.errors.checks import number, refuse
 from roughline.errors.public import public
+from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import Preparation
 from roughline.units import engineering, load_in_newtons
@@ -153,7 +154,9 @@ class Question:
         if self.reading != Reading() and not any(
             isinstance(each, Path) for each in (*self.bodies, self.against)
         ):
-            raise InputError("reading= says how files are read, but no file is given: leave it out")
+            raise InputError(
+                f"{called('reading')} says how files are read, but no file is given: leave it out"
+            )
         if self.joint_area is not None:
             object.__setattr__(self, "joint_area", area_of_joint(self.joint_area))
         if self.n_loads is None and not self.loads and not self.depths:
@@ -283,10 +286,13 @@ class Question:
             object.__setattr__(self, "materials", pair_of(self.materials))
             contact_modulus(*self.materials)  # refuses two rigid bodies
         elif self.frequency is not None or self.friction is not None:
-            raise InputError("reflection and partial slip need two materials (materials=)")
+            raise InputError(
+                f"reflection and partial slip need two materials ({called('materials')})"
+            )
         if (self.E_star is None) == (self.materials is None):
             raise InputError(
-                "give either a contact modulus (E_star=) or two materials (materials=)"
+                f"give either a contact modulus ({called('E_star')}) or two materials "
+                f"({called('materials')})"
             )
         if self.E_star is not None:
             modulus = as_si(self.E_star, "Pa", "E_star")

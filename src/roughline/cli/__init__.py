@@ -15,12 +15,13 @@ from roughline.cli.campaign import app as campaign_app
 from roughline.cli.campaign import paper
 from roughline.cli.comparison import compare_command
 from roughline.cli.contact import press_command
-from roughline.cli.flags import in_flags
+from roughline.cli.flags import FLAGS
 from roughline.cli.help import PanelsFirst
 from roughline.cli.lab import lab
 from roughline.cli.topography import generate, info
 from roughline.cli.usage import NOT_OFFERED, in_one_line, refuse_empty
 from roughline.errors import ConvergenceError, RoughlineError
+from roughline.errors.words import speaking
 
 app = typer.Typer(
     name="roughline",
@@ -63,16 +64,17 @@ def main() -> None:
     """Run the command line; errors are one line, exit code 2 for input and 1 for numerics."""
     try:
         refuse_empty(sys.argv[1:])
-        sys.exit(app(standalone_mode=False) or 0)
+        with speaking(FLAGS):
+            sys.exit(app(standalone_mode=False) or 0)
     except TyperException as error:
         if type(error).__name__ == "NoArgsIsHelpError":
             typer.echo(error.format_message(), err=True)
             sys.exit(2)
         sys.exit(_say(in_one_line(error), 2))
     except ConvergenceError as error:
-        sys.exit(_say(in_flags(error), 1))
+        sys.exit(_say(str(error), 1))
     except RoughlineError as error:
-        sys.exit(_say(in_flags(error), 2))
+        sys.exit(_say(str(error), 2))
 
 
 def _say(what: str, code: int) -> int:

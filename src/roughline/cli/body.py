@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
-from roughline.cli.flags import in_flags
 from roughline.cli.options import end_interrupted, interruptible, print_json, writable
 
 if TYPE_CHECKING:
@@ -28,11 +26,6 @@ def press_body(
     with interruptible("there is no result"), load_progress() as progress:
         with writable(report, out):  # a folder that cannot be written is refused before the work
             result = assess_body(question, announce=announce, progress=progress)
-        result = replace(
-            result,
-            warnings=[in_flags(each) for each in result.warnings],
-            notes=[in_flags(each) for each in result.notes],
-        )
         files = _written(result, report, out, command)
     if json:
         print_json(of_assessment(result, files))

@@ -1,12 +1,12 @@
-"""The flags of the command line in messages that speak of arguments."""
+"""What the command line calls arguments of the library: its flags."""
 
 from __future__ import annotations
 
 import shlex
 
-from roughline.report.arguments import with_arguments_called
+from roughline.errors.words import Words
 
-_FLAGS = {
+_OTHERS = {
     "E_star": "--modulus",
     "materials": "--materials",
     "loads": "--load",
@@ -62,7 +62,4 @@ _FLAGS = {
     "max_disk": "--max-disk",
 }
 
-
-def in_flags(message: str | Exception) -> str:
-    """Return a message with flags in the places of arguments."""
-    return with_arguments_called(message, _FLAGS, shlex.quote)
+FLAGS = Words(_OTHERS, shlex.quote)

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
-from roughline.cli.flags import in_flags
 from roughline.cli.options import end_interrupted, interruptible, print_json, writable
 
 if TYPE_CHECKING:
-    from roughline.assessment.assessment import Assessment
     from roughline.assessment.part import PartAssessment
     from roughline.assessment.question import Question
 
@@ -32,7 +28,6 @@ def press_part(
             part = assess_part(
                 question.of_each(), announce=announce, progress=loads, map_progress=maps
             )
-        part = _in_flags(part)
         files = _written(part, report, out, command)
     if json:
         print_json(of_part(part, files))
@@ -58,21 +53,3 @@ def _written(
     if out is not None:
         files += write_part(part, out)
     return files
-
-
-def _in_flags(part: PartAssessment) -> PartAssessment:
-    """What is said of the part and of each map, in flags."""
-
-    def said(texts: Sequence[str]) -> list[str]:
-        return [in_flags(each) for each in texts]
-
-    def of_map(each: Assessment) -> Assessment:
-        return replace(each, warnings=said(each.warnings), notes=said(each.notes))
-
-    return replace(
-        part,
-        assessments=[of_map(each) for each in part.assessments],
-        refused={name: in_flags(why) for name, why in part.refused.items()},
-        warnings=said(part.warnings),
-        notes=said(part.notes),
-    )

@@ -9,7 +9,6 @@ from typing import Annotated
 import typer
 
 from roughline.cli import options
-from roughline.cli.flags import in_flags
 from roughline.cli.options import print_json, writable
 
 
@@ -62,10 +61,6 @@ def info(
     steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     with writable(out):
         result = describe(file, reading, steps)
-    result = replace(result, obstacles=[in_flags(each) for each in result.obstacles])
-    if (parameters := result.roughness) is not None:
-        remarks = [in_flags(each) for each in parameters.remarks]
-        result = replace(result, roughness=replace(parameters, remarks=remarks))
     files: list[Path] = []
     if out is not None:
         from roughline.report.description_figures import write_description

@@ -12,6 +12,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import as_number, is_whole, refuse, several, shown
+from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.laws.law import ContactLaw
@@ -42,7 +43,8 @@ def given_half_space(
     if half_space is None:
         if E_star is None:
             raise InputError(
-                "press needs E_star=, the contact modulus, which rl.contact_modulus(first, second) "
+                f"press needs {called('E_star')}, the contact modulus, which "
+                "rl.contact_modulus(first, second) "
                 "gives of two materials; give it, or half_space="
             )
         E_star = checked_number("E_star", E_star, allowed, 1 / LARGEST, LARGEST)

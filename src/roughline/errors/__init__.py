@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from roughline.errors.words import named
+
 
 class RoughlineError(Exception):
     """Base class of every error that roughline raises on purpose."""
@@ -15,21 +17,21 @@ class InputError(RoughlineError, ValueError):
     Parameters
     ----------
     message : str
-        The message; with `argument`, what follows its name. Another argument, one that solves the
-        problem, is named in it with an equals sign, such as unit="um".
+        The message; with `argument`, what follows its name. Other arguments in it are named by
+        :func:`roughline.errors.words.called`.
     argument : str, optional
-        Name of the argument that cannot be used; the message begins with it.
+        Name of the argument that cannot be used; the message begins with what the caller calls it.
 
     Attributes
     ----------
     argument : str or None
         That name.
     statement : str
-        The message without that name, for those who call the argument something else.
+        The message without that name.
     """
 
     def __init__(self, message: str, argument: str | None = None) -> None:
-        super().__init__(message if argument is None else f"{argument} {message}")
+        super().__init__(message if argument is None else f"{named(argument)} {message}")
         self.argument = argument
         self.statement = message
 

@@ -11,6 +11,7 @@ from weakref import WeakKeyDictionary
 from scipy import special
 
 from roughline.errors import InputError
+from roughline.errors.words import called
 from roughline.spectra.alike import of_directions, of_places, of_sides
 from roughline.spectra.chance import Finding
 from roughline.spectra.coarser_selves import coarser_selves
@@ -131,8 +132,8 @@ def _of_rows(rows: Jump, surface: Surface) -> str:
         )
     return (
         f"{place} all heights beyond stand {height} {side} those before, and other rows scatter by "
-        f"{scatter}: the instrument jumped, or two faces are seen: take either side (crop=), or "
-        "measure again"
+        f"{scatter}: the instrument jumped, or two faces are seen: take either side "
+        f"({called('crop')}), or measure again"
     )
 
 
@@ -188,7 +189,7 @@ def _of_shapes(body: Body, fit: SelfAffineFit, what: str) -> Departure | None:
     if tilt_of(body) is None and body.settings.get(TILT) != MOUNTING:
         text = (
             f"the {what} was levelled before it was given, so its heights do not tell whether it "
-            f"lies on waves longer than itself: give it as it was measured, or {_SAY_SO}"
+            f"lies on waves longer than itself: give it as it was measured, or {_say_so()}"
         )
         return Departure("longer waves", text, _LEVELLED)
     return None
@@ -218,7 +219,7 @@ def judged(body: Body, fit: SelfAffineFit) -> SelfAffineFit:
             rms, explained = (in_words(each, body.unit, 2) for each in (shape.rms, shape.explained))
             return fit.without_intervals(
                 f"a bow of rms height {rms} hides the longest waves, which explain {explained}: "
-                'remove it first (trend="curvature")'
+                f"remove it first ({called('trend', 'curvature')})"
             )
     return fit
 
@@ -231,7 +232,7 @@ def _in_words(shape: LongShape, body: Body, what: str) -> str:
         return (
             f"the tilt of the {what} has an rms height of {rms}, and its own waves explain "
             f"{explained}: the rest is the mounting's, or of waves longer than the {what}: "
-            f"{remedy}, or {_SAY_SO}"
+            f"{remedy}, or {_say_so()}"
         )
     name = "bow" if shape.degree == 2 else "longest shape"
     return (
@@ -240,4 +241,5 @@ def _in_words(shape: LongShape, body: Body, what: str) -> str:
     )
 
 
-_SAY_SO = 'say that the tilt is the mounting\'s (tilt="mounting")'
+def _say_so() -> str:
+    return f"say that the tilt is the mounting's ({called('tilt', 'mounting')})"

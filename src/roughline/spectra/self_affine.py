@@ -17,6 +17,7 @@ from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import between, positive, refuse, whole
 from roughline.errors.public import public
+from roughline.errors.words import called
 from roughline.spectra import synthesis
 from roughline.spectra.band import Band
 from roughline.spectra.difference import are_close, sum_over_integral, warn_of_difference
@@ -99,10 +100,13 @@ class SelfAffine:
     ) -> None:
         if (hurst is None) == (fractal_dimension is None):
             given = "neither is" if hurst is None else "both are"
-            raise InputError(f"give exactly one of hurst= and fractal_dimension=; {given} given")
+            raise InputError(
+                f"give exactly one of {called('hurst')} and "
+                f"{called('fractal_dimension')}; {given} given"
+            )
         if (rms_height is None) == (C_0 is None):
             given = "neither is" if C_0 is None else "both are"
-            raise InputError(f"give exactly one of rms_height= and C_0=; {given} given")
+            raise InputError(f"give exactly one of {called('rms_height')} and C_0=; {given} given")
         if hurst is None:
             assert fractal_dimension is not None
             between("fractal_dimension", fractal_dimension, 2, 3, "allowed is 2 to 3")

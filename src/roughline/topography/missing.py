@@ -10,6 +10,7 @@ import numpy as np
 
 from roughline.errors import InputError
 from roughline.errors.checks import number, one_of, refuse
+from roughline.errors.words import called
 
 if TYPE_CHECKING:
     from roughline.computing.arrays import Mask, Real
@@ -73,8 +74,9 @@ class Missing:
             return None
         return InputError(
             f"{name} has {unknown} missing points of {mask.size} ({unknown / mask.size:.0%}); "
-            f"up to {self.most:.0%} are filled: crop it to where points are known (crop=), or "
-            "allow more (most_missing=)"
+            f"up to {self.most:.0%} are filled: crop it to where points are known "
+            f"({called('crop')}), or "
+            f"allow more ({called('most_missing')})"
         )
 
     def filled(self, heights: np.ma.MaskedArray[Any, Any], name: str) -> Real:

@@ -13,6 +13,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, PreparationWarning
 from roughline.errors.checks import as_number, is_whole, positive, refuse, several
 from roughline.errors.public import public
+from roughline.errors.words import called
 from roughline.topography.body import Body, BodyType, Surface, with_heights
 from roughline.topography.crop import Crop, points_in, settings_of_piece
 from roughline.topography.effects import effects, with_effect
@@ -185,7 +186,7 @@ def tilt_warnings(surface: Surface) -> tuple[str, ...]:
     return (
         f"this surface is tilted: without its mean plane the rms height would be {lower:.0%} "
         "lower, and the side that the tilt lifts carries the load. Unless that is meant, remove it "
-        '(trend="tilt", as rl.read does by default, or surface.detrended())',
+        f"({called('trend', 'tilt')}, as rl.read does by default, or surface.detrended())",
     )
 
 

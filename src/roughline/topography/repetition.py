@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughline.errors.words import called
 from roughline.units import decimal, in_words
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ class BorderJump:
         return (
             f"{text}; {self.share_of_slope:.0%} of its mean-square slope lies there, so contact "
             "near the borders is that of a step which the part does not have: remove what is left "
-            'of the form (trend="curvature"), or take a larger map'
+            f"of the form ({called('trend', 'curvature')}), or take a larger map"
         )
 
 

@@ -8,6 +8,7 @@ from roughline.computing.arrays import Real
 from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pressed import Pressed
 from roughline.engineering.rule import Limits, Rule, always
+from roughline.errors.words import called
 from roughline.units import decimal
 
 
@@ -65,7 +66,7 @@ def _beyond_elastic(pressed: Pressed) -> str:
     return (
         f"the mean contact pressure reaches {decimal(worst, 2)} times the softer body's hardness; "
         f"beyond {ELASTIC_UP_TO:g} of it summits yield, so these elastic answers do not hold: "
-        "leave out elastic=True, or an infinite hardness="
+        f"leave out {called('elastic', True)}, or an infinite {called('hardness')}"
     )
 
 

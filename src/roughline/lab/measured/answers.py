@@ -16,12 +16,13 @@ from roughline.assessment.assess_part import assess_part
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.question import Question
+from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.part import part_in_words
 from roughline.lab.measured.pictures import contact_drawing, curve_drawing
 from roughline.lab.measured.state import Arguments, at, question_of, said_of, sources_of
-from roughline.lab.measured.words import in_controls
+from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
 from roughline.report.contact_tables import (
     IF_ELASTIC,
@@ -37,6 +38,7 @@ from roughline.units import engineering
 _MOST_PRESSES = 16  # of one body: filled in two ways, repeated, elastic, and of other hardnesses
 
 
+@speaking(CONTROLS)
 def answer(arguments: Arguments, progress: Progress) -> bytes:
     """Assess the question of the page; the result is kept for the report.
 
@@ -67,7 +69,7 @@ def _framed(result: Assessment, **others: Any) -> bytes:
         "formulas": formula_table(result) if result.answers else None,
         "curve": curve_table(result),
         "star": f"* {UNRESOLVED}" if star_is_shown(result) else "",
-        "remarks": [in_controls(each) for each in result.remarks],
+        "remarks": list(result.remarks),
         "theories": [f"{each.name}: {each.validity}" for each in result.theories],
         "plot": curve_drawing(result),
         "contact": contact,

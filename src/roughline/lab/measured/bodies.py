@@ -14,16 +14,18 @@ from roughline.assessment.notes import meaning_of_loads, of_unknown_hardness
 from roughline.assessment.question import DEFAULT_LOADS, Question
 from roughline.assessment.reading import Reading
 from roughline.engineering.rule import rules
+from roughline.errors.words import speaking
 from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import Arguments, Said, Source, at, question_of, used_in
-from roughline.lab.measured.words import in_controls
+from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
 from roughline.report.contact_tables import material_in_words
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import engineering
 
 
+@speaking(CONTROLS)
 def bodies(arguments: Arguments, progress: Progress) -> bytes:
     """E* of the bodies, and what each load is in all on the `sides` of the prepared body. [m]
 
@@ -61,7 +63,7 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
     header = {
         "refused": refused,
         "rows": rows,
-        "loads": [in_controls(each) for each in meanings],
+        "loads": list(meanings),
         "notes": notes,
         "yields": hardness is not None and not isinstance(body, Line),
     }

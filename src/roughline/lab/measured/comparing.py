@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from roughline.assessment.comparison import compare_models
+from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.state import Arguments, at, reading_of, said_of, source_of
-from roughline.lab.measured.words import in_controls
+from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
 from roughline.report.comparison_table import comparison_table, verdict_in_words
 
 
+@speaking(CONTROLS)
 def compare(arguments: Arguments, progress: Progress) -> bytes:
     """Compare the models on the surface as the file has it, without its tilt."""
     said = said_of(arguments)
@@ -33,7 +35,7 @@ def compare(arguments: Arguments, progress: Progress) -> bytes:
             "verdicts": [str(each) for each in found.verdicts],
             "table": [header, rows],
             "star": star,
-            "notes": [in_controls(each) for each in result.warnings],
+            "notes": list(result.warnings),
             "force_bar": result.force_bar,
             "full": result.full.mean,
             "reduced": {

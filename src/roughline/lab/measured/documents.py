@@ -13,6 +13,7 @@ from tempfile import TemporaryDirectory
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.reading import Reading
+from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.kept import digest
@@ -28,6 +29,7 @@ from roughline.lab.measured.state import (
     sources_of,
     theories_of,
 )
+from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import write_contact_report
@@ -56,6 +58,7 @@ _WRITTEN = (
 )
 
 
+@speaking(CONTROLS)
 def report(arguments: Arguments, progress: Progress) -> bytes:
     """Write the report and the curve to the folder of the session."""
     said = said_of(arguments)
@@ -93,6 +96,7 @@ def _names(said: Said, arguments: Arguments) -> list[str]:
     return [each.name for each in sources_of(said, arguments["session"])]
 
 
+@speaking(CONTROLS)
 def code(arguments: Arguments, progress: Progress) -> bytes:
     """Lines of Python, or a command, that answer the same question for the file."""
     said = said_of(arguments)

@@ -10,6 +10,7 @@ import numpy as np
 from roughline.assessment.description import Description, describe_measurement
 from roughline.assessment.reading import Reading
 from roughline.assessment.source import measured_body
+from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.kept import kept
 from roughline.lab.measured.pictures import (
@@ -28,7 +29,7 @@ from roughline.lab.measured.state import (
     source_of,
     used_in,
 )
-from roughline.lab.measured.words import in_controls
+from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
 from roughline.report.description_table import description_table
 from roughline.topography.body import Body, Surface
@@ -37,6 +38,7 @@ from roughline.topography.files.read import measurement
 from roughline.topography.preparation import Preparation
 
 
+@speaking(CONTROLS)
 def look(arguments: Arguments, progress: Progress) -> bytes:
     """What the file holds, what it leaves open, and its roughness as it is read."""
     session = arguments["session"]
@@ -58,13 +60,14 @@ def look(arguments: Arguments, progress: Progress) -> bytes:
             "channels": list(content.channels) if len(content.channels) > 1 else [],
         },
         "channel": content.channel,
-        "obstacles": [in_controls(each) for each in found.obstacles],
+        "obstacles": list(found.obstacles),
         "file": drawing.header,
         **_of_description(found),
     }
     return frame(header, drawing.arrays | _body_arrays(found.body))
 
 
+@speaking(CONTROLS)
 def prepare(arguments: Arguments, progress: Progress) -> bytes:
     """The file, prepared."""
     session = arguments["session"]
@@ -75,7 +78,7 @@ def prepare(arguments: Arguments, progress: Progress) -> bytes:
             return described(said, source, session, is_prepared=True)
 
     found, refused = used_in(arguments, read)
-    header = {"refused": refused, "obstacles": [in_controls(each) for each in found.obstacles]}
+    header = {"refused": refused, "obstacles": list(found.obstacles)}
     return frame({**header, **_of_description(found)}, _body_arrays(found.body))
 
 
@@ -112,7 +115,7 @@ def _of_description(found: Description) -> dict[str, Any]:
     remarks = [*found.notes, *(parameters.remarks if parameters else [])]
     return {
         "table": description_table(found),
-        "remarks": [in_controls(each) for each in remarks],
+        "remarks": list(remarks),
         "missing": found.missing.count,
         "body": None if body is None else _of_body(body),
         "spectrum": spectrum_of(found),

@@ -10,6 +10,7 @@ import numpy as np
 import roughline as rl
 from roughline.assessment.part import PartAnswer, PartAssessment
 from roughline.assessment.source import Topography
+from roughline.errors.words import speaking
 from roughline.lab.frames import frame
 from roughline.lab.measured.state import (
     Arguments,
@@ -19,7 +20,7 @@ from roughline.lab.measured.state import (
     sources_of,
     used_in,
 )
-from roughline.lab.measured.words import in_controls
+from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress, without_paths
 from roughline.report.contact_tables import UNRESOLVED, leading_keys, unit_shown
 from roughline.report.part_tables import (
@@ -34,6 +35,7 @@ from roughline.report.values import scale_of
 _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
 
 
+@speaking(CONTROLS)
 def maps(arguments: Arguments, progress: Progress) -> bytes:
     """Each map of a part as it is read and prepared, or why it is refused."""
     sources = sources_of(said_of(arguments), arguments["session"])
@@ -48,7 +50,7 @@ def maps(arguments: Arguments, progress: Progress) -> bytes:
         try:
             row["cells"] = body_in_words(Topography.of(source.path, reading, preparation).body)
         except rl.InputError as error:
-            row["refused"] = without_paths(in_controls(error), arguments)
+            row["refused"] = without_paths(str(error), arguments)
         rows.append(row)
     return frame({"maps": rows, "refused": refused})
 
@@ -62,7 +64,7 @@ def part_in_words(part: PartAssessment, arguments: Arguments) -> dict[str, Any]:
         "leading": leading_table(part),
         "answers": part_table(part, loads) if part.answers else None,
         "star": f"* {UNRESOLVED}" if star_is_shown_of(part) else "",
-        "remarks": [in_controls(without_paths(each, arguments)) for each in part.remarks],
+        "remarks": [without_paths(each, arguments) for each in part.remarks],
         "load": part.headings[part.largest],
         "drawings": _drawings(part),
     }

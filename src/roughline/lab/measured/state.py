@@ -26,7 +26,6 @@ from roughline.lab.controls import (
 )
 from roughline.lab.measured import controls as c
 from roughline.lab.measured.examples import path_of
-from roughline.lab.measured.words import in_controls
 from roughline.theories.theory import THEORIES
 from roughline.topography.preparation import Preparation
 from roughline.units import in_si, lengths, load_in_newtons, refuse_decimal_comma
@@ -285,7 +284,7 @@ def at(key: str) -> Iterator[None]:
         argument = getattr(error, "argument", None) or ""
         named = _OF_ARGUMENTS.get(argument, argument)
         among = getattr(error, "among", (named if named in c.KEYS else key,))
-        raise ControlError(in_controls(error), *among) from None
+        raise ControlError(str(error), *among) from None
 
 
 def _share(text: str | None) -> float:

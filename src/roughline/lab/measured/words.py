@@ -1,8 +1,8 @@
-"""Messages of the library in the words of the view "My surface"."""
+"""What the view "My surface" calls arguments of the library: its controls."""
 
 from __future__ import annotations
 
-from roughline.report.arguments import with_arguments_called
+from roughline.errors.words import Words
 
 _CONTROLS = {
     "E_star": "the contact modulus",
@@ -31,7 +31,4 @@ _CONTROLS = {
     "friction": "friction",
 }
 
-
-def in_controls(message: str | Exception) -> str:
-    """Return a message with the names of controls in the places of arguments."""
-    return with_arguments_called(message, _CONTROLS, lambda text: f'"{text}"')
+CONTROLS = Words(_CONTROLS, lambda text: f'"{text}"')

@@ -17,6 +17,7 @@ from tornado.web import Application
 
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
+from roughline.errors.words import called
 from roughline.lab.server.access import is_proxy
 from roughline.lab.server.connections import Connections, most_connections
 from roughline.lab.server.handlers import (
@@ -134,8 +135,8 @@ def _listening(settings: ServerSettings) -> list[socket.socket]:
     except (OSError, UnicodeError) as error:
         why = os.strerror(error.errno) if isinstance(error, OSError) and error.errno else error
         raise InputError(
-            f"cannot listen on {settings.host}, port {settings.port} ({why}): take another port=, "
-            "or 0 for any free one, and an address of this machine"
+            f"cannot listen on {settings.host}, port {settings.port} ({why}): take another "
+            f"{called('port')}, or 0 for any free one, and an address of this machine"
         ) from error
     found = {each.getsockname()[0] for each in sockets}
     if settings.is_local and not all(ip_address(each).is_loopback for each in found):

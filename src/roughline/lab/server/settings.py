@@ -12,6 +12,7 @@ from pathlib import Path
 
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
+from roughline.errors.words import called
 from roughline.lab.server.budget import LEAST_MEMORY, memory_for_tasks
 
 LOOPBACK = "127.0.0.1"
@@ -75,7 +76,7 @@ class ServerSettings:
         if not self.is_local and not self.password:
             raise InputError(
                 f"is {shown(self.host)}, which lets other machines in: put a password into a file "
-                "and give it too (password_file=)",
+                f"and give it too ({called('password_file')})",
                 "host",
             )
         if self.proxies:
@@ -92,7 +93,8 @@ class ServerSettings:
             refuse("max_points", self.max_points, f"at least {LEAST_POINTS} points are needed")
         if self.max_memory < LEAST_MEMORY:
             raise InputError(
-                f"{self.max_memory / 1e6:g} MB of memory is too little: give a max_memory= of at "
+                f"{self.max_memory / 1e6:g} MB of memory is too little: give a "
+                f"{called('max_memory')} of at "
                 f"least {LEAST_MEMORY / 1e6:g} MB"
             )
 
@@ -100,10 +102,14 @@ class ServerSettings:
         """Refuse proxies without a password, and those that cannot reach the server."""
         if not self.password:
             needed = "through a proxy other machines get in: put a password into a file and give it"
-            refuse("behind_proxy", self.names_of_proxies, f"{needed} too (password_file=)")
+            refuse(
+                "behind_proxy", self.names_of_proxies, f"{needed} too ({called('password_file')})"
+            )
         if self.is_local and not any(_has_this_machine(each) for each in self.proxies):
             needed = f"proxies on other machines do not reach {self.host}: give an address that"
-            refuse("behind_proxy", self.names_of_proxies, f"{needed} they reach too (host=)")
+            refuse(
+                "behind_proxy", self.names_of_proxies, f"{needed} they reach too ({called('host')})"
+            )
 
     @property
     def lets_others_in(self) -> bool:

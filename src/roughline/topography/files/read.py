@@ -11,6 +11,7 @@ from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
+from roughline.errors.words import called
 from roughline.topography.body import Body, Surface
 from roughline.topography.crop import Crop
 from roughline.topography.files.archives import (
@@ -152,7 +153,7 @@ def _measurement(path: Path, channel: int | str | None, name: str) -> Measuremen
             refuse(path, name)
         return read_instrument(path, channel, name)
     if channel is not None and not measured.channels:
-        raise InputError(f"{name} has one channel only; leave channel= out")
+        raise InputError(f"{name} has one channel only; leave {called('channel')} out")
     return measured
 
 

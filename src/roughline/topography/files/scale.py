@@ -11,6 +11,7 @@ import numpy as np
 
 from roughline.errors import InputError, UnitError
 from roughline.errors.checks import shown
+from roughline.errors.words import called
 from roughline.units import in_si, metres_per, refuse_decimal_comma
 
 Sizes = float | str | Sequence[float | str]
@@ -51,7 +52,7 @@ class Scale:
         else:
             obstacles.append(self._unit_needed())
         if self.stated_sizes is not None and self.given_sizes is not None:
-            raise InputError(f"{self.file} states its sizes; leave sizes= out")
+            raise InputError(f"{self.file} states its sizes; leave {called('sizes')} out")
         if self.stated_sizes is None and self.given_sizes is None:
             obstacles.append(self._sizes_needed())
         return obstacles
@@ -98,18 +99,19 @@ class Scale:
     @property
     def _points_and_example(self) -> tuple[str, str]:
         points = " x ".join(map(str, self.points))
-        return points, '"1 mm, 0.5 mm"' if len(self.points) == 2 else '"1 mm"'
+        return points, "1 mm, 0.5 mm" if len(self.points) == 2 else "1 mm"
 
     def _unit_needed(self) -> UnitError:
         return UnitError(
-            f'{self.file} states no unit; give the unit of its lengths, such as unit="um"'
+            f"{self.file} states no unit; give the unit of its lengths, such as "
+            f"{called('unit', 'um')}"
         )
 
     def _sizes_needed(self) -> InputError:
         points, example = self._points_and_example
         return InputError(
             f"{self.file} states no sizes for its {points} points; give them, such as "
-            f"sizes={example}"
+            f"{called('sizes', example)}"
         )
 
     def _sizes_refused(self) -> InputError:
