@@ -102,35 +102,31 @@ fuzz: $(VENV)/installed
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr
-	$(BIN)/python -m studies.paper.reduce out/study.zarr
+	$(BIN)/python -m studies reduce paper out/study.zarr
 	$(BIN)/python -m studies.paper.gallery
 
 correlations: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/correlations/plan.toml --store out/correlations.zarr
-	$(BIN)/python -m studies.correlations.reduce out/correlations.zarr
-	$(BIN)/python -m studies.correlations.publish
+	$(BIN)/python -m studies reduce correlations out/correlations.zarr
+	$(BIN)/python -m studies publish correlations
 
 finite-size: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/finite_size/plan.toml --store out/finite-size.zarr
-	$(BIN)/python -m studies.finite_size.reduce out/finite-size.zarr
-	$(BIN)/python -m studies.finite_size.publish
+	$(BIN)/python -m studies reduce finite_size out/finite-size.zarr
+	$(BIN)/python -m studies publish finite_size
 
 area: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/area/plan.toml --store out/area.zarr
-	$(BIN)/python -m studies.area.reduce out/area.zarr
-	$(BIN)/python -m studies.area.publish
+	$(BIN)/python -m studies reduce area out/area.zarr
+	$(BIN)/python -m studies publish area
 
 # Of the data of the paper's study, which come with the package.
 averaging: $(VENV)/installed
-	$(BIN)/python -m studies.averaging.reduce
-	$(BIN)/python -m studies.averaging.publish
+	$(BIN)/python -m studies reduce averaging
+	$(BIN)/python -m studies publish averaging
 
 published: $(VENV)/installed
-	$(BIN)/python -m studies.paper.publish
-	$(BIN)/python -m studies.correlations.publish
-	$(BIN)/python -m studies.area.publish
-	$(BIN)/python -m studies.averaging.publish
-	$(BIN)/python -m studies.finite_size.publish
+	$(BIN)/python -m studies publish paper correlations area averaging finite_size
 
 # The errors against exact solutions that the handbook tells, from the tests' own run.
 validation: $(VENV)/installed

@@ -3,40 +3,63 @@
 from __future__ import annotations
 
 import json
-import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray
 
-from roughline.campaign import Ensemble, Plan, Store
+from roughline.campaign import Ensemble, Plan, Store, read_plan
 from roughline.campaign.layout import DONE
-from roughline.errors import RoughlineError, StoreError
+from roughline.errors import StoreError
 
 _AGAIN = "reduce the study again, or restore its plan"
 _SMALL = 8192  # bytes of an array below which packing costs more than it saves
 _PACKED = {"zlib": True, "complevel": 9, "shuffle": True}
 
 
-def run(main: Callable[[Path], None], usage: str) -> None:
-    """Call a reduction with the store that the command line names; errors are one line each."""
-    if len(sys.argv) != 2:
-        sys.exit(usage)
-    with errors_in_one_line():
-        main(Path(sys.argv[1]))
+@dataclass(frozen=True)
+class Reduced:
+    """What a study keeps of its store: some variables of each ensemble of its plan.
 
+    Attributes
+    ----------
+    folder : Path
+        Folder of the study, with ``plan.toml`` and ``data.nc``.
+    variables : tuple of str
+        The variables, as far as an ensemble has them.
+    """
 
-@contextmanager
-def errors_in_one_line() -> Iterator[None]:
-    """End the program with one line and exit code 2 where its data or its plan are refused."""
-    try:
-        yield
-    except RoughlineError as error:
-        print(f"error: {error}", file=sys.stderr)
-        sys.exit(2)
+    folder: Path
+    variables: tuple[str, ...]
+
+    @cached_property
+    def plan(self) -> Plan:
+        """The plan of the study."""
+        return read_plan(self.folder / "plan.toml")
+
+    @cached_property
+    def data(self) -> dict[str, xarray.Dataset]:
+        """The data of the study, by the name of the ensemble."""
+        return read_groups(self.folder / "data.nc", self.plan)
+
+    @property
+    def version(self) -> str:
+        """Version of roughline that computed the data; "a and b" if they were several."""
+        return version_of(self.data.values())
+
+    def unsolved_loads(self) -> tuple[int, int]:
+        """Return how many loads have no certified solution, and how many there are."""
+        status = [each.status.values for each in self.data.values()]
+        return sum(int((each != 0).sum()) for each in status), sum(each.size for each in status)
+
+    def reduce(self, store: Path) -> None:
+        """Reduce a finished store to the data."""
+        write_groups(self.folder / "data.nc", self.plan, Store(store), self.variables)
 
 
 def finished(store: Store, ensemble: Ensemble) -> xarray.Dataset:
@@ -71,9 +94,7 @@ def finished(store: Store, ensemble: Ensemble) -> xarray.Dataset:
     return data
 
 
-def write_groups(
-    path: Path, plan: Plan, store: Store, names: Sequence[str], more: dict[str, Any] | None = None
-) -> None:
+def write_groups(path: Path, plan: Plan, store: Store, names: Sequence[str]) -> None:
     """Write variables of all ensembles of a plan, a group for each, in single precision.
 
     Parameters
@@ -84,8 +105,6 @@ def write_groups(
         What was asked for, and a store that holds it.
     names : sequence of str
         Variables that are kept, as far as an ensemble has them.
-    more : dict, optional
-        Further attributes of the file.
 
     Raises
     ------
@@ -95,8 +114,7 @@ def write_groups(
     unwritten = path.with_suffix(".part")
     unwritten.unlink(missing_ok=True)
     groups = {each.name: finished(store, each) for each in plan.ensembles}
-    root = xarray.Dataset(attrs={"study": plan.name, **(more or {})})
-    root.to_netcdf(unwritten, engine="h5netcdf", mode="w")
+    xarray.Dataset(attrs={"study": plan.name}).to_netcdf(unwritten, engine="h5netcdf", mode="w")
     for name, data in groups.items():
         kept = data[[each for each in names if each in data]].drop_encoding()
         for variable in kept.data_vars.values():

@@ -63,5 +63,7 @@ def test_every_target_of_make_is_declared_once_and_its_programs_are_there():
     (declared,) = re.findall(r"^\.PHONY: (.*)$", text, flags=re.MULTILINE)
     assert set(declared.split()) == set(targets)
     modules = [name.replace(".", "/") + ".py" for name in re.findall(r"-m (studies\.\S+)", text)]
+    named = re.findall(r"-m studies (?:reduce (\w+)|publish ([\w ]+))", text)
+    modules += [f"studies/{study}/study.py" for each in named for study in " ".join(each).split()]
     for program in modules + re.findall(r"\S+/\S+\.(?:py|toml)\b", text):
         assert program == "pyproject.toml" or (ROOT / program).is_file(), program

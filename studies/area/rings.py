@@ -19,7 +19,7 @@ import roughline as rl
 from roughline._version import __version__
 from roughline.computing.arrays import Real
 from roughline.statistics.bootstrap import IntervalEstimate
-from studies.area.kappa import log_kappa
+from studies.area.measure import log_kappa
 
 DATA = Path(__file__).parent / "rings.json"
 POINTS = 512

@@ -1,4 +1,4 @@
-"""The study's figure."""
+"""The study's figure, and the panels that the lab shows."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from roughline.paper.studies import StudyCurve, StudyPanel
 from roughline.paper.windows import Window
 from roughline.plot.style import PAGE, colours, new_figure
-from studies.averaging.exponents import (
+from studies.averaging.measure import (
     BODIES,
     DIMENSIONS,
     PUBLISHED,
@@ -23,6 +24,8 @@ _MARKS = {"arithmetic": ("o", "-"), "geometric": ("s", "--")}
 _LAWS = dict(zip(PUBLISHED, ("--", ":", "-"), strict=True))
 _BESIDE = 0.012  # by which marks of the choices lie side by side, in fractal dimension
 _NAMES = {"surfaces": "full model, 3D", "lines": "reduced model, 1D"}
+_DIMENSIONS, _EXPONENTS = (1.95, 3.05), (0.38, 1.04)
+_DASHES = {"arithmetic": "solid", "geometric": "dashed"}
 
 
 def exponents_figure() -> Figure:
@@ -71,7 +74,7 @@ def _draw(axes: Axes, bodies: str, window: Window) -> None:
     low_force, high_force = window
     title = f"$\\bar F$ = {low_force:g} to {high_force:g}, {count(bodies)} {bodies}"
     axes.set_title(title, fontsize=7.5)
-    axes.set(xlim=(1.95, 3.05), ylim=(0.38, 1.04))
+    axes.set(xlim=_DIMENSIONS, ylim=_EXPONENTS)
 
 
 def _looks(axes: Axes) -> list[object]:
@@ -88,3 +91,41 @@ def _looks(axes: Axes) -> list[object]:
         )[0]
         for choice in choices()
     ]
+
+
+def panels() -> list[StudyPanel]:
+    """Return what the lab shows: exponents of surfaces."""
+    return [_panel(window) for window in windows("surfaces")[:2]]
+
+
+def _panel(window: Window) -> StudyPanel:
+    curves = []
+    for i, choice in enumerate(choices()):
+        found = {each: exponent("surfaces", window, choice, each) for each in DIMENSIONS}
+        covered = {each: one for each, one in found.items() if one.value == one.value}
+        if not covered:
+            continue
+        curves.append(
+            StudyCurve(
+                f"fixed {choice.fixed}, {choice.averaging}",
+                list(covered),
+                [each.value for each in covered.values()],
+                [each.low for each in covered.values()],
+                [each.high for each in covered.values()],
+                2 * (i // 2),
+                _DASHES[choice.averaging],
+            )
+        )
+    laws = [
+        StudyCurve(name, DIMENSIONS, [law(each) for each in DIMENSIONS], dash=dash)
+        for (name, law), dash in zip(PUBLISHED.items(), ("dashed", "dotted", "solid"), strict=True)
+    ]
+    return StudyPanel(
+        f"Exponents of 3D surfaces, F̄ = {window[0]:g} to {window[1]:g}",
+        "fractal dimension D_f",
+        "exponent α",
+        _DIMENSIONS,
+        _EXPONENTS,
+        [*curves, *laws],
+        is_log=False,
+    )

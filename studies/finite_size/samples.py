@@ -16,18 +16,16 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 import roughline as rl
-from roughline import campaign
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.scaling import EXACT_PUNCH, PUNCH_GRID_ERROR
 from roughline.contact.status import Status
 from roughline.engineering.formulas import interface_stiffness
-from studies.reduced_data import read_groups
+from studies.reduced_data import Reduced
 
 if TYPE_CHECKING:
     import xarray
 
-HERE = Path(__file__).parent
-PLAN, DATA = HERE / "plan.toml", HERE / "data.nc"
+REDUCED = Reduced(Path(__file__).parent, ("stiffness", "status", "resolved"))
 
 Geometry = Literal["periodic", "free", "lines"]
 GEOMETRIES: tuple[Geometry, ...] = ("periodic", "free", "lines")
@@ -103,23 +101,11 @@ class Sample:
 
 
 @cache
-def plan() -> campaign.Plan:
-    """Return the study's plan."""
-    return campaign.read_plan(PLAN)
-
-
-@cache
-def data() -> dict[str, xarray.Dataset]:
-    """Return the data of the study, by the name of the ensemble."""
-    return read_groups(DATA, plan())
-
-
-@cache
 def sample(geometry: Geometry, band: int, size: int, hurst: float, fine: bool = False) -> Sample:
     """Return the bodies of one spectrum, size and geometry."""
     name = f"fine-{size}" if fine else f"{'wide-' if band == WIDE else ''}{geometry}-{size}"
-    ensemble = plan().ensemble(name)
-    one = data()[name].sel(fractal_dimension=3 - hurst)
+    ensemble = REDUCED.plan.ensemble(name)
+    one = REDUCED.data[name].sel(fractal_dimension=3 - hurst)
     whole, usable = one.stiffness.values, _usable(one)
     stiffness = whole
     if geometry == "free":
@@ -138,15 +124,10 @@ def sample(geometry: Geometry, band: int, size: int, hurst: float, fine: bool = 
     )
 
 
-def samples(geometry: Geometry, band: int, hurst: float) -> list[Sample]:
-    """Return the bodies of all sizes."""
-    return [sample(geometry, band, size, hurst) for size in SIZES[band]]
-
-
 def persson(one: Sample) -> Real:
     """Stiffness of Persson's theory at the loads of a sample, k / (E* lambda_r)."""
     name = f"{'wide-' if one.band == WIDE else ''}periodic-{one.size}"
-    ensemble = plan().ensemble(name)
+    ensemble = REDUCED.plan.ensemble(name)
     lattice = ensemble.spectrum(3 - one.hurst).lattice(ensemble.n)
     stiffness = rl.theory("persson", lattice, 1.0, one.force_bar).stiffness
     assert stiffness is not None  # of this theory
@@ -157,10 +138,3 @@ def _usable(one: xarray.Dataset) -> Mask:
     """Whether a load is solved in all bodies and resolved in nearly all, shape (loads,)."""
     solved = (one.status.values == Status.CONVERGED).all(axis=0)
     return solved & ((one.resolved.values == 1).mean(axis=0) >= RESOLVED)
-
-
-def unsolved_loads() -> tuple[int, int]:
-    """Return how many loads of all bodies have no certified solution, and how many there are."""
-    status = [each.status.values for each in data().values()]
-    unsolved = sum(int((each != Status.CONVERGED).sum()) for each in status)
-    return unsolved, sum(each.size for each in status)

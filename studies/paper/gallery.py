@@ -6,8 +6,6 @@ writes ``gallery.nc`` into the data of the package: topography and deflection on
 point, and the share of each block of four by four cells that is in contact.
 """
 
-from pathlib import Path
-
 import numpy as np
 import xarray
 
@@ -15,9 +13,8 @@ from roughline._version import __version__
 from roughline.campaign.export import write_netcdf
 from roughline.campaign.gallery import bodies_of
 from roughline.paper.plan import paper_plan
+from roughline.paper.results import published_folder
 
-HERE = Path(__file__).parent
-DATA = HERE.parents[1] / "src" / "roughline" / "paper" / "data"
 EVERY, BLOCK = 16, 4
 
 
@@ -51,7 +48,9 @@ def main() -> None:
         "roughline_version": __version__,
         "contact": f"share of each block of {BLOCK} x {BLOCK} cells",
     }
-    write_netcdf(xarray.Dataset(variables, coordinates, attributes), DATA / "gallery.nc")
+    write_netcdf(
+        xarray.Dataset(variables, coordinates, attributes), published_folder() / "gallery.nc"
+    )
 
 
 def _shares(contact: np.ndarray) -> np.ndarray:

@@ -3,18 +3,18 @@
 import pytest
 
 from roughline.paper.studies import StudySummary, study_summaries
-from studies.area.summary import summary as area
-from studies.averaging.summary import summary as averaging
-from studies.finite_size.summary import summary as finite_size
+from studies.area.study import STUDY as AREA
+from studies.averaging.study import STUDY as AVERAGING
+from studies.finite_size.study import STUDY as FINITE_SIZE
 
 AGAIN = "what the lab shows is not what the study found any more: run make published"
-STUDIES = {"area": area, "averaging": averaging, "finite_size": finite_size}
+STUDIES = {each.folder.name: each for each in (AREA, AVERAGING, FINITE_SIZE)}
 
 
 @pytest.mark.parametrize("name", STUDIES)
 def test_summaries_are_those_of_the_studies(name):
     kept = next(each for each in study_summaries() if each.name == name)
-    found = STUDIES[name]()
+    found = STUDIES[name].summary()
     for part in ("title", "answer", "header", "rows"):
         assert [*getattr(kept, part)] == [
             [*each] if part == "rows" else each for each in getattr(found, part)

@@ -6,25 +6,24 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from studies.area.findings import HEAVY, LIGHT, MIDDLE, common_law, main_samples, over_law
-from studies.area.kappa import (
+from studies.area.claims import HEAVY, LIGHT, MIDDLE, common_law, main_samples, over_law
+from studies.area.measure import (
     AREAS,
     BANDS,
-    HERE,
     HURSTS,
+    REDUCED,
     exponent,
     grid_shift,
     kappa,
     kappa_in_cells,
     line_over_nayak,
     log_kappa,
-    plan,
     sample,
     size_shift,
-    unsolved_loads,
 )
-from studies.area.page import lead, page
 from studies.area.rings import POINTS, area_of, rings, rings_surface
+from studies.area.study import STUDY
+from studies.study import DOCS
 
 AGAIN = "the page is not that of the data any more: run make published"
 TRIALS = 200
@@ -77,30 +76,30 @@ def test_the_law_of_self_affine_spectra_is_off_for_those_of_two_rings():
     for one in rings():
         assert 2 * own < over_law(one).low
     lowest, highest = (f(over_law(one).value for one in rings()) for f in (min, max))
-    assert f"lie {lowest:.1%} to {highest:.1%} above this line" in lead()
-    assert "Among self-affine spectra" in lead()
+    assert f"lie {lowest:.1%} to {highest:.1%} above this line" in STUDY.summary().answer
+    assert "Among self-affine spectra" in STUDY.summary().answer
 
 
 def test_the_page_of_the_science_quotes_the_study():
-    text = " ".join((HERE.parents[1] / "docs" / "science.md").read_text("utf-8").split())
+    text = " ".join((DOCS / "science.md").read_text("utf-8").split())
     for level, told in ((LIGHT, "{} to {} at 0.5 % in contact"), (HEAVY, "{} to {} at 15 %")):
         found = [kappa(one, level).value for one in main_samples()]
         assert told.format(f"{min(found):.2f}", f"{max(found):.2f}") in text
 
 
 def test_the_page_is_that_of_the_data():
-    assert (HERE.parents[1] / "docs" / "area.md").read_text("utf-8") == page(), AGAIN
+    assert (DOCS / "area.md").read_text("utf-8") == STUDY.page(), AGAIN
 
 
 def test_no_load_is_left_out():
-    unsolved, loads = unsolved_loads()
+    unsolved, loads = REDUCED.unsolved_loads()
     assert unsolved == 0
-    assert loads == sum(each.cases * len(each.force_bars) for each in plan().ensembles)
+    assert loads == sum(each.cases * len(each.force_bars) for each in REDUCED.plan.ensembles)
 
 
 def test_a_surface_of_the_data_is_what_the_library_gives():
     """The cheapest spectrum: 128 x 128 points, to single precision."""
-    ensemble = plan().ensemble("main-4-2.5")
+    ensemble = REDUCED.plan.ensemble("main-4-2.5")
     surface = ensemble.spectrum(2.5).surface(ensemble.n, ensemble.seed_of(7))
     curve = rl.press(surface, E_star=1.0, forces=ensemble.force_bars, periodic=True)
     one = sample("main", 4, 0.5)
@@ -112,7 +111,7 @@ def test_a_surface_of_the_data_is_what_the_library_gives():
 def test_nayak_and_slope_are_those_of_the_surfaces():
     """Moments of the spectrum on its lattice, against the waves of a generated surface."""
     for band, hurst in ((4, 0.2), (16, 0.8)):
-        ensemble = plan().ensemble(f"main-{band}-{3 - hurst:g}")
+        ensemble = REDUCED.plan.ensemble(f"main-{band}-{3 - hurst:g}")
         surface = ensemble.spectrum(3 - hurst).surface(ensemble.n, ensemble.seed_of(0))
         n = ensemble.n
         power = np.abs(np.fft.fft2(surface.heights - surface.heights.mean()) / n**2) ** 2

@@ -11,11 +11,10 @@ from scipy.integrate import quad
 from roughline.paper.averaging import exponent_of_means
 from roughline.paper.results import published_dataset
 from roughline.statistics.verdict import Verdict
-from studies.averaging.exponents import (
+from studies.averaging.measure import (
     DATA,
     DIMENSIONS,
     HELD_AT_LEVEL,
-    HERE,
     PUBLISHED,
     choices,
     exponent,
@@ -23,8 +22,9 @@ from studies.averaging.exponents import (
     reproductions,
     windows,
 )
-from studies.averaging.page import FORCE, USUAL, page
+from studies.averaging.study import FORCE, STUDY, USUAL
 from studies.reduced_data import read_one, write_one
+from studies.study import DOCS
 
 AGAIN = "the page is not that of the data any more: run make published"
 FORCES = 10 ** (np.arange(-24, 5) / 8)
@@ -101,7 +101,7 @@ def test_means_that_do_not_cover_the_window_give_no_exponent():
 
 
 def test_the_page_is_that_of_the_data():
-    assert (HERE.parents[1] / "docs" / "averaging.md").read_text("utf-8") == page(), AGAIN
+    assert (DOCS / "averaging.md").read_text("utf-8") == STUDY.page(), AGAIN
 
 
 def test_the_data_are_those_of_the_published_study():
@@ -119,7 +119,7 @@ def test_the_data_are_those_of_the_published_study():
 
 def test_sentences_without_numbers_are_true_too():
     # "its interval is the narrowest of all at D_f = ..., and at most 6% wider elsewhere"
-    said = re.search(r"narrowest of all at D_f = (.*?), and at most (\d+)% wider", page())
+    said = re.search(r"narrowest of all at D_f = (.*?), and at most (\d+)% wider", STUDY.page())
     for one in DIMENSIONS:
         found = [exponent("surfaces", USUAL["surfaces"], each, one) for each in choices()]
         force = exponent("surfaces", USUAL["surfaces"], FORCE, one)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from studies.finite_size.claims import MANY
 from studies.finite_size.crossover import (
     BETWEEN_THEM,
     EXPONENT_TOLERANCE,
@@ -15,27 +16,24 @@ from studies.finite_size.crossover import (
     local_exponents,
     scaling_exponent_of,
 )
-from studies.finite_size.findings import MANY
-from studies.finite_size.measures import (
+from studies.finite_size.measure import (
     SEVERAL,
     crossing,
     exponents_beside_gamma,
     over_persson,
     pressures_near_one,
 )
-from studies.finite_size.page import lead, page
 from studies.finite_size.samples import (
     BAND,
-    HERE,
     HURSTS,
+    REDUCED,
     SIZES,
     WIDE,
-    data,
     persson,
-    plan,
     sample,
-    unsolved_loads,
 )
+from studies.finite_size.study import STUDY
+from studies.study import DOCS
 
 AGAIN = "the page is not that of the data any more: run make published"
 
@@ -132,20 +130,20 @@ def test_gamma_is_not_told_where_heavier_loads_may_show_more():
 
 
 def test_the_page_is_that_of_the_data():
-    assert (HERE.parents[1] / "docs" / "finite_size.md").read_text("utf-8") == page(), AGAIN
+    assert (DOCS / "finite_size.md").read_text("utf-8") == STUDY.page(), AGAIN
 
 
 def test_no_load_is_left_out_silently():
-    unsolved, loads = unsolved_loads()
+    unsolved, loads = REDUCED.unsolved_loads()
     assert unsolved == 0
-    assert loads == sum(each.cases * len(each.force_bars) for each in plan().ensembles)
+    assert loads == sum(each.cases * len(each.force_bars) for each in REDUCED.plan.ensembles)
     for geometry in ("periodic", "free", "lines"):
         for band, sizes in SIZES.items():
             for size in sizes:
                 one = sample(geometry, band, size, 0.5)
                 name = f"{'wide-' if band == WIDE else ''}{geometry}-{size}"
-                assert one.force.size + one.left_out == len(plan().ensemble(name).force_bars)
-                assert one.count == plan().ensemble(name).realisations
+                assert one.force.size + one.left_out == len(REDUCED.plan.ensemble(name).force_bars)
+                assert one.count == REDUCED.plan.ensemble(name).realisations
 
 
 def test_half_of_the_surfaces_of_the_data_widen_intervals_by_the_square_root_of_two():
@@ -162,9 +160,11 @@ def test_half_of_the_surfaces_of_the_data_widen_intervals_by_the_square_root_of_
 @pytest.mark.parametrize(("name", "body"), [("periodic-1", 17), ("free-2", 3), ("lines-4", 5)])
 def test_a_body_of_the_data_is_what_the_library_gives(name, body):
     """To single precision; surfaces are certified to 1e-6."""
-    ensemble, hurst = plan().ensemble(name), 0.5
+    ensemble, hurst = REDUCED.plan.ensemble(name), 0.5
     spectrum, seed = ensemble.spectrum(3 - hurst), ensemble.seed_of(body)
-    kept = data()[name].sel(fractal_dimension=3 - hurst).isel(realisation=body).stiffness.values
+    kept = (
+        REDUCED.data[name].sel(fractal_dimension=3 - hurst).isel(realisation=body).stiffness.values
+    )
     if ensemble.model == "reduced":
         curve = rl.press(spectrum.line(ensemble.n, seed), E_star=1.0, forces=ensemble.force_bars)
     else:
@@ -180,7 +180,7 @@ def test_a_body_of_the_data_is_what_the_library_gives(name, body):
 def test_perssons_stiffness_is_that_of_the_mean_gap():
     """The slope of the pressure over the mean gap, by differences."""
     one = sample("periodic", BAND, 8, 0.8)
-    lattice = plan().ensemble("periodic-8").spectrum(2.2).lattice(512)
+    lattice = REDUCED.plan.ensemble("periodic-8").spectrum(2.2).lattice(512)
     steps = 1e-4
     up, down = (
         rl.theory("persson", lattice, 1.0, one.force_bar * (1 + sign * steps)).mean_gap
@@ -192,7 +192,7 @@ def test_perssons_stiffness_is_that_of_the_mean_gap():
 
 def cells(section, column):
     """The numbers of a column of a table of the page, without intervals, by Hurst and size."""
-    text = page().split(f"## {section}\n")[1].split("\n## ")[0]
+    text = STUDY.page().split(f"## {section}\n")[1].split("\n## ")[0]
     lines = [line.strip("|").split("|") for line in text.splitlines() if line.startswith("|")]
     head, _, *rows = ([each.strip() for each in line] for line in lines)
     place = head.index(column)
@@ -202,19 +202,20 @@ def cells(section, column):
 
 def test_the_answer_is_what_the_tables_say():
     """Where the exponent nears 1: every cell lies in the range that is told of its kind."""
+    page, lead = STUDY.page(), STUDY.summary().answer
     near = cells("Periodic surfaces", "near 1, p λ_r/(E* h)")
     assert len(near) == len(HURSTS) * len(SIZES[BAND])
     told = {}
     for of_size, sizes in (("on surfaces of one wave", [1]), ("on those of two", [2])):
-        low, high = re.search(rf"([\d.]+) to ([\d.]+) {of_size}", lead()).groups()
+        low, high = re.search(rf"([\d.]+) to ([\d.]+) {of_size}", lead).groups()
         told |= {(hurst, size): (low, high) for hurst in HURSTS for size in sizes}
     for hurst in HURSTS:
-        low, high = re.search(rf"([\d.]+) to ([\d.]+) at Hurst {hurst:g}", lead()).groups()
+        low, high = re.search(rf"([\d.]+) to ([\d.]+) at Hurst {hurst:g}", lead).groups()
         told |= {(hurst, size): (low, high) for size in SIZES[BAND] if size > 2}
     for case, (low, high) in told.items():
         assert float(low) - 0.006 <= near[case] <= float(high) + 0.006, case
     wide = cells("Four times as wide a band of waves", "near 1, p λ_r/(E* h)").values()
-    assert f"{min(wide):.2f} to {max(wide):.2f}, and differ" in page()
+    assert f"{min(wide):.2f} to {max(wide):.2f}, and differ" in page
 
 
 def test_the_dependence_on_the_hurst_exponent_is_no_scatter():

@@ -12,13 +12,11 @@ from roughline import campaign
 from roughline.paper.exponents import exponent_estimate
 from roughline.paper.results import published_dataset, published_results
 from roughline.paper.windows import WINDOW_FULL
-from studies.area.kappa import data as area
-from studies.correlations.conductance import version as version_of_correlations
-from studies.finite_size.samples import data as finite_size
-from studies.paper import publish
-from studies.paper.publish import ENSEMBLES, PLAN, refuse_another_plan
-from studies.paper.reduce import computing_of
-from studies.reduced_data import version_of
+from studies.area.measure import REDUCED as AREA
+from studies.correlations.measure import version as version_of_correlations
+from studies.finite_size.samples import REDUCED as FINITE_SIZE
+from studies.paper import study
+from studies.paper.study import ENSEMBLES, PLAN, computing_of, refuse_another_plan
 
 
 def test_the_data_are_those_of_the_plan():
@@ -38,8 +36,8 @@ def test_pages_name_the_version_of_the_data_and_not_that_of_the_program():
     versions = {
         "docs/paper.md": f"recomputed with roughline {computed} ",
         "studies/paper/README.md": f"roughline {computed} from the plan",
-        "docs/area.md": f"computed with roughline {version_of(area().values())}.",
-        "docs/finite_size.md": f"computed with roughline {version_of(finite_size().values())}.",
+        "docs/area.md": f"computed with roughline {AREA.version}.",
+        "docs/finite_size.md": f"computed with roughline {FINITE_SIZE.version}.",
         "docs/averaging.md": f"computed with roughline {computed}.",
         "docs/correlations.md": f"(these data: version {version_of_correlations()})",
     }
@@ -73,7 +71,7 @@ def test_ensembles_of_several_versions_are_named_with_all_of_them():
 def test_a_plan_that_was_changed_is_refused_with_the_difference(tmp_path, monkeypatch):
     changed = PLAN.read_text(encoding="utf-8").replace("points = 2048", "points = 4096")
     (tmp_path / "plan.toml").write_text(changed, encoding="utf-8")
-    monkeypatch.setattr(publish, "PLAN", tmp_path / "plan.toml")
+    monkeypatch.setattr(study, "PLAN", tmp_path / "plan.toml")
     with pytest.raises(rl.StoreError, match="'surfaces' has n = 2048, the plan has 4096"):
         refuse_another_plan()
 

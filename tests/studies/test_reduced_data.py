@@ -11,8 +11,7 @@ import pytest
 import roughline as rl
 import small_campaign
 from roughline import campaign
-from studies import publishing
-from studies.reduced_data import errors_in_one_line, finished, read_groups, write_groups
+from studies.reduced_data import finished, read_groups, write_groups
 
 KEPT = ("stiffness", "area_fraction", "status")
 
@@ -135,23 +134,9 @@ def test_data_that_are_damaged_or_missing_are_refused(plan, data):
 
 
 def test_a_reduction_says_what_is_wrong_in_one_line(tmp_path):
-    command = [sys.executable, "-m", "studies.area.reduce", str(tmp_path / "none.zarr")]
+    command = [sys.executable, "-m", "studies", "reduce", "area", str(tmp_path / "none.zarr")]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr.startswith("error: ")
     assert "does not exist" in done.stderr
     assert done.stderr.count("\n") == 1
-
-
-def test_a_page_whose_data_are_refused_leaves_what_is_there(tmp_path, monkeypatch):
-    monkeypatch.setattr(publishing, "DOCS", tmp_path)
-    figure = tmp_path / "figures" / "small" / "old.png"
-    figure.parent.mkdir(parents=True)
-    figure.write_bytes(b"drawn before")
-
-    def page():
-        raise rl.StoreError("data.nc is damaged")
-
-    with pytest.raises(SystemExit, match="2"), errors_in_one_line():
-        publishing.publish("small", page, {})
-    assert figure.read_bytes() == b"drawn before"

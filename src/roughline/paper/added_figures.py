@@ -1,4 +1,4 @@
-"""Figures beyond the paper's: area law and theories, both models, several grids, the trust map."""
+"""Figures beyond the paper's: area law and theories, both models, several grids."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from matplotlib.ticker import PercentFormatter
 from roughline.contact import scaling
 from roughline.paper.contact_area import mean_area
 from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
-from roughline.plot.models import add_bar, draw_trust
 from roughline.plot.style import (
     FORCE_LABEL,
     MARKERS,
@@ -32,7 +31,6 @@ from roughline.theories import bush_gibson_thomas, persson
 if TYPE_CHECKING:
     import xarray
 
-    from roughline.contact.comparison.trust import TrustMap
     from roughline.paper.contact_area import AreaLaw
     from roughline.paper.laws import DimensionLaws
 
@@ -181,15 +179,3 @@ def _draw_ratios_to_finest(
             linestyle=style,
             label=f"$D_f$ = {dimension_label(dimension)}, {n}²",
         )
-
-
-def trust_map_figure(trust: TrustMap) -> Figure:
-    """Draw the relative difference of the two models, a panel for each roll-off ratio."""
-    figure = new_figure(PAGE, 2.7)
-    panels = figure.subplots(1, trust.roll_off_ratios.size, sharey=True)
-    for i, panel in enumerate(panels):
-        shown = draw_trust(panel, trust, i)
-        panel.set(xlabel=r"$\bar F$")
-    panels[0].set(ylabel="fractal dimension $D_f$")
-    add_bar(panels, shown)
-    return figure

@@ -31,6 +31,7 @@ from roughline.statistics.power_law import (
 if TYPE_CHECKING:
     import xarray
 
+    from roughline.contact.comparison.trust import Difference
     from roughline.paper.claim import Claim
     from roughline.paper.laws import DimensionLaws
     from roughline.paper.sensitivity import Sensitivity
@@ -187,6 +188,14 @@ def estimate_cell(number: IntervalEstimate) -> str:
     if np.isnan(number.low):
         return _number_cell(number.value)
     return f"{number.value:.3f} ({number.low:.3f}-{number.high:.3f})"
+
+
+def trust_cell(difference: Difference) -> str:
+    """Write a difference with its interval; a star stands where the grid decides."""
+    if np.isnan(difference.value):
+        return "-"
+    star = "" if difference.resolved else " *"
+    return f"{difference.value:+.0%} ({difference.low:+.0%} to {difference.high:+.0%}){star}"
 
 
 def _number_cell(value: float) -> str:

@@ -97,7 +97,7 @@ def render_markdown(title: str, lead: str, sections: Sequence[Section], folder: 
     for section in sections:
         parts += [f"## {section.heading}", *section.paragraphs]
         parts += ["\n".join(f"- {note}" for note in section.notes)] if section.notes else []
-        parts += [_markdown_table(table) for table in section.tables]
+        parts += [markdown_table(table) for table in section.tables]
         for picture in section.pictures:
             parts += [
                 f"![{picture.name}]({folder}/{picture.path.name})",
@@ -107,7 +107,8 @@ def render_markdown(title: str, lead: str, sections: Sequence[Section], folder: 
     return "\n\n".join(parts) + "\n"
 
 
-def _markdown_table(table: Table) -> str:
+def markdown_table(table: Table) -> str:
+    """Return a table as Markdown."""
     lines = [
         table.header,
         ["--:" if i in table.numbers else "---" for i in range(len(table.header))],

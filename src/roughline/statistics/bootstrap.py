@@ -46,6 +46,10 @@ class IntervalEstimate:
         """Return the difference from a number that is known exactly."""
         return IntervalEstimate(self.value - exact, self.low - exact, self.high - exact)
 
+    def over(self, exact: float) -> IntervalEstimate:
+        """Return the ratio to a positive number that is known exactly."""
+        return IntervalEstimate(self.value / exact, self.low / exact, self.high / exact)
+
 
 NO_ESTIMATE = IntervalEstimate(math.nan, math.nan, math.nan)
 """The estimate of an ensemble that does not determine the number."""

@@ -1,9 +1,15 @@
-"""Verdicts on statements: an interval is compared with the range that a statement allows."""
+"""Claims and verdicts: an interval is compared with the range that a statement allows."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
+from itertools import groupby
+
+_NAMED = 6  # cases of the commonest verdict up to which they are named
+_COUNTLESS = 100_000  # realisations above which the mean lies on the border of the range
 
 
 class Verdict(StrEnum):
@@ -40,3 +46,112 @@ def joint_verdict(verdicts: Iterable[Verdict]) -> Verdict:
     if Verdict.REFUTED in different:
         return Verdict.REFUTED
     return Verdict.CONFIRMED if different == {Verdict.CONFIRMED} else Verdict.UNDECIDED
+
+
+@dataclass(frozen=True)
+class Case:
+    """One of the cases that a claim is about.
+
+    Attributes
+    ----------
+    where : str
+        Which case, with its preposition: "at D_f = 2.0". Neighbours that differ in the last word
+        alone are told together.
+    verdict : Verdict or None
+        On it; None where the data do not tell the number.
+    enough : float
+        Realisations that would decide where the sample does not; infinite where finer grids would,
+        NaN where it is not known.
+    """
+
+    where: str
+    verdict: Verdict | None
+    enough: float = math.nan
+
+    @classmethod
+    def together(cls, where: str, parts: Sequence[Case]) -> Case:
+        """Judge cases as one; what decides all that are open decides."""
+        whole = joint_verdict(each.verdict for each in parts if each.verdict)
+        needed = [each.enough for each in parts if each.verdict is Verdict.UNDECIDED]
+        return cls(where, whole, max(needed) if whole is Verdict.UNDECIDED else math.nan)
+
+
+@dataclass(frozen=True)
+class Claim:
+    """A statement beside the same number here, and the verdict.
+
+    Attributes
+    ----------
+    statement : str
+        What is said, and where.
+    found : str
+        The same number here.
+    interval : str
+        Its 95 % interval, or why it has none.
+    basis : str
+        What the number is of: window, averaging, grid.
+    verdict : Verdict
+        On the statement as a whole: one refuted case refutes it.
+    cases : str
+        The verdict in words, case by case where the cases differ.
+    """
+
+    statement: str
+    found: str
+    interval: str
+    basis: str
+    verdict: Verdict
+    cases: str
+
+    @classmethod
+    def of(
+        cls, statement: str, found: str, interval: str, cases: Sequence[Case], basis: str = ""
+    ) -> Claim:
+        """Return a claim about several cases, which are judged one by one."""
+        whole = joint_verdict(each.verdict for each in cases if each.verdict)
+        return cls(statement, found, interval, basis, whole, in_words(cases))
+
+
+def in_words(cases: Sequence[Case]) -> str:
+    """Say the verdict, case by case where the cases differ, and what would decide.
+
+    Cases of the commonest verdict are not named if they are many.
+    """
+    judged = sum(each.verdict is not None for each in cases)
+    words: list[str] = []
+    for each in (Verdict.REFUTED, Verdict.UNDECIDED, Verdict.CONFIRMED, None):
+        parts = [case for case in cases if case.verdict is each]
+        if not parts:
+            continue
+        where = f" {places(case.where for case in parts)}"
+        if each and len(parts) == judged:
+            where = ""
+        elif each and len(parts) > max(_NAMED, judged / 2):
+            where = " elsewhere" if words else ""
+        words.append(f"{each or 'not judged'}{where}{_what_would_decide(parts)}")
+    return "; ".join(words)
+
+
+def places(wheres: Iterable[str]) -> str:
+    """List cases; neighbours that differ in the last word alone share the others."""
+    ends = (each.rpartition(" ")[::2] for each in wheres)
+    shared = groupby(ends, key=lambda each: each[0])
+    return ", ".join(f"{first} {', '.join(last for _, last in of_it)}" for first, of_it in shared)
+
+
+def _what_would_decide(cases: Sequence[Case]) -> str:
+    """Say in brackets how many surfaces would decide, or that finer grids would."""
+    needed = [each.enough for each in cases if not math.isnan(each.enough)]
+    if not needed:
+        return ""
+    if math.isinf(most := max(needed)):
+        return " (finer grids would decide)"
+    return f" ({about(most)} surfaces would decide)"
+
+
+def about(count: float) -> str:
+    """Write a number of realisations to two digits, as it is known no better."""
+    if count > _COUNTLESS:
+        return f"over {_COUNTLESS:,}"
+    digits = 1 - math.floor(math.log10(count))
+    return f"some {math.ceil(round(count, digits)):,}"

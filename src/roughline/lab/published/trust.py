@@ -14,7 +14,7 @@ from roughline.lab.frames import frame
 from roughline.lab.published.ensembles import usable_state
 from roughline.lab.published.state import PublishedState
 from roughline.lab.server.tasks import Progress
-from roughline.paper.trust_page import trust_cell
+from roughline.paper.tables import trust_cell
 from roughline.units import decimal
 
 _DIGITS = 3

@@ -1,9 +1,7 @@
-"""Reduce the store of the study to what its page needs, less than a megabyte.
+"""From the store of the study to what its page needs, less than a megabyte.
 
-    python -m studies.correlations.reduce out/correlations.zarr
-
-writes ``data.npz``: arrays of the store by "ENSEMBLE/VARIABLE", in single precision, and how
-Gaussian the heights are. What the ensembles are stands in ``plan.toml``.
+``data.npz`` has arrays of the store by "ENSEMBLE/VARIABLE", in single precision, and how Gaussian
+the heights are. What the ensembles are stands in ``plan.toml``.
 """
 
 import time
@@ -16,18 +14,16 @@ from roughline import campaign
 from roughline.campaign.batch import evaluate_case
 from roughline.computing import fft
 from roughline.computing.arrays import Real
-from studies.reduced_data import finished, run, version_of
+from studies.reduced_data import finished, version_of
 
 HERE = Path(__file__).parent
-DATA = HERE / "data.npz"
-PLAN = HERE / "plan.toml"
 KEPT = ("stiffness", "unloading_stiffness", "area_fraction", "plastic_fraction", "status")
 BEARING = (1e-1, 1e-2, 1e-3, 1e-4)  # shares of Gaussian surfaces that lie above a height
 
 
-def main(path: Path) -> None:
+def reduce_store(path: Path) -> None:
     """Reduce a finished store."""
-    plan, store = campaign.read_plan(PLAN), campaign.Store(path)
+    plan, store = campaign.read_plan(HERE / "plan.toml"), campaign.Store(path)
     evaluate_case(plan.ensemble("band2-hardness0.01"), 2.5, 0)  # compiles, before times are taken
     arrays = {}
     for ensemble in plan.ensembles:
@@ -41,7 +37,7 @@ def main(path: Path) -> None:
     arrays |= {f"heights/{name}": values for name, values in heights_of(plan.ensembles[0]).items()}
     versions = version_of(store.dataset(each.name) for each in plan.ensembles)
     arrays["roughline_version"] = np.array(versions)
-    np.savez_compressed(DATA, **arrays)  # type: ignore[arg-type]
+    np.savez_compressed(HERE / "data.npz", **arrays)  # type: ignore[arg-type]
 
 
 def seconds_of(ensemble: campaign.Ensemble) -> float:
@@ -73,7 +69,3 @@ def heights_of(ensemble: campaign.Ensemble) -> dict[str, Real]:
             found["excess_kurtosis"][i, j] = np.mean(heights**4) - 3
             found["bearing"][i, j] = [np.mean(heights > level) for level in levels]
     return found
-
-
-if __name__ == "__main__":
-    run(main, __doc__)

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from roughline.plot.style import MARKERS, PAGE, SHADE, colours, new_figure
 from roughline.statistics.averages import average
-from studies.correlations.conductance import (
+from studies.correlations.measure import (
     BANDS,
     DIMENSIONS,
     ELASTIC,
@@ -21,7 +21,7 @@ from studies.correlations.conductance import (
     sample,
     yovanovich,
 )
-from studies.correlations.findings import ELASTIC_BANDS, MIDDLE
+from studies.correlations.ratios import ELASTIC_BANDS, MIDDLE
 
 _CONDUCTANCE = r"$h_c\,\sigma\,/\,(\kappa_s m)$"
 _PRESSURE_ELASTIC = r"pressure $p\,/\,(E^*\nabla h)$"

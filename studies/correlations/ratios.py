@@ -1,8 +1,9 @@
-"""What the page says beside verdicts: laws that fit, root sums of squares, and dependences."""
+"""Ratios to the correlations: what they depend on, laws that fit, and root sums of squares."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.statistics.averages import average, relative_difference
 from roughline.statistics.bootstrap import IntervalEstimate
-from studies.correlations.conductance import (
+from studies.correlations.measure import (
     BANDS,
     BOXES,
     DIMENSIONS,
@@ -24,8 +25,10 @@ from studies.correlations.conductance import (
     sample,
     yovanovich,
 )
-from studies.correlations.judgement import Ratio, grid_shift
-from studies.correlations.reduce import BEARING
+from studies.correlations.reduction import BEARING
+
+Ratio = Callable[[Sample], Real]
+"""Returns what surfaces have over what is predicted, shape (realisations, pressures)."""
 
 MIDDLE = 2.5
 """Fractal dimension of the surfaces that are shown where one is enough."""
@@ -96,34 +99,54 @@ def elastic_pressure_over_hardness(one: Sample) -> float:
     return float(1e-2 / area / one.hardness_bar)
 
 
+def grid_shift(one: Sample, ratio: Ratio) -> list[IntervalEstimate]:
+    """Return by how much a ratio is higher on twice the points, at each pressure.
+
+    The same surfaces are compared, at every other load. Of a hardness that was not pressed on the
+    finer grid, the next one is taken.
+    """
+    hardness = ELASTIC
+    if not one.elastic:
+        hardness = min(FINE_HARDNESSES, key=lambda each: abs(math.log(each / one.hardness_bar)))
+    fine = sample("fine", hardness, one.fractal_dimension)
+    coarse = sample("main", hardness, one.fractal_dimension, every=2)
+    ends = relative_difference(ratio(fine), ratio(coarse)[: fine.count], paired=True)
+    return [IntervalEstimate(*map(float, each)) for each in zip(*ends, strict=True)]
+
+
 def change_with_band(
     hardness_bar: float, dimension: float, narrow: int, wide: int
 ) -> IntervalEstimate:
     """Return the relative change of the ratio at a pressure of 0.01 from one band to another."""
-    first, second = (sample(BANDS[width], hardness_bar, dimension) for width in (narrow, wide))
-    return _change(second, first, 1e-2)
+    return _change(hardness_bar, dimension, BANDS[narrow], BANDS[wide], 1e-2)
 
 
 def change_with_box(hardness_bar: float, dimension: float, pressure: float) -> IntervalEstimate:
     """Return the relative change of the ratio from 8 to 16 roll-off waves along a side."""
-    first, second = (sample(BOXES[waves], hardness_bar, dimension) for waves in (8, 16))
-    return _change(second, first, pressure)
+    return _change(hardness_bar, dimension, BOXES[8], BOXES[16], pressure)
 
 
 def change_with_boundary(
     hardness_bar: float, dimension: float, pressure: float
 ) -> IntervalEstimate:
     """Return the relative change of the ratio from the periodic to the free half-space."""
-    free = sample("free", hardness_bar, dimension)
-    periodic = sample("main", hardness_bar, dimension)
-    first, second = (one.ratio[: free.count, one.places(pressure)] for one in (free, periodic))
-    ends = relative_difference(first, second, paired=True)
-    return IntervalEstimate(*(float(end[0]) for end in ends))
+    return _change(hardness_bar, dimension, "main", "free", pressure, paired=True)
 
 
-def _change(second: Sample, first: Sample, pressure: float) -> IntervalEstimate:
-    values = [one.ratio[:, one.places(pressure)] for one in (second, first)]
-    ends = relative_difference(*values, paired=False)
+def _change(
+    hardness_bar: float,
+    dimension: float,
+    before: str,
+    after: str,
+    pressure: float,
+    *,
+    paired: bool = False,
+) -> IntervalEstimate:
+    """Relative change of the ratio from one ensemble to another; of the same surfaces if paired."""
+    samples = [sample(each, hardness_bar, dimension) for each in (after, before)]
+    count = samples[0].count if paired else None
+    values = [one.ratio[:count, one.places(pressure)] for one in samples]
+    ends = relative_difference(*values, paired=paired)
     return IntervalEstimate(*(float(end[0]) for end in ends))
 
 

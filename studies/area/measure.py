@@ -11,23 +11,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline import campaign
 from roughline.computing.arrays import Real
 from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import IntervalEstimate, Resampled
 from roughline.statistics.power_law import exponent_weights
-from studies.judged import WidenedInterval
-from studies.reduced_data import read_groups
+from studies.judged import Found
+from studies.reduced_data import Reduced
 
-if TYPE_CHECKING:
-    import xarray
-
-HERE = Path(__file__).parent
-PLAN, DATA = HERE / "plan.toml", HERE / "data.nc"
+REDUCED = Reduced(
+    Path(__file__).parent, ("area_fraction", "area_fraction_corrected", "status", "resolved")
+)
 
 HURSTS = (0.8, 0.5, 0.2)
 BANDS = (4, 8, 16, 32, 64)
@@ -79,16 +75,10 @@ class Sample:
 
 
 @cache
-def plan() -> campaign.Plan:
-    """Return the study's plan."""
-    return campaign.read_plan(PLAN)
-
-
-@cache
 def sample(kind: str, band: int, hurst: float) -> Sample:
     """Return the surfaces of one spectrum."""
     name = f"{kind}-{band}-{3 - hurst:g}"
-    ensemble, one = plan().ensemble(name), data()[name].isel(fractal_dimension=0)
+    ensemble, one = REDUCED.plan.ensemble(name), REDUCED.data[name].isel(fractal_dimension=0)
     lattice = ensemble.spectrum(3 - hurst).lattice(ensemble.n)
     height, slope, curvature = (lattice.moment(order) for order in (0, 2, 4))
     return Sample(
@@ -101,18 +91,6 @@ def sample(kind: str, band: int, hurst: float) -> Sample:
         area=one.area_fraction_corrected.values,
         cells=one.area_fraction.values,
     )
-
-
-@cache
-def data() -> dict[str, xarray.Dataset]:
-    """Return the data of the study, by the name of the ensemble."""
-    return read_groups(DATA, plan())
-
-
-def unsolved_loads() -> tuple[int, int]:
-    """Return how many loads of all surfaces have no certified solution, and how many there are."""
-    status = [each.status.values for each in data().values()]
-    return sum(int((each != 0).sum()) for each in status), sum(each.size for each in status)
 
 
 def log_kappa(areas: Real, pressure: Real, level: float, rng: int = 0) -> Resampled:
@@ -173,7 +151,7 @@ def size_shift(band: int, hurst: float, level: float) -> IntervalEstimate:
     return difference.interval_estimate()
 
 
-def widened_kappa(one: Sample, level: float, confidence: float = 0.95) -> WidenedInterval:
+def widened_kappa(one: Sample, level: float, confidence: float = 0.95) -> Found:
     """Return the interval of kappa, widened to one side by the error of the grid.
 
     The error is twice the shift from eight to 16 cells, of the same band, or of the widest one that
@@ -182,7 +160,8 @@ def widened_kappa(one: Sample, level: float, confidence: float = 0.95) -> Widene
     found = kappa(one, level, confidence)
     shift = HALVES * grid_shift(min(one.band, max(FINE_BANDS)), one.hurst, level).value
     down, up = math.exp(min(shift, 0)), math.exp(max(shift, 0))
-    return WidenedInterval(found.low * down, found.value * down, found.value * up, found.high * up)
+    ends = (found.low * down, found.value * down, found.value * up, found.high * up)
+    return Found(*ends, one.count)
 
 
 def exponent(
@@ -203,7 +182,8 @@ def fall_with_nayak(hurst: float, level: float, confidence: float = 0.95) -> Int
     samples = [sample("main", band, hurst) for band in BANDS]
     x = np.log10([one.nayak for one in samples])
     centred = x - x.mean()
-    return weighted_sum(samples, level, centred / (centred**2).sum(), confidence)
+    weights = centred / (centred**2).sum()
+    return _weighted(_log_kappas(samples, level), weights).interval_estimate(confidence)
 
 
 def bend_with_nayak(hurst: float, level: float, confidence: float = 0.95) -> IntervalEstimate:
@@ -211,14 +191,8 @@ def bend_with_nayak(hurst: float, level: float, confidence: float = 0.95) -> Int
     first, middle, last = (sample("main", BANDS[i], hurst) for i in (0, len(BANDS) // 2, -1))
     part = math.log(middle.nayak / first.nayak) / math.log(last.nayak / first.nayak)
     weights = np.array([part - 1, 1.0, -part])
-    return weighted_sum([first, middle, last], level, weights, confidence)
-
-
-def weighted_sum(
-    samples: Sequence[Sample], level: float, weights: Real, confidence: float = 0.95
-) -> IntervalEstimate:
-    """Return a weighted sum of ln kappa over samples, which are resampled apart."""
-    return _weighted(_log_kappas(samples, level), weights).interval_estimate(confidence)
+    kappas = _log_kappas([first, middle, last], level)
+    return _weighted(kappas, weights).interval_estimate(confidence)
 
 
 def line_over_nayak(

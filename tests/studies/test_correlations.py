@@ -9,12 +9,13 @@ import pytest
 from roughline.engineering import formulas
 from roughline.statistics.averages import average
 from roughline.statistics.verdict import Verdict
-from studies.correlations.conductance import (
+from studies.correlations.claims import at_all_pressures, judge
+from studies.correlations.measure import (
+    BANDS,
     DIMENSIONS,
     ELASTIC,
     FULL,
     HARDNESSES,
-    HERE,
     data,
     holm,
     mikic,
@@ -22,9 +23,7 @@ from studies.correlations.conductance import (
     sample,
     yovanovich,
 )
-from studies.correlations.correlations_page import BETWEEN, page
-from studies.correlations.findings import (
-    BANDS,
+from studies.correlations.ratios import (
     ELASTIC_BANDS,
     MIDDLE,
     change_with_band,
@@ -34,10 +33,11 @@ from studies.correlations.findings import (
     over_holm,
     over_root_sum,
 )
-from studies.correlations.judgement import judge
-from studies.judged import Judgement, WidenedInterval, growth_to_decide
+from studies.correlations.study import BETWEEN, STUDY
+from studies.judged import Found, growth_to_decide
+from studies.study import DOCS
 
-AGAIN = "the page is not that of the data any more: run python -m studies.correlations.publish"
+AGAIN = "the page is not that of the data any more: run make published"
 NEEDED = ("rms_slope", "area_fraction", "stiffness", "unloading_stiffness")
 
 
@@ -51,7 +51,7 @@ def main_samples():
 
 
 def test_the_page_is_that_of_the_data():
-    assert (HERE.parents[1] / "docs" / "correlations.md").read_text("utf-8") == page(), AGAIN
+    assert (DOCS / "correlations.md").read_text("utf-8") == STUDY.page(), AGAIN
 
 
 def test_the_data_are_those_of_the_plan():
@@ -141,13 +141,16 @@ def test_judgements_have_three_values():
     shape = one.ratio.shape
     scatter = 1 + 0.01 * np.random.default_rng(0).standard_normal(shape)
 
-    def of(value):
-        return lambda each: value * scatter[: each.count, : each.pressure.size]
+    def of(value, tolerance):
+        found = at_all_pressures(
+            one, lambda each: value * scatter[: each.count, : each.pressure.size]
+        )
+        return judge("at Hurst 0.5", found, tolerance)
 
-    assert judge(one, of(1.0), 0.1).verdict is Verdict.CONFIRMED
-    assert judge(one, of(0.7), 0.2).verdict is Verdict.REFUTED
-    assert judge(one, of(0.9), 0.1).verdict is Verdict.UNDECIDED
-    assert math.isnan(judge(one, of(1.0), 0.1).enough)
+    assert of(1.0, 0.1).verdict is Verdict.CONFIRMED
+    assert of(0.7, 0.2).verdict is Verdict.REFUTED
+    assert of(0.9, 0.1).verdict is Verdict.UNDECIDED
+    assert math.isnan(of(1.0, 0.1).enough)
 
 
 def test_four_times_the_surfaces_halve_an_interval():
@@ -158,12 +161,10 @@ def test_four_times_the_surfaces_halve_an_interval():
         ((0.8, 1.0, 1.0, 1.2), 4.0, False),
         ((0.7, 0.85, 0.92, 1.0), math.inf, False),
     ):
-        found = growth_to_decide(WidenedInterval(*ends), 0.9, 1.1)
+        found = growth_to_decide(Found(*ends, count=10), (0.9, 1.1))
         assert found == (pytest.approx(growth), refutes)
-    assert Judgement(Verdict.UNDECIDED, 1234.0).what_would_decide == (
-        "some 1,200 surfaces would decide"
-    )
-    assert "finer grids" in Judgement(Verdict.UNDECIDED, math.inf).what_would_decide
+    wide = Found(0.75, 0.85, 0.85, 0.95, count=10).judged("at H = 0.5", (0.9, 1.1))
+    assert (wide.verdict, wide.enough) == (Verdict.UNDECIDED, pytest.approx(40))
 
 
 def test_heights_are_gaussian():

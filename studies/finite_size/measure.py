@@ -96,10 +96,8 @@ def over_persson(one: Sample, decades_below: float, confidence: float = 0.95) ->
     top = crossing(one.geometry, one.band, one.size, one.hurst).gamma_force
     place = int(np.argmin(np.abs(np.log(one.force / (top / 10**decades_below)))))
     mean = average(one.stiffness[:, place : place + 1], confidence=confidence)
-    expected = persson(one)[place]
-    return IntervalEstimate(
-        *(float(each[0] / expected) for each in (mean.mean, mean.low, mean.high))
-    )
+    ends = (float(each[0]) for each in (mean.mean, mean.low, mean.high))
+    return IntervalEstimate(*ends).over(float(persson(one)[place]))
 
 
 def reduced_over_full(

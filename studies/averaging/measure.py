@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray
 
-from roughline.paper.averaging import Fixed
+from roughline.paper.averaging import Fixed, exponent_of_means
+from roughline.paper.results import published_dataset
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.paper.windows import Window
 from roughline.statistics.averages import Averaging
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
-from studies.judged import Judgement, WidenedInterval, judged
-from studies.reduced_data import read_one
-
-if TYPE_CHECKING:
-    import xarray
+from roughline.statistics.verdict import Case
+from studies.judged import Found, around
+from studies.reduced_data import read_one, write_one
 
 HERE = Path(__file__).parent
-PLAN, DATA = HERE / "plan.toml", HERE / "data.nc"
+DATA = HERE / "data.nc"
 
 DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 BODIES = ("surfaces", "lines")
@@ -48,16 +49,11 @@ class Choice:
     fixed: Fixed
     averaging: Averaging
 
-    @property
-    def name(self) -> str:
-        """What it is called in tables."""
-        return f"{self.averaging}, at fixed {self.fixed}"
-
 
 @cache
 def plan() -> dict[str, Any]:
     """Return the study's plan."""
-    return tomllib.loads(PLAN.read_text(encoding="utf-8"))
+    return tomllib.loads((HERE / "plan.toml").read_text(encoding="utf-8"))
 
 
 def choices() -> list[Choice]:
@@ -89,29 +85,41 @@ def count(bodies: str) -> int:
     return int(json.loads(data().attrs["realisations"])[bodies])
 
 
-def reproductions(bodies: str, window: Window, choice: Choice, law: str) -> dict[float, Judgement]:
+def reproductions(bodies: str, window: Window, choice: Choice, law: str) -> dict[float, Case]:
     """Judge, for each fractal dimension, whether a choice shows a published exponent.
 
     The tolerance is 0.05, as everywhere. Empty where the means do not cover the window.
     """
     found = {each: exponent(bodies, window, choice, each) for each in DIMENSIONS}
     return {
-        dimension: judged(
-            WidenedInterval.of(each),
-            count(bodies),
-            PUBLISHED[law](dimension) - EXPONENT_TOLERANCE,
-            PUBLISHED[law](dimension) + EXPONENT_TOLERANCE,
+        dimension: Found.of(each, count(bodies)).judged(
+            f"at D_f = {dimension}", around(PUBLISHED[law](dimension), EXPONENT_TOLERANCE)
         )
         for dimension, each in found.items()
         if not np.isnan(each.value)
     }
 
 
-def spread(bodies: str, dimension: float) -> tuple[float, float]:
-    """Return the smallest and the largest exponent that any window and mean shows."""
-    values = [
-        exponent(bodies, window, choice, dimension).value
-        for window in windows(bodies)
-        for choice in choices()
-    ]
-    return float(np.nanmin(values)), float(np.nanmax(values))
+def fit() -> None:
+    """Fit the exponents of every window and mean to the bodies that come with the package."""
+    fixed, means = plan()["fixed"], plan()["means"]
+    names = ("bodies", "window", "fixed", "averaging", "fractal_dimension", "end")
+    sizes = [len(each) for each in (BODIES, windows("surfaces"), fixed, means, DIMENSIONS)]
+    found = np.empty((*sizes, 3))
+    for place in itertools.product(*map(range, sizes)):
+        bodies, window, what, mean, dimension = place
+        one = published_dataset(BODIES[bodies]).sel(fractal_dimension=DIMENSIONS[dimension])
+        estimate = exponent_of_means(one, windows(BODIES[bodies])[window], fixed[what], means[mean])
+        found[place] = (estimate.value, estimate.low, estimate.high)
+    counts = {name: published_dataset(name).sizes["realisation"] for name in BODIES}
+    coordinates = {
+        "bodies": list(BODIES),
+        "fixed": fixed,
+        "averaging": means,
+        "fractal_dimension": list(DIMENSIONS),
+        "end": ["value", "low", "high"],
+    }
+    data = xarray.Dataset(
+        {"exponent": (names, found)}, coordinates, {"realisations": json.dumps(counts)}
+    )
+    write_one(DATA, plan(), data)

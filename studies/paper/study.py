@@ -1,0 +1,155 @@
+"""The paper's study: from its store to the data of the package, and from these to the pages.
+
+"The paper, recomputed" is composed by the package, as users' own studies are.
+"""
+
+import json
+import shutil
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+import roughline as rl
+from roughline import campaign
+from roughline.campaign import Store
+from roughline.campaign.export import write_netcdf
+from roughline.campaign.run import log_of
+from roughline.contact.comparison.trust import COLUMNS, TrustMap
+from roughline.paper.exponents import exponents_of
+from roughline.paper.page import compose
+from roughline.paper.results import published_dataset, published_folder, published_results
+from roughline.paper.windows import WINDOWS_REDUCED
+from roughline.plot.style import save, styled
+from roughline.report.page import render_markdown
+from roughline.statistics.averages import relative_difference
+from studies.paper.trust import trust_map_figure, trust_page
+from studies.reduced_data import finished, refuse_other_settings
+from studies.study import DOCS
+
+PLAN = Path(__file__).parent / "plan.toml"
+FIGURES = DOCS / "figures" / "paper"
+DATA = published_folder()
+MAP = DATA.parents[1] / "contact" / "comparison" / "trust_map.csv"
+ENSEMBLES = {
+    "lines": "lines",
+    "matched": "lines-of-surfaces",
+    "surfaces": "surfaces",
+    "coarse": "coarse-surfaces",
+    **{f"grid_{n}": f"grids-n{n}" for n in (128, 256, 512, 1024)},
+}
+"""Ensembles of the plan by the files that are theirs."""
+
+
+def reduce(path: Path) -> None:
+    """Reduce a finished store to the data and the map of the package, and what computing took."""
+    store = Store(path)
+    for ensemble in campaign.read_plan(PLAN).ensembles:
+        finished(store, ensemble)
+    DATA.mkdir(exist_ok=True)
+    lines, surfaces = store.dataset("lines"), store.dataset("surfaces")
+    write_netcdf(exponents_of(lines, WINDOWS_REDUCED), DATA / "exponents.nc")
+    for file_name, name in ENSEMBLES.items():
+        data = store.dataset(name)
+        if file_name == "lines":
+            data = data.sel(fractal_dimension=surfaces.fractal_dimension)
+        elif file_name == "matched":
+            data = data.drop_vars(["depth", "rms_slope", "highest"])
+        if "depth" in data:  # only averages at fixed level need it
+            data = data.assign(depth=data.depth.astype(np.float32).assign_attrs(data.depth.attrs))
+        write_netcdf(data, DATA / f"{file_name}.nc")
+    _write_map(store, "map", (1, 2, 4, 8, 16), MAP)
+    _write_map(store, "fine", (1, 4), DATA / "map_fine.csv")
+    text = json.dumps(computing_of(path), indent=1) + "\n"
+    (DATA / "computing.json").write_text(text, encoding="utf-8")
+
+
+def _write_map(store: Store, name: str, roll_offs: Sequence[int], path: Path) -> None:
+    """Write the difference of the two models over roll-off, fractal dimension and load."""
+    rows = []
+    for roll_off in roll_offs:
+        full, reduced = (
+            store.dataset(f"{name}-{body}-roll{roll_off}") for body in ("surfaces", "lines")
+        )
+        for dimension in full.fractal_dimension.values:
+            one_3d, one_1d = (data.sel(fractal_dimension=dimension) for data in (full, reduced))
+            difference, low, high = relative_difference(
+                one_3d.stiffness.values, one_1d.stiffness.values, paired=False
+            )
+            mean = rl.average(one_3d.stiffness.values)
+            resolved = (one_3d.resolved.values == 1).all(axis=0)
+            rows += [
+                (roll_off, dimension, *row)
+                for row in zip(
+                    *(full.force_bar.values, difference, low, high, mean.scatter / mean.mean),
+                    resolved.astype(int),
+                    strict=True,
+                )
+            ]
+    table = pd.DataFrame(rows, columns=list(COLUMNS))
+    table.to_csv(path, index=False, float_format="%.6g")
+
+
+def computing_of(path: Path) -> dict[str, Any]:
+    """Return what the runs of a store took, one after another, and on which machine."""
+    runs = [json.loads(line) for line in log_of(path).read_text(encoding="utf-8").splitlines()]
+    done: Counter[str] = Counter()
+    core_seconds: Counter[str] = Counter()
+    for each in runs:
+        done.update(each["done"])
+        core_seconds.update(each["core_seconds"])
+    return {
+        "processor": " and ".join(sorted({each["processor"] for each in runs})),
+        "cores": max(each["cores"] for each in runs),
+        "hours": round(sum(each["seconds"] for each in runs) / 3600, 2),
+        "core_seconds": {name: float(f"{core_seconds[name] / done[name]:.3g}") for name in done},
+    }
+
+
+def publish() -> None:
+    """Draw the pages and their figures again."""
+    refuse_another_plan()
+    shutil.rmtree(FIGURES, ignore_errors=True)
+    FIGURES.mkdir(parents=True)
+    _publish_paper()
+    _publish_map()
+
+
+def refuse_another_plan() -> None:
+    """Refuse data of the package that are not those of the plan.
+
+    Raises
+    ------
+    StoreError
+        With the first difference.
+    """
+    plan = campaign.read_plan(PLAN)
+    for file_name, ensemble in ENSEMBLES.items():
+        path = DATA / f"{file_name}.nc"
+        attributes = published_dataset(file_name).attrs
+        refuse_other_settings(attributes, plan.ensemble(ensemble), path.name)
+
+
+def _publish_paper() -> None:
+    """Draw the page "The paper, recomputed"."""
+    results = published_results()
+    with TemporaryDirectory() as folder:
+        text = render_markdown(*compose(results, Path(folder)), "figures/paper")
+        for picture in (Path(folder) / "figures").glob("*.png"):
+            shutil.copy(picture, FIGURES)
+    (DOCS / "paper.md").write_text(text, encoding="utf-8")
+
+
+def _publish_map() -> None:
+    """Draw the page of the map."""
+    trust = rl.trust_map()
+    with styled():
+        save(trust_map_figure(trust), FIGURES, "trust_map")
+    (FIGURES / "trust_map.pdf").unlink()
+    rows = np.loadtxt(DATA / "map_fine.csv", delimiter=",", skiprows=1)
+    fine = TrustMap.from_rows(rows)
+    (DOCS / "trust.md").write_text(trust_page(trust, fine), encoding="utf-8")

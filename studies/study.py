@@ -1,0 +1,94 @@
+"""What all studies share: from claims, numbers and a text to a page, its figures, and the lab."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from roughline.paper.studies import StudyPanel, StudySummary, write_summary
+from roughline.plot.style import save, styled
+from roughline.report.page import Table, markdown_table
+from roughline.statistics.verdict import Claim
+
+DOCS = Path(__file__).parents[1] / "docs"
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study: its folder has a plan, its numbers, its claims, and the text of its page.
+
+    Attributes
+    ----------
+    folder : Path
+        The folder; page and figures have its name.
+    verdicts : callable
+        Returns the table of its verdicts.
+    told : callable
+        Returns the numbers and tables that the text names beside the verdicts.
+    figures : mapping of str to callable
+        Draw the figures, by their file names without an ending.
+    panels : callable, optional
+        Returns the panels that the lab shows.
+    """
+
+    folder: Path
+    verdicts: Callable[[], Table]
+    told: Callable[[], Mapping[str, object]]
+    figures: Mapping[str, Callable[[], Figure]] = field(default_factory=dict)
+    panels: Callable[[], Sequence[StudyPanel]] | None = None
+
+    def page(self) -> str:
+        """Return the page as Markdown."""
+        text = (self.folder / "text.md").read_text(encoding="utf-8")
+        return filled(text, {"verdicts": self.verdicts(), **self.told()})
+
+    def summary(self) -> StudySummary:
+        """Return the study in short, for the lab."""
+        title, answer, *_ = self.page().split("\n\n")
+        table = self.verdicts()
+        panels = self.panels() if self.panels else ()
+        return StudySummary(
+            self.folder.name, title.removeprefix("# "), answer, table.header, table.rows, panels
+        )
+
+    def publish(self) -> None:
+        """Write the page and its figures into ``docs``, and into the package what the lab shows."""
+        name, text = self.folder.name, self.page()  # data that are refused leave all as it is
+        folder = DOCS / "figures" / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        with styled():
+            for file_name, draw in self.figures.items():
+                _, pdf = save(draw(), folder, file_name)
+                pdf.unlink()
+        (DOCS / f"{name}.md").write_text(text, encoding="utf-8")
+        if self.panels:
+            write_summary(self.summary())
+
+
+def filled(text: str, told: Mapping[str, object]) -> str:
+    """Return a text with the numbers and tables that it names; each paragraph is one line."""
+    unwrapped = re.sub(r"(?<=\S)\n *(?=[^\s#|-])", " ", text)
+    return unwrapped.format_map(
+        {name: markdown_table(x) if isinstance(x, Table) else x for name, x in told.items()}
+    )
+
+
+def claims_table(judged: Mapping[str, Sequence[Claim]]) -> Table:
+    """Return claims as a table, with a column of verdicts for each way to judge them."""
+    claims, *_ = judged.values()
+    texts = {
+        "What is said": [each.statement for each in claims],
+        "Found here": [each.found for each in claims],
+        "95 % interval": [each.interval for each in claims],
+    }
+    if any(each.basis for each in claims):
+        texts["Basis"] = [each.basis for each in claims]
+    words = {name: [each.cases for each in of_it] for name, of_it in judged.items()}
+    rows = list(zip(*texts.values(), *words.values(), strict=True))
+    return Table((*texts, *words), rows, (), len(texts))
