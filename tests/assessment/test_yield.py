@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from roughline.assessment import case as cases
 from roughline.assessment import loads as load_cases
-from roughline.assessment import variants
 from roughline.assessment.behind_maps import BehindMaps, missed_of_map
 from roughline.engineering.formulas import electrical_resistance, partial_slip
 from roughline.report.part_tables import elastic_of_part_in_words, part_table
@@ -384,7 +384,7 @@ def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch):
         rl.Surface(rough.heights, rough.sizes, "m"), PAIR, loads=["3 MPa", "30 MPa"], fields=False
     )
     on_all = rl.assess(question)
-    monkeypatch.setattr(variants, "HALVED_FROM", 256**2)
+    monkeypatch.setattr(cases, "HALVED_FROM", 256**2)
     solved = []
     original = load_cases.press
     monkeypatch.setattr(
@@ -401,9 +401,9 @@ def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch):
 
 
 def test_the_cost_of_all_variants_is_told_before(surface, monkeypatch):
-    from roughline.assessment import assess as assessing
+    from roughline.assessment import cost
 
-    monkeypatch.setattr(assessing, "_LARGE", 1)
+    monkeypatch.setattr(cost, "_LARGE", 1)
     told = []
     for asked in ({}, {"hardness": H}, {"elastic": True}):
         question = rl.Question(surface, PAIR, loads="1 N", **asked)

@@ -1,55 +1,64 @@
-"""What follows from an assessed curve for two materials, and which assumptions do not hold."""
+"""What follows from curves for two materials."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.case import Case
 from roughline.assessment.hardness import hardness_of
 from roughline.assessment.kinds import has_spectrum
-from roughline.assessment.larger_surface import LargerSurface, stiffness_of_the_piece
-from roughline.assessment.misfit import strains
-from roughline.engineering.formulas import plasticity_index
+from roughline.assessment.larger_surface import stiffness_of_the_piece
+from roughline.assessment.loads import asked_loads
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.question import Question
+from roughline.assessment.solution import Solution
+from roughline.contact.curve import Curve
+from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals
+from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Interface, Pressed
-from roughline.engineering.rule import rules
-from roughline.spectra.isotropic import isotropy
+from roughline.engineering.rule import Answer, rules
 from roughline.spectra.moments import Moments, moments
-from roughline.spectra.roughness import ALIKE
 from roughline.topography.body import Body, Surface
-from roughline.units import decimal
-
-_STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
-_STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
 
 
-def surface_moments(body: Body) -> Moments | None:
-    """Moments of a surface's spectrum; None for a line, and where there is no spectrum."""
-    return moments(body) if has_spectrum(body) else None
-
-
-def with_answers(
-    result: Assessment, larger: LargerSurface | None, spectrum: Moments | None
-) -> Assessment:
-    """Return the assessment with its answers for the loads that were asked for.
+def answers_of(
+    case: Case, solution: Solution, *, body: Body | None = None, hardness: float | None = None
+) -> tuple[Mapping[str, Answer], Sequence[str]]:
+    """Answers at the loads that were asked for, by their keys, and which are left out, and why.
 
     Parameters
     ----------
-    result : Assessment
-        With its curve.
-    larger : LargerSurface or None
-        The larger surface behind the body, over the loads of the curve.
-    spectrum : Moments or None
-        Of the body.
+    case : Case
+        Whose materials and loads they are for.
+    solution : Solution
+        Of it, or of a variant of it.
+    body : Surface or Line, optional
+        Of the solution; default: that of the case.
+    hardness : float, optional
+        Of the solution; default: that of the case. [Pa]
     """
-    if result.question.pair is None:
-        return result
-    intervals = result.intervals_as_asked
-    interface = _interface(result, larger)
-    given, left_out = rules.answers(_pressed(result, interface, intervals, spectrum))
-    larger = None if larger is None else larger.at(result.asked)
-    return replace(result, answers=given, left_out=left_out, larger=larger)
+    question, body = case.question, case.body if body is None else body
+    if hardness is not None:
+        question = replace(question, hardness=hardness)
+    if question.pair is None:
+        return {}, []
+    asked = asked_loads(case.loads, solution.curve.status.size)
+    curve = at_loads(solution.curve, asked)
+    intervals = None if solution.intervals is None else solution.intervals.at(asked)
+    interface = None
+    if solution.larger is not None:
+        interface = solution.larger.stiffness.at(asked)
+        # what one piece leaves open is narrower than what is unknown without the grid's error
+        interface = interface.bare if intervals is None else interface
+    elif not question.periodic:
+        ends = intervals.unloading if intervals else None
+        interface = stiffness_of_the_piece(body, curve, ends)
+    pressed = _pressed(question, question.pair, body, curve, interface, intervals, case.moments)
+    fields = next((each for each in solution.curve.fields if each is not None), None)
+    return rules.answers(replace(pressed, fields=fields))
 
 
 def ends_from_many(
@@ -66,90 +75,43 @@ def ends_from_many(
     with_grid : bool
         Whether the ends hold what the grid leaves open as well.
     """
-    larger, curve = result.larger, result.curve_as_asked
-    if larger is None or not result.answers or curve.area_fraction_corrected is None:
+    larger, curve, pair = result.larger, result.curve_as_asked, result.question.pair
+    if larger is None or pair is None or curve.area_fraction_corrected is None:
         return {}
     larger = larger.from_many(curve.area_fraction_corrected, further, with_grid=with_grid)
     intervals = result.intervals_as_asked if with_grid else None
     if result.question.joint is not None:  # the map is pressed as a part of the larger one
         known = curve if with_grid else replace(curve, stiffness_error=None)
         intervals = larger.intervals(known)
-    pressed = _pressed(result, larger.stiffness, intervals, surface_moments(result.body))
-    given, _ = rules.answers(pressed)
+    body = result.body
+    spectrum = moments(body) if has_spectrum(body) else None
+    interface = larger.stiffness
+    pressed = _pressed(result.question, pair, body, curve, interface, intervals, spectrum)
+    given, _ = rules.answers(replace(pressed, fields=result.fields))
     return {key: each.ends for key, each in given.items() if each.ends is not None}
 
 
 def _pressed(
-    result: Assessment,
+    question: Question,
+    pair: MaterialPair,
+    body: Body,
+    curve: Curve,
     interface: Interface | None,
     intervals: Intervals | None,
     spectrum: Moments | None,
 ) -> Pressed:
     """What the rules of the answers are given."""
-    question, curve = result.question, result.curve_as_asked
-    pair, hardness = question.pair, hardness_of(question)
-    assert pair is not None
+    hardness = hardness_of(question)
     return Pressed(
         curve,
-        result.area,
+        nominal_area(body),
         pair,
         joint=question.joint,
         interface=interface,
-        rms_height=result.body.rms_height,
+        rms_height=body.rms_height,
         rms_slope=spectrum.rms_slope if spectrum else None,
         frequency=question.frequency_in_hertz,
         intervals=intervals,
-        hardest=hardness.ends[1] if hardness and isinstance(result.body, Surface) else None,
+        hardest=hardness.ends[1] if hardness and isinstance(body, Surface) else None,
         has_depths=bool(question.depths),
-        fields=result.fields,
     )
-
-
-def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
-    """Say where an assumption breaks, and what is to be said with the answers."""
-    question, body = result.question, result.body
-    broken = []
-    if body.rms_slope > _STEEP:
-        broken.append(
-            f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
-            f"no interval includes the effect of slopes over {_STEEP:g}"
-        )
-    ratio, text = max(strains(question, body), default=(0.0, ""))
-    if ratio > _STRAINED:
-        broken.append(
-            f"{text}: bodies that are strained so far are not linear elastic, and no interval "
-            "includes that"
-        )
-    if (index := _plasticity(result, spectrum)) > 1:
-        broken.append(
-            f"the plasticity index is {decimal(index, 2)}, over 1: summits yield at first touch; "
-            "under repeated loads they deform elastically about their flattened shape"
-        )
-    if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
-        broken.append(
-            "theories assume an isotropic surface, and the rms slope depends on direction: the "
-            f"least is {alike:.2f} of the largest"
-        )
-    return broken + [each.warning for each in result.answers.values() if each.warning]
-
-
-def _plasticity(result: Assessment, spectrum: Moments | None) -> float:
-    """Greenwood and Williamson's index, where summits are not given a hardness; else zero."""
-    pair = result.question.pair
-    if pair is None or pair.hardness is None or spectrum is None or result.curve.hardness:
-        return 0.0
-    summits = spectrum.summit_deviation, spectrum.summit_radius
-    return plasticity_index(result.curve.E_star, pair.hardness, summits)
-
-
-def _interface(result: Assessment, larger: LargerSurface | None) -> Interface | None:
-    """Stiffness of the interface alone; None where the contact stiffness is that already."""
-    intervals = result.intervals_as_asked
-    if larger is not None:
-        interface = larger.stiffness.at(result.asked)
-        # what one piece leaves open is narrower than what is unknown without the grid's error
-        return interface.bare if intervals is None else interface
-    if result.question.periodic:
-        return None
-    ends = intervals.unloading if intervals else None
-    return stiffness_of_the_piece(result.body, result.curve_as_asked, ends)

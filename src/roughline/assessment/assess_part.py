@@ -11,10 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from roughline.assessment.assess import Announce, assess_body
+from roughline.assessment.assess import assess_body
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import broken
 from roughline.assessment.behind_maps import BehindMaps, behind_maps, missed_of_map
+from roughline.assessment.cost import Announce
 from roughline.assessment.given import has_forces
 from roughline.assessment.loads import LoadProgress
 from roughline.assessment.part import Missed, PartAnswer, PartAssessment

@@ -8,7 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.assessment.tiles import MOST_DOUBLINGS, Beyond, Tiles, logit
-from roughline.assessment.uncertainty import interval, loading_under_unloading
+from roughline.assessment.uncertainty import (
+    area_fraction,
+    interval,
+    loading_under_unloading,
+    unloading_stiffness,
+)
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
@@ -94,8 +99,10 @@ class LargerSurface:
         tiles = self.tiles and (self.tiles[0].among(solved), self.tiles[1].among(solved))
         return LargerSurface(k, spread(self.area), grid, tiles)
 
-    def intervals(self, curve: Curve) -> Intervals:
+    def intervals(self, curve: Curve) -> Intervals | None:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
+
+        There are none where the piece does not tell of that.
 
         The stiffness on loading keeps its ratio to that on unloading. Where points yield, the error
         of its grid is combined with that, as independent.
@@ -106,10 +113,10 @@ class LargerSurface:
             Of the piece.
         """
         ends = self.stiffness.ends
-        assert ends is not None
-        assert curve.unloading_stiffness is not None
+        if ends is None:
+            return None
         with np.errstate(invalid="ignore"):  # bodies apart, and no upper end near full contact
-            share = curve.stiffness / curve.unloading_stiffness
+            share = curve.stiffness / unloading_stiffness(curve)
             loading = share * ends[0], share * ends[1]
             if curve.stiffness_error is not None:
                 further = (
@@ -170,7 +177,7 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     interval : tuple of ndarray, shape (loads,), optional
         Both ends of its stiffness on unloading. [N / m]
     """
-    k = curve.stiffness if curve.unloading_stiffness is None else curve.unloading_stiffness
+    k = unloading_stiffness(curve)
     if isinstance(body, Line):
         saturated, error = curve.E_star * body.length, 0.0
         validity = "of the reduced line alone; waves longer than the scan are missing"
@@ -224,10 +231,7 @@ def larger_surface(
     stiffness, area : tuple of ndarray, shape (loads,), optional
         Both ends of its stiffness on unloading [N / m] and of its corrected area fraction [1].
     """
-    touching = curve.area_fraction_corrected
-    k = curve.unloading_stiffness
-    assert touching is not None
-    assert k is not None
+    touching, k = area_fraction(curve), unloading_stiffness(curve)
     formula = "dF/dd of the map in a periodic half-space under the same force, on unloading"
     grid = stiffness, area
     if tiles is None:

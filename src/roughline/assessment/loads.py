@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,7 +14,6 @@ from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
-from roughline.errors import Interrupted
 from roughline.topography.body import Body, Line, Surface
 
 LoadProgress = Callable[[int, int], None]
@@ -118,28 +117,33 @@ class LoadCase:
         )
 
     def press(
-        self, body: Body, fields: list[int], progress: LoadProgress | None
-    ) -> tuple[Curve, bool]:
-        """Press a body; loads that fail are marked. Says whether Ctrl-C came as well."""
-        if self.levelled:
-            body = body.detrended()
-        try:
-            curve = press(
-                body,
-                E_star=self.E_star,
-                hardness=self.hardness,
-                n_loads=self.n_loads,
-                forces=self.forces or None,
-                depths=self.depths or None,
-                periodic=self.periodic,
-                fields=fields if isinstance(body, Surface) else False,
-                grid_error=self.grid_error,
-                throw=False,
-                progress=progress,
-            )
-        except Interrupted as stop:
-            return stop.curve, True
-        return curve, False
+        self,
+        body: Body,
+        fields: Sequence[int] = (),
+        progress: LoadProgress | None = None,
+        rtol: float = 1e-6,
+    ) -> Curve:
+        """Press a body; loads that fail are marked.
+
+        Raises
+        ------
+        Interrupted
+            On Ctrl-C, with the loads that were solved before.
+        """
+        return press(
+            body.detrended() if self.levelled else body,
+            E_star=self.E_star,
+            hardness=self.hardness,
+            n_loads=self.n_loads,
+            forces=self.forces or None,
+            depths=self.depths or None,
+            periodic=self.periodic,
+            fields=fields if isinstance(body, Surface) else False,
+            grid_error=self.grid_error,
+            rtol=rtol,
+            throw=False,
+            progress=progress,
+        )
 
 
 def asked_loads(case: LoadCase, count: int) -> Indices:

@@ -8,13 +8,15 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.assumptions import Prediction, takes_down
 from roughline.assessment.given import has_forces, several
 from roughline.assessment.hardness import WITHOUT_YIELD, hardness_of
 from roughline.assessment.kinds import is_map
+from roughline.assessment.misfit import strains
 from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.contact.quantities import RESOLVED_FROM
-from roughline.engineering.formulas import ELASTIC_UP_TO
+from roughline.engineering.formulas import ELASTIC_UP_TO, plasticity_index
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.rules.mechanical import (
     CONTACT_STIFFNESS,
@@ -22,11 +24,17 @@ from roughline.engineering.rules.mechanical import (
     UNLOADING_STIFFNESS,
 )
 from roughline.errors.words import called
+from roughline.spectra.departures import departures
+from roughline.spectra.isotropic import isotropy
+from roughline.spectra.moments import Moments
+from roughline.spectra.roughness import ALIKE
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump
 from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
+_STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
+_STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
 _WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
 _COUNTS = 1.2  # upper over lower end of what counts as a cause
 
@@ -101,6 +109,43 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
             "the joint"
         )
     return notes
+
+
+def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
+    """Say where an assumption breaks, and what is to be said with the answers."""
+    question, body = result.question, result.body
+    broken = []
+    if body.rms_slope > _STEEP:
+        broken.append(
+            f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
+            f"no interval includes the effect of slopes over {_STEEP:g}"
+        )
+    ratio, text = max(strains(question, body), default=(0.0, ""))
+    if ratio > _STRAINED:
+        broken.append(
+            f"{text}: bodies that are strained so far are not linear elastic, and no interval "
+            "includes that"
+        )
+    if (index := _plasticity(result, spectrum)) > 1:
+        broken.append(
+            f"the plasticity index is {decimal(index, 2)}, over 1: summits yield at first touch; "
+            "under repeated loads they deform elastically about their flattened shape"
+        )
+    if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
+        broken.append(
+            "theories assume an isotropic surface, and the rms slope depends on direction: the "
+            f"least is {alike:.2f} of the largest"
+        )
+    return broken + [each.warning for each in result.answers.values() if each.warning]
+
+
+def _plasticity(result: Assessment, spectrum: Moments | None) -> float:
+    """Greenwood and Williamson's index, where summits are not given a hardness; else zero."""
+    pair = result.question.pair
+    if pair is None or pair.hardness is None or spectrum is None or result.curve.hardness:
+        return 0.0
+    summits = spectrum.summit_deviation, spectrum.summit_radius
+    return plasticity_index(result.curve.E_star, pair.hardness, summits)
 
 
 def of_borders(result: Assessment, *, grave: bool) -> list[str]:
@@ -261,6 +306,61 @@ def _scatter_in_words(result: Assessment, yielded: float) -> str:
             else "the intervals include that"
         )
     )
+
+
+def departures_in_words(result: Assessment) -> list[str]:
+    """Say how what was pressed departs from assumptions, gravest first, and what that takes down.
+
+    Nothing is said of a departure on which no answer to the question rests. What a line scan
+    shows is said where it is pressed.
+    """
+    said = []
+    for departure in departures(result.body):
+        down = [
+            _without_interval(result, prediction)
+            for prediction in _predictions(result)
+            if takes_down(departure, prediction, result.body)
+        ]
+        if down:
+            said.append("; ".join([departure.text, *filter(None, dict.fromkeys(down))]))
+    return said
+
+
+def _predictions(result: Assessment) -> Sequence[Prediction]:
+    """What is predicted beyond the body itself."""
+    found: list[Prediction] = []
+    if result.curve.stiffness_error is not None:
+        found.append("grid")
+    if is_map(result.body) and result.answers:
+        found.append("larger surface")
+    if result.theories:
+        found.append("theories")
+    return found
+
+
+def _without_interval(result: Assessment, prediction: Prediction) -> str:
+    """Say which answers come without an interval, as far as there are any."""
+    if prediction == "theories":
+        return "theories assume otherwise"
+    if prediction == "grid":
+        return "all values come without an interval"
+    names = [
+        each.symbol
+        for each in result.answers.values()
+        if (result.question.joint or each.rule.is_of_interface)
+        and each.low is None
+        and not each.rule.is_given
+    ]
+    if not names:
+        return ""
+    verb = "comes" if len(names) == 1 else "come"
+    return f"{listed(names)} {verb} without an interval"
+
+
+def listed(names: Sequence[str]) -> str:
+    """Write names one after the other."""
+    *first, last = names
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def of_full_contact(result: Assessment) -> list[str]:

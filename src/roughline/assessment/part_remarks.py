@@ -8,9 +8,9 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import listed
 from roughline.assessment.behind_maps import BehindMaps
 from roughline.assessment.nominal import nominal_area
+from roughline.assessment.notes import listed
 from roughline.assessment.part import PartAnswer
 from roughline.errors.words import called
 from roughline.spectra.departures import departures

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from roughline.assessment import notes as say
-from roughline.assessment.answers import broken_assumptions
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import departures_in_words
 from roughline.assessment.grid import why_without_grid_error
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Line, Surface
@@ -24,10 +22,10 @@ def warnings_of(
     of_curve = [text for text in curve.warnings if text not in said_elsewhere]
     is_scan = isinstance(body, Line) and body.kind == "profile"
     warnings = [
-        *(of_curve if is_scan else departures_in_words(result)),
+        *(of_curve if is_scan else say.departures_in_words(result)),
         *say.of_each(bodies, suspicions),
         *say.of_each(bodies, grave_effects),
-        *broken_assumptions(result, spectrum),
+        *say.broken_assumptions(result, spectrum),
         *say.of_full_contact(result),
         *say.of_wide_interval(result),
         *say.how_far_a_line_serves(result, grave=True),

@@ -6,13 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from roughline.assessment.loads import LoadCase
-from roughline.assessment.question import Question
+from roughline.assessment.case import Case
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.variants import UNLOADED, Curves
 from roughline.computing.arrays import Real
-from roughline.contact.curve import Curve
 from roughline.engineering.formulas import partial_slip
-
-_LIGHTEST, _LOADS = 1e-3, 16  # first of the loads on the way back, over the last, and their number
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,39 +30,24 @@ class PartialSlip:
     force: Real
 
 
-def slip_at_largest_load(
-    question: Question, case: LoadCase, curve: Curve, area: float
-) -> tuple[PartialSlip | None, bool]:
+def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:
     """Partial slip at the largest load, if it was solved and friction is known.
 
-    Where metals yield, slip follows the unloading curve, which is elastic: the surface that the
-    largest load left is pressed again. The second result says whether Ctrl-C came.
-
-    Parameters
-    ----------
-    question : Question
-        With friction and the joint, if there is one.
-    case : LoadCase
-        How the curve was made.
-    curve : Curve
-        Of the body.
-    area : float
-        Nominal area of the body. [m²]
+    Where metals yield, slip follows the unloading curve, which is elastic: that of the surface that
+    the largest load left.
     """
-    pair, friction, largest = question.pair, question.friction, case.largest
+    curve, pair, friction = curves.as_asked, case.pair, case.question.friction
+    largest = case.loads.largest
     if pair is None or friction is None or not curve.converged[largest]:
-        return None, False
-    force, branch = float(curve.force[largest]), curve
-    if curve.hardness is not None:
-        forces = force * np.geomspace(_LIGHTEST, 1.0, _LOADS)
-        back = LoadCase(curve.E_star, forces.tolist(), [], (), None, case.periodic)
-        branch, interrupted = back.press(curve.surface_after(largest), [], None)
-        if interrupted:
-            return None, True
+        return None
+    branch = curve if curve.hardness is None else curves.whole(UNLOADED)
+    if branch is None:
+        return None
+    force = float(curve.force[largest])
     rising = np.argsort(branch.force)
     rising = rising[(branch.converged & (branch.force <= force))[rising]]
-    scale = question.scale(area)
+    scale = case.question.scale(nominal_area(case.body))
     found = partial_slip(
         branch.depth[rising], branch.force[rising] * scale, pair.E_star, pair.G_star, friction
     )
-    return PartialSlip(friction, *found), False
+    return PartialSlip(friction, *found)

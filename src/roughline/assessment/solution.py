@@ -1,163 +1,162 @@
-"""Solving the load case of a question: the body, with other filling, and made periodic."""
+"""What the curves of a case's variants say: its curve, intervals, and the surface behind it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from roughline.assessment.assumptions import broken
-from roughline.assessment.larger_surface import (
-    LargerSurface,
-    larger_surface,
-    roll_offs_along_a_side,
+from roughline.assessment.case import Case
+from roughline.assessment.larger_surface import LargerSurface, larger_surface
+from roughline.assessment.line_scan import press_scan
+from roughline.assessment.loads import LoadCase, asked_loads
+from roughline.assessment.notes import is_scan_that_yields
+from roughline.assessment.source import Topography
+from roughline.assessment.tiles import Tiles, coarse_shape, has_tiles, tiles_from
+from roughline.assessment.uncertainty import Changes, change, intervals_of
+from roughline.assessment.variants import (
+    AS_ASKED,
+    COARSE,
+    Curves,
+    filled_otherwise,
+    periodic,
+    tile,
 )
-from roughline.assessment.loads import LoadCase, LoadProgress, asked_loads
-from roughline.assessment.source import Topography, pressed_body
-from roughline.assessment.tiles import FEWEST, Beyond, Tiles, pressed_tiles
-from roughline.assessment.uncertainty import Changes, Solution, change
 from roughline.contact.curve import Curve
-from roughline.contact.press import press
 from roughline.contact.selection import among_loads
-from roughline.errors import Interrupted
-from roughline.topography.body import Body, Surface
+from roughline.engineering.intervals import Intervals
+from roughline.topography.body import Body, Line, Surface
 from roughline.topography.missing import Missing
 
-_RTOL_OF_TILES = 1e-4  # their scatter need not be known better
 _SMALL = 0.001  # changes below this are reported as less than this [%]
 
 
-def solved(
-    case: LoadCase, body: Body, fields: list[int], progress: LoadProgress | None
-) -> Solution:
-    """Press a body; what its grid leaves open is known if the case asks for it."""
-    return _as_measured(Solution.of(*case.press(body, fields, progress)), body)
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """A curve, its intervals, and the larger surface behind its body.
+
+    Attributes
+    ----------
+    curve : Curve
+        Loads that failed are marked.
+    intervals : Intervals or None
+        Of the curve; None where the grid's errors are not known.
+    larger : LargerSurface or None
+        Over the loads of the curve; None where the answers are not about a larger surface.
+    note : str
+        What another way to fill missing points changes, if that was tried.
+    """
+
+    curve: Curve
+    intervals: Intervals | None
+    larger: LargerSurface | None = None
+    note: str = ""
 
 
-def _as_measured(solution: Solution, body: Body) -> Solution:
-    """The same without intervals where heights are not those of a surface."""
-    return replace(solution, intervals=None) if broken("grid", body) else solution
+def solution_of(case: Case, curves: Curves) -> Solution:
+    """The solution of a case from the curves of its variants."""
+    curve = curves.as_asked
+    intervals, note = _with_filling(case, curves, AS_ASKED, case.body)
+    larger = larger_behind(case, curves, AS_ASKED, case.loads)
+    if larger is not None and case.question.joint is not None and intervals is not None:
+        # the map is pressed as a part of the joint, and is uncertain as that is
+        intervals = larger.intervals(curve)
+    return Solution(curve, intervals, larger, note)
 
 
-def with_other_filling(
-    solution: Solution,
-    case: LoadCase,
-    body: Surface,
-    topographies: Sequence[Topography],
-    progress: LoadProgress | None,
-) -> Solution:
-    """Press the body with its missing points filled otherwise; the change adds to the errors."""
-    curve = solution.curve
-    method = Missing(topographies[0].reading.missing).other
-    other = pressed_body([each.filled_by(method) for each in topographies])
-    assert isinstance(other, Surface)
-    if np.array_equal(other.heights, body.heights):
-        return replace(solution, note=_why_filling_changes_nothing(topographies))
-    again = replace(case, grid_error=False)
-    if case.n_loads is not None and curve.converged.all():
-        again = again.under_forces_of(curve)  # the same forces, not new ones
-    moved, interrupted = again.press(other, [], progress)
-    asked = asked_loads(case, curve.status.size)
-    stiffness, share = change(curve.stiffness, moved.stiffness, asked)
-    unloading, _ = change(curve.unloading_stiffness, moved.unloading_stiffness, asked)
-    area, area_share = change(curve.area_fraction_corrected, moved.area_fraction_corrected, asked)
-    note = (
-        f"with missing points filled by {method} instead, stiffness changes by {_at_most(share)}, "
-        f"area by {_at_most(area_share)}"
-    )
-    changes = Changes(stiffness, unloading, area)
-    return _as_measured(Solution.of(curve, interrupted, changes, note), body)
+def solution_of_scan(case: Case, body: Line) -> Solution:
+    """Press a line scan, of one or of two bodies, through its spectrum.
+
+    There is no interval where it is so steep that metals yield.
+    """
+    second = case.parts[1].body if len(case.parts) > 1 else None
+    against = second if isinstance(second, Line) else None
+    scan = press_scan(body, E_star=case.loads.E_star, forces=case.loads.forces, against=against)
+    ends = scan.low, scan.high
+    known = not (np.isnan(scan.low).any() or is_scan_that_yields(case.question, body))
+    return Solution(scan.curve, Intervals(ends, ends) if known else None)
 
 
-def interface_of_the_larger_surface(
-    solution: Solution,
-    case: LoadCase,
-    body: Surface,
-    filled: Sequence[Topography],
-    joint: float | None,
-    progress: LoadProgress | None,
-) -> tuple[LargerSurface, bool]:
-    """Interface of the larger surface that a body was cut out of.
-
-    The body is pressed again, into a periodic half-space, unless that was asked for to begin with,
-    and its tiles are pressed like it. The second result says whether Ctrl-C came.
+def larger_behind(case: Case, curves: Curves, name: str, loads: LoadCase) -> LargerSurface | None:
+    """The larger surface behind the body of a variant, over the loads of its curve.
 
     Parameters
     ----------
-    solution : Solution
-        The curve as asked for.
-    case : LoadCase
-        How it was made.
-    body : Surface
-        What was pressed.
-    filled : sequence of Topography
-        To fill missing points otherwise; empty if none were missing.
-    joint : float or None
-        Nominal area of the larger surface, where it is known. [m²]
-    progress : callable, optional
-        As for :func:`roughline.press`.
+    case : Case
+        With the body.
+    curves : Curves
+        Of all variants.
+    name : str
+        The variant.
+    loads : LoadCase
+        Under which it was pressed.
     """
-    curve, borne = solution.curve, case.borne(solution.curve)
-    periodic = solution
-    if not case.periodic and (solution.interrupted or not borne.any()):
-        unknown = replace(curve, unloading_stiffness=np.full(borne.size, np.nan))
-        periodic = replace(solution, curve=unknown, intervals=None)
-    elif not case.periodic:
-        case = replace(case.under_forces_of(curve), periodic=True, levelled=True)
-        periodic = solved(case, body, [], progress)
-        if filled and not periodic.interrupted:
-            periodic = with_other_filling(periodic, case, body, filled, progress)
-    level = body.detrended()
-    beyond = Beyond.of(roll_offs_along_a_side(body), body.area, joint)
-    tiles, interrupted = None, solution.interrupted or periodic.interrupted
-    known = periodic.intervals
-    if known and not interrupted:
-        tiles, interrupted = _tiles(level, periodic.curve, case)
-    ends = (known.unloading, known.area) if known else (None, None)
-    larger = larger_surface(periodic.curve, beyond, tiles, *ends)
+    body, curve = case.map, curves.by_name[name]
+    if body is None:
+        return None
+    borne, repeated = loads.borne(curve), name if loads.periodic else periodic(name)
+    whole = curves.get(repeated)
+    intervals = tiles = None
+    if whole is None:  # no load is borne, or Ctrl-C came before
+        whole = replace(curve, unloading_stiffness=np.full(borne.size, np.nan))
+    elif loads.grid_error:
+        intervals, _ = _with_filling(case, curves, repeated, body)
+        tiles = _tiles(case, curves, whole, body) if intervals is not None else None
+    beyond = case.beyond
+    ends = (intervals.unloading, intervals.area) if intervals else (None, None)
+    larger = larger_surface(whole, beyond, tiles, *ends)
     if not beyond.is_told or broken("larger surface", body):
         larger = larger.without_interval
     if larger.stiffness.values.size < borne.size:  # loads that failed before have no force
         larger = larger.among(borne)
-    return larger, interrupted
+    return larger
 
 
-def _tiles(level: Surface, curve: Curve, case: LoadCase) -> tuple[tuple[Tiles, Tiles] | None, bool]:
-    """Press the tiles of a map at the mean pressures of its curve; says whether Ctrl-C came."""
-    borne = case.borne(curve)
-    pressures = curve.force[borne] / level.area
-    if min(level.shape) < FEWEST or not borne.any():
-        return None, False
-
-    def pressed(tile: Surface) -> Curve:
-        curve = press(
-            tile,
-            E_star=case.E_star,
-            hardness=case.hardness,
-            forces=pressures * tile.area,
-            periodic=True,
-            rtol=_RTOL_OF_TILES,
-            throw=False,
+def _with_filling(
+    case: Case, curves: Curves, name: str, body: Body
+) -> tuple[Intervals | None, str]:
+    """Intervals of a variant with the effect of the other filling, and a note on that."""
+    curve, other = curves.by_name[name], curves.get(filled_otherwise(name))
+    changes, note = Changes(), ""
+    if other is not None:
+        asked = asked_loads(case.loads, curve.status.size)
+        stiffness, share = change(curve.stiffness, other.stiffness, asked)
+        unloading, _ = change(curve.unloading_stiffness, other.unloading_stiffness, asked)
+        area, area_share = change(
+            curve.area_fraction_corrected, other.area_fraction_corrected, asked
         )
-        return among_loads(curve, borne)
+        changes = Changes(stiffness, unloading, area)
+        method = Missing(case.parts[0].reading.missing).other
+        note = (
+            f"with missing points filled by {method} instead, stiffness changes by "
+            f"{_at_most(share)}, area by {_at_most(area_share)}"
+        )
+    elif case.filled and curves.stopped != name:
+        note = _why_filling_changes_nothing(case.filled)
+    return None if broken("grid", body) else intervals_of(curve, changes), note
 
-    try:
-        return pressed_tiles(level, curve, pressed), False
-    except Interrupted:
-        return None, True
 
+def _tiles(case: Case, curves: Curves, curve: Curve, body: Surface) -> tuple[Tiles, Tiles] | None:
+    """What the tiles of a map say, over the loads of its periodic curve; None if not known."""
+    if not has_tiles(body):
+        return None
+    shape = coarse_shape(body.shape)
+    borne = case.loads.borne(curve)
 
-def of_larger_surface(solution: Solution, larger: LargerSurface) -> Solution:
-    """Return a periodic body's solution with the intervals of the larger surface behind it.
+    def spread(name: str) -> Curve | None:
+        found = curves.whole(name)
+        return None if found is None else among_loads(found, borne)
 
-    Without the grid's errors there are no intervals: an interval of the other uncertainties alone
-    would be too narrow. Nor are there where the body does not tell of the larger surface.
-    """
-    if solution.intervals is None:
-        return solution
-    known = larger.stiffness.ends is not None
-    return replace(solution, intervals=larger.intervals(solution.curve) if known else None)
+    whole = curve if shape == body.shape else spread(COARSE)
+    halves, quarters = (
+        [each for i in range(count**2) if (each := spread(tile(count, i))) is not None]
+        for count in (2, 4)
+    )
+    if whole is None or len(halves) < 4 or len(quarters) < 16:
+        return None
+    return tiles_from(whole, halves, quarters, shape[0] * shape[1])
 
 
 def _why_filling_changes_nothing(topographies: Sequence[Topography]) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughline.assessment.uncertainty import area_fraction, unloading_stiffness
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends
@@ -20,9 +21,6 @@ MOST_DOUBLINGS = 4
 """From a map without a roll-off to the larger surface: maps a sixteenth as long were tried."""
 
 _USUAL = 2.0  # doublings where the larger surface has no size
-
-PRESSED_WITH_TILES = 3
-"""How often as many points as the map has are pressed: halves, quarters, and a coarser map."""
 
 _POINTS = 2**16  # of a map whose tiles are pressed; a finer one is coarsened before
 _STUDENT = 2.131  # of 95 %, with the 15 degrees of freedom of sixteen tiles
@@ -181,29 +179,24 @@ class Tiles:
         )
 
 
-def pressed_tiles(
-    piece: Surface, curve: Curve, press: Callable[[Surface], Curve]
+def tiles_from(
+    whole: Curve, halves: Sequence[Curve], quarters: Sequence[Curve], points: int
 ) -> tuple[Tiles, Tiles]:
-    """Press the tiles of a map; returns logarithms of its stiffness, and logits of its contact.
+    """Logarithms of the stiffness of a map and its tiles, and logits of their contact.
 
     Parameters
     ----------
-    piece : Surface
-        The map, without its tilt.
-    curve : Curve
+    whole : Curve
         Of the map in the periodic half-space.
-    press : callable
-        Presses another surface under the same mean pressures.
+    halves, quarters : sequence of Curve
+        Of its 4 and 16 tiles under the same mean pressures, row by row.
+    points : int
+        Of the map.
     """
-    coarse = _coarsened(piece)
-    if coarse is not piece:
-        curve = press(coarse)
-    halves, quarters = ([press(tile) for tile in _tiles(coarse, n)] for n in (2, 4))
 
     def tiles(of: Callable[[Curve, int], Real]) -> Tiles:
-        points = coarse.heights.size
         return Tiles(
-            of(curve, points),
+            of(whole, points),
             np.stack([of(each, points // 4) for each in halves]).reshape(2, 2, -1),
             np.stack([of(each, points // 16) for each in quarters]).reshape(4, 4, -1),
         )
@@ -213,22 +206,24 @@ def pressed_tiles(
 
 def _stiffness(curve: Curve, points: int) -> Real:
     """Logarithm of the stiffness on unloading per area."""
-    assert curve.unloading_stiffness is not None
     with np.errstate(divide="ignore"):
-        return np.log(curve.unloading_stiffness / curve.length**2)
+        return np.log(unloading_stiffness(curve) / curve.length**2)
 
 
 def _contact(curve: Curve, points: int) -> Real:
     """Logit of the contact area fraction; half a cell is left where all or none touch."""
-    assert curve.area_fraction_corrected is not None
-    share = np.clip(curve.area_fraction_corrected, 0.5 / points, 1 - 0.5 / points)
-    return logit(share)
+    return logit(np.clip(area_fraction(curve), 0.5 / points, 1 - 0.5 / points))
 
 
 def logit(share: Real) -> Real:
     """Logarithm of a share over the rest."""
     with np.errstate(divide="ignore"):
         return np.log(share) - np.log1p(-share)
+
+
+def has_tiles(piece: Surface) -> bool:
+    """Whether a map has enough points to be cut into tiles."""
+    return min(piece.shape) >= FEWEST
 
 
 def coarse_shape(shape: tuple[int, int]) -> tuple[int, int]:
@@ -238,7 +233,7 @@ def coarse_shape(shape: tuple[int, int]) -> tuple[int, int]:
     return shape
 
 
-def _coarsened(piece: Surface) -> Surface:
+def coarsened(piece: Surface) -> Surface:
     """Return a map of many points on fewer, where its tiles keep enough."""
     shape = coarse_shape(piece.shape)
     while piece.shape != shape:
@@ -246,7 +241,7 @@ def _coarsened(piece: Surface) -> Surface:
     return piece
 
 
-def _tiles(piece: Surface, count: int) -> list[Surface]:
+def tiles_of(piece: Surface, count: int) -> list[Surface]:
     """Cut a map into so many tiles along each side, each without its tilt."""
     ends = [np.linspace(0, n, count + 1).astype(int) for n in piece.shape]
     return [

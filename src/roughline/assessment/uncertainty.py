@@ -29,56 +29,41 @@ class Changes:
     area: Real | float = 0.0
 
 
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """A curve and its intervals.
+def intervals_of(curve: Curve, changes: Changes | None = None) -> Intervals | None:
+    """Intervals of a curve, of its grid's errors and of further changes.
 
-    Attributes
-    ----------
-    curve : Curve
-        Loads that failed are marked.
-    interrupted : bool
-        Whether Ctrl-C came.
-    intervals : Intervals or None
-        Of the curve; None where the grid's errors are not known.
-    note : str
-        What another way to fill missing points changes, if that was tried.
+    Without the grid's errors there are none: those of further changes alone would be too narrow.
     """
+    changes = changes or Changes()
+    value, error = curve.area_fraction_corrected, curve.area_fraction_error
+    most, stiffness_error = curve.area_fraction_most, curve.stiffness_error
+    unloading, unloading_error = curve.unloading_stiffness, curve.unloading_stiffness_error
+    if value is None or error is None or most is None or stiffness_error is None:
+        return None
+    if unloading is None or unloading_error is None:
+        return None
+    low, high = interval(value, np.hypot(error, changes.area))
+    loading = interval(curve.stiffness, np.hypot(stiffness_error, changes.stiffness))
+    springing = interval(unloading, np.hypot(unloading_error, changes.unloading))
+    if curve.settings.get("boundary") == "periodic":  # a full contact is infinitely stiff
+        may_be_full = high >= 1
+        loading, springing = (_open(ends, may_be_full) for ends in (loading, springing))
+    if curve.hardness is not None:  # no area bears more than the hardness
+        low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
+        loading = loading_under_unloading(loading, springing)
+    # whole cells overstate an area under summits, and finer waves take away from it
+    return Intervals(loading, springing, (low, np.minimum(high, most + changes.area)))
 
-    curve: Curve
-    interrupted: bool = False
-    intervals: Intervals | None = None
-    note: str = ""
 
-    @classmethod
-    def of(
-        cls, curve: Curve, interrupted: bool, changes: Changes | None = None, note: str = ""
-    ) -> Solution:
-        """A curve with the intervals of its grid's errors and of further changes.
+def unloading_stiffness(curve: Curve) -> Real:
+    """Stiffness on unloading; of a line, which has no yield, that on loading. [N / m]"""
+    return curve.stiffness if curve.unloading_stiffness is None else curve.unloading_stiffness
 
-        Without the grid's errors there are no intervals: those of further changes alone would be
-        too narrow.
-        """
-        changes = changes or Changes()
-        value, error = curve.area_fraction_corrected, curve.area_fraction_error
-        most, unloading = curve.area_fraction_most, curve.unloading_stiffness
-        unloading_error = curve.unloading_stiffness_error
-        if curve.stiffness_error is None or value is None or error is None or most is None:
-            return cls(curve, interrupted, note=note)
-        assert unloading is not None
-        assert unloading_error is not None
-        low, high = interval(value, np.hypot(error, changes.area))
-        loading = interval(curve.stiffness, np.hypot(curve.stiffness_error, changes.stiffness))
-        springing = interval(unloading, np.hypot(unloading_error, changes.unloading))
-        if curve.settings.get("boundary") == "periodic":  # a full contact is infinitely stiff
-            may_be_full = high >= 1
-            loading, springing = (_open(ends, may_be_full) for ends in (loading, springing))
-        if curve.hardness is not None:  # no area bears more than the hardness
-            low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
-            loading = loading_under_unloading(loading, springing)
-        # whole cells overstate an area under summits, and finer waves take away from it
-        area_ends = low, np.minimum(high, most + changes.area)
-        return cls(curve, interrupted, Intervals(loading, springing, area_ends), note)
+
+def area_fraction(curve: Curve) -> Real:
+    """Corrected contact area fraction; NaN of a line, whose model does not predict it. [1]"""
+    share = curve.area_fraction_corrected
+    return np.full_like(curve.force, np.nan) if share is None else share
 
 
 def interval(value: Real, error: Real) -> Ends:
@@ -104,9 +89,12 @@ def loading_under_unloading(loading: Ends, unloading: Ends) -> Ends:
 
 
 def change(before: Real | None, after: Real | None, asked: Indices) -> tuple[Real, float]:
-    """By how much each load changes, and by how many per cent at most of those asked for."""
-    assert before is not None
-    assert after is not None
+    """By how much each load changes, and by how many per cent at most of those asked for.
+
+    Nothing changes in what the model of a line does not predict.
+    """
+    if before is None or after is None:
+        return np.zeros(1), 0.0
     with np.errstate(invalid="ignore", divide="ignore"):
         moved = np.where(after == before, 0.0, np.abs(after - before))  # infinite in full contact
         return moved, 100 * float(np.nanmax((moved / before)[asked], initial=0.0))

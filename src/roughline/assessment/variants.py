@@ -1,213 +1,380 @@
-"""By how much the scatter of the hardness changes answers, and the answers without yield."""
+"""In which ways the body of a case is pressed, and the curves of all of them.
+
+The list is made before anything is pressed, and is an upper bound: what a way needs is known from
+the curves before it, which may show that it is needless.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache, partial
+from typing import Final, Literal
 
 import numpy as np
 
-from roughline.assessment.answers import with_answers
-from roughline.assessment.assessment import Assessment
-from roughline.assessment.hardness import hardness_of
-from roughline.assessment.larger_surface import LargerSurface
-from roughline.assessment.loads import LoadCase
-from roughline.assessment.question import Question
-from roughline.assessment.uncertainty import Solution
-from roughline.computing.arrays import Mask, Real
-from roughline.contact.arguments import law_of
+from roughline.assessment.assumptions import broken
+from roughline.assessment.case import Case
+from roughline.assessment.hardness import Hardness
+from roughline.assessment.loads import LoadCase, LoadProgress, load_with_fields
+from roughline.assessment.nominal import nominal_area
+from roughline.assessment.source import pressed_body
+from roughline.assessment.tiles import coarse_shape, coarsened, has_tiles, tiles_of
+from roughline.computing.arrays import Mask
 from roughline.contact.curve import Curve
-from roughline.contact.selection import among_loads, at_loads
-from roughline.engineering.intervals import Ends, Intervals
-from roughline.engineering.rule import Limits, within
-from roughline.spectra.moments import Moments
+from roughline.errors import Interrupted
 from roughline.topography.body import Body, Surface
+from roughline.topography.missing import Missing
 
-Solve = Callable[[Body, LoadCase], tuple[Solution, LargerSurface | None]]
-"""Presses a body; the second result is the larger surface behind it."""
+AS_ASKED: Final = "as asked"
+UNLOADED = "unloaded"
+"""From the largest load, where bodies yield and slip."""
 
-HALVED_FROM = 2**20
-"""Points from which on the scatter of the hardness is judged on half as many points a side."""
+ELASTIC, SOFTEST, HARDEST = "elastic", "softest", "hardest"
+AS_HARD = "as hard on half as many points a side"
+"""What a large body's softest and hardest are compared with."""
+
+COARSE = "coarse map"
+"""Of which the tiles are, where the map has many points."""
+
+UNLOADING_LOADS = 16
+"""Loads on the way back from the largest one, which partial slip follows where bodies yield."""
+
+_LIGHTEST = 1e-3  # of them, over the largest
+_RTOL_OF_TILES = 1e-4  # their scatter need not be known better
+
+
+Purpose = Literal["as asked", "filling", "interface", "larger surface", "hardness", "slip"]
+"""What a variant is pressed for."""
 
 
 @dataclass(frozen=True, eq=False)
-class Variation:
-    """How the body of an assessment is pressed again, with another hardness.
+class Curves:
+    """Curves of the variants that were pressed, by their names.
 
     Attributes
     ----------
-    case : LoadCase
-        How its curve was made.
-    larger : LargerSurface or None
-        The larger surface behind the body, over the loads of the curve.
-    spectrum : Moments or None
-        Of the body.
-    solve : callable
-        Presses a body under a load case.
+    by_name : mapping of str to Curve
+        Without the variants that proved needless.
+    stopped : str
+        The variant whose curve is not whole, as Ctrl-C came; empty where all is done.
     """
 
-    case: LoadCase
-    larger: LargerSurface | None
-    spectrum: Moments | None
-    solve: Solve
+    by_name: Mapping[str, Curve]
+    stopped: str = ""
 
-    def assessed(self, result: Assessment, hardness: float | None, body: Body) -> Assessment:
-        """Answer the same of a body of another hardness, elastic if None; without intervals.
+    @property
+    def as_asked(self) -> Curve:
+        """Curve of the body as it was asked for."""
+        return self.by_name[AS_ASKED]
 
-        Loads that this body does not bear are not solved.
-        """
-        question = result.question
-        if hardness is not None:
-            question = replace(question, hardness=hardness)
-        other = replace(_without_intervals(result), question=question, body=body)
-        curve, same = result.curve, body is result.body and not _yields(result.curve)
-        if same and hardness is not None and hardness >= (curve.hardness or 0):
-            law, settings = law_of(hardness), {**curve.settings, "hardness": hardness}
-            curve = replace(curve, law=law, settings=settings)
-            return with_answers(replace(other, curve=curve), self.larger, self.spectrum)
-        loads = _borne(result, self.case, hardness)
-        if not loads.any():
-            none = np.flatnonzero(loads)
-            nothing = among_loads(at_loads(curve, none), loads)
-            larger = self.larger.at(none).among(loads) if self.larger else None
-            return with_answers(replace(other, curve=nothing), larger, self.spectrum)
-        solution, larger = self.solve(body, self.case.of_hardness(hardness, loads, curve))
-        curve = among_loads(solution.curve, loads)
-        other = replace(other, curve=curve, interrupted=solution.interrupted)
-        return with_answers(other, larger.among(loads) if larger else None, self.spectrum)
+    def get(self, name: str) -> Curve | None:
+        """The curve of a variant, whole or as far as it came."""
+        return self.by_name.get(name)
+
+    def whole(self, name: str) -> Curve | None:
+        """The curve of a variant; None if it is not whole."""
+        return None if name == self.stopped else self.get(name)
 
 
-def repeats(question: Question, body: Body) -> float:
-    """Time of all variants of a body over that of the body alone, at most."""
-    hardness = hardness_of(question)
-    if hardness is None or question.materials is None or not isinstance(body, Surface):
-        return 0.0
-    if hardness.factor == 1:
-        return 1.0
-    return 3.0 if _judged_on(body) is body else 1.75
+def periodic(name: str) -> str:
+    """Name of the variant that is pressed as another, but into a periodic half-space."""
+    return f"{name}, periodic"
 
 
-def with_elastic_answers(result: Assessment, variation: Variation) -> Assessment:
-    """Add the answers of elastic bodies, where some of the contact yields."""
-    if result.interrupted or not result.answers or not _yields(result.curve):
-        return result
-    elastic = variation.assessed(result, None, result.body)
-    if elastic.interrupted:
-        return replace(result, interrupted=True)
-    return replace(result, elastic=elastic.answers)
+def filled_otherwise(name: str) -> str:
+    """Name of the variant that is pressed as another, but with missing points filled otherwise."""
+    return f"{name}, filled otherwise"
 
 
-def with_scatter_of_hardness(result: Assessment, variation: Variation) -> Assessment:
-    """Widen all intervals by the effect of the scatter of the hardness.
+def tile(count: int, i: int) -> str:
+    """Name of a tile of a map that is cut into so many along each side."""
+    return f"tile {i + 1} of {count} x {count}"
 
-    The body is pressed again as soft and as hard as it may be. A large one is pressed on half as
-    many points a side, and only the ratios to the answers for the hardness itself are taken. An
-    interval then reaches from its lower end times the least ratio to its upper end times the
-    largest: the errors of the grid and of the hardness are added, not taken as independent. Under
-    loads that the softest body does not bear, the ends are not known. On Ctrl-C there are no
-    intervals, as those without the scatter would be too narrow.
+
+@dataclass(frozen=True, eq=False)
+class Pressing:
+    """What is pressed, and how."""
+
+    body: Body
+    loads: LoadCase
+    fields: Sequence[int] = ()
+    rtol: float = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """One way in which the body of a case is pressed.
+
+    Attributes
+    ----------
+    name : str
+        By which its curve is found.
+    purpose : {"as asked", "filling", "interface", "larger surface", "hardness", "slip"}
+        What it is pressed for.
+    pressing : callable
+        What is pressed, from the curves before it; None where they show that it is needless.
+    shape : tuple of int
+        Points along the sides of a surface, of whose time this takes a share.
+    is_periodic : bool
+        Whether it is pressed into a periodic half-space.
+    share : float, optional
+        That share.
+    """
+
+    name: str
+    purpose: Purpose
+    pressing: Callable[[Curves], Pressing | None] = field(repr=False)
+    shape: tuple[int, int]
+    is_periodic: bool
+    share: float = 1.0
+
+
+class Stopped(KeyboardInterrupt):
+    """Ctrl-C came while variants were pressed.
+
+    Attributes
+    ----------
+    curves : Curves
+        Those that are done, and the last one as far as it came.
+    """
+
+    def __init__(self, curves: Curves) -> None:
+        super().__init__(curves.stopped)
+        self.curves = curves
+
+
+def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | None) -> Curves:
+    """Press all variants that are needed.
 
     Parameters
     ----------
-    result : Assessment
-        With the answers for the hardness itself.
-    variation : Variation
-        How its body is pressed again.
+    variants : sequence of Variant
+        In the order in which they are pressed.
+    loads : int
+        Under how many loads.
+    progress : callable, optional
+        Called with (loads done, loads in all), over all variants, those that take a part of the
+        time counted as that part.
+
+    Raises
+    ------
+    Stopped
+        On Ctrl-C, with the curves that are done.
     """
-    hardness = hardness_of(result.question)
-    if hardness is None or hardness.factor == 1:
-        return result
-    body = _judged_on(result.body)
-    values = [*hardness.ends] if body is result.body else [hardness.value, *hardness.ends]
-    assessed: list[Assessment] = []
-    for value in values:
-        if not result.interrupted:
-            assessed.append(variation.assessed(result, value, body))
-            result = replace(result, interrupted=assessed[-1].interrupted)
-    if result.interrupted:
-        return _without_intervals(result)
-    if body is result.body:
-        return _widened(result, result, assessed)
-    return _widened(result, assessed[0], assessed[1:])
+    done: dict[str, Curve] = {}
+    points = max(math.prod(each.shape) for each in variants)
+    steps = [math.ceil(loads * each.share * math.prod(each.shape) / points) for each in variants]
+    before, total = 0, sum(steps)
+    for variant, here in zip(variants, steps, strict=True):
+        needed = variant.pressing(Curves(done))
+        if needed is not None:
+            tell = partial(_tell, progress, before, here, total) if progress else None
+            try:
+                curve = needed.loads.press(needed.body, needed.fields, tell, needed.rtol)
+            except Interrupted as stop:
+                raise Stopped(Curves({**done, variant.name: stop.curve}, variant.name)) from stop
+            # fields and dents are large, and only those of the first are looked at
+            done[variant.name] = replace(curve, fields=(), dents=()) if done else curve
+        before += here
+    if progress is not None:
+        progress(total, total)
+    return Curves(done)
 
 
-def _judged_on(body: Body) -> Body:
-    """Return the body itself, or a large one on half as many points a side."""
-    if not isinstance(body, Surface) or body.heights.size < HALVED_FROM:
-        return body
-    return body if body.shape[0] % 2 or body.shape[1] % 2 else body.coarsened()
+def _tell(progress: LoadProgress, before: int, here: int, total: int, done: int, of: int) -> None:
+    """Tell of the loads of one variant, which counts as so many here."""
+    progress(before + here * done // max(of, 1), total)
 
 
-def _yields(curve: Curve) -> bool:
+def variants_of(case: Case) -> list[Variant]:
+    """All ways in which the body of a case may be pressed, in their order."""
+    kept = [load_with_fields(case.loads)] if case.question.fields else []
+    body = case.body
+    first = Pressing(body, case.loads, kept)
+    if not isinstance(body, Surface):
+        shape = 1, body.heights.size
+        return [Variant(AS_ASKED, AS_ASKED, lambda _: first, shape, case.loads.periodic)]
+    listed = [Variant(AS_ASKED, AS_ASKED, lambda _: first, body.shape, case.loads.periodic)]
+    if case.filled:
+        listed.append(_filled_otherwise(case, listed[0], body))
+    listed += _of_the_larger_surface(case, listed[0], with_tiles=True)
+    listed += _of_other_hardness(case)
+    if case.question.friction is not None and case.hardness is not None:
+        share = UNLOADING_LOADS / case.loads.count
+        pressing = partial(_unloaded, case)
+        listed.append(Variant(UNLOADED, "slip", pressing, body.shape, case.loads.periodic, share))
+    return listed
+
+
+def _unloaded(case: Case, curves: Curves) -> Pressing | None:
+    """Press the surface that the largest load left, up to that load."""
+    curve, largest = curves.as_asked, case.loads.largest
+    if not curve.converged[largest]:
+        return None
+    forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST, 1.0, UNLOADING_LOADS)
+    loads = LoadCase(curve.E_star, forces.tolist(), [], (), None, case.loads.periodic)
+    return Pressing(curve.surface_after(largest), loads)
+
+
+def _filled_otherwise(case: Case, variant: Variant, body: Surface) -> Variant:
+    """The same with missing points filled by the other method, if that changes something."""
+
+    def pressing(curves: Curves) -> Pressing | None:
+        first = variant.pressing(curves)
+        curve = curves.get(variant.name)
+        if first is None or curve is None:
+            return None
+        other = _with_other_filling(case)
+        if np.array_equal(other.heights, body.heights):
+            return None
+        again = replace(first.loads, grid_error=False)
+        if again.n_loads is not None and curve.converged.all():
+            again = again.under_forces_of(curve)  # the same forces, not new ones
+        return Pressing(other, again)
+
+    name = filled_otherwise(variant.name)
+    return replace(variant, name=name, purpose="filling", pressing=pressing)
+
+
+def _with_other_filling(case: Case) -> Body:
+    method = Missing(case.parts[0].reading.missing).other
+    return pressed_body([each.filled_by(method) for each in case.filled])
+
+
+def _of_other_hardness(case: Case) -> list[Variant]:
+    """The body without yield, and as soft and as hard as it may be."""
+    hardness, body = case.hardness, case.body
+    if hardness is None or case.pair is None or not isinstance(body, Surface):
+        return []
+    listed = []
+    for name, value, judged in ways(case, hardness):
+        pressing = partial(_as_hard, case, name, value, judged)
+        share = judged.heights.size / body.heights.size
+        variant = Variant(name, "hardness", pressing, body.shape, case.loads.periodic, share)
+        listed += [variant, *_of_the_larger_surface(case, variant)]
+    return listed
+
+
+def ways(case: Case, hardness: Hardness) -> list[tuple[str, float | None, Body]]:
+    """Names of the variants of the hardness, their hardness, None of elastic ones, and bodies."""
+    listed: list[tuple[str, float | None, Body]] = [(ELASTIC, None, case.body)]
+    if hardness.factor != 1:
+        softest, hardest = hardness.ends
+        if case.judged is not case.body:
+            listed.append((AS_HARD, hardness.value, case.judged))
+        listed += [(SOFTEST, softest, case.judged), (HARDEST, hardest, case.judged)]
+    return listed
+
+
+def _as_hard(
+    case: Case, name: str, hardness: float | None, judged: Body, curves: Curves
+) -> Pressing | None:
+    """Press the body with another hardness, under the loads that it bears then."""
+    curve = curves.as_asked
+    if name == ELASTIC and not yields(curve):
+        return None
+    loads = borne_by(case, curve, hardness)
+    if is_same(case, curve, hardness, judged) or not loads.any():
+        return None
+    return Pressing(judged, case.loads.of_hardness(hardness, loads, curve))
+
+
+def is_same(case: Case, curve: Curve, hardness: float | None, judged: Body) -> bool:
+    """Whether the curve as asked is that of a harder body as well, as nothing yields."""
+    if hardness is None or judged is not case.body or yields(curve):
+        return False
+    return hardness >= (curve.hardness or 0)
+
+
+def yields(curve: Curve) -> bool:
     """Whether some of the contact is at the hardness, under any load."""
     return curve.plastic_fraction is not None and bool(np.nan_to_num(curve.plastic_fraction).any())
 
 
-def _borne(result: Assessment, case: LoadCase, hardness: float | None) -> Mask:
-    """Which loads of the curve were solved, and are borne by a body of a hardness.
+def borne_by(case: Case, curve: Curve, hardness: float | None) -> Mask:
+    """Which loads of the curve as asked were solved, and are borne by a body of a hardness.
 
     What a load leaves that is too large is not known, nor are those after it.
     """
-    curve = result.curve
-    if hardness is None or case.depths:
+    if hardness is None or case.loads.depths:
         return curve.converged
     largest = np.maximum.accumulate(np.nan_to_num(curve.force))
-    return curve.converged & (largest < hardness * result.area)
+    return curve.converged & (largest < hardness * nominal_area(case.body))
 
 
-def _without_intervals(result: Assessment) -> Assessment:
-    """Return the assessment as if the error of its grid were not known."""
-    answers = {key: each.bare for key, each in result.answers.items()}
-    return replace(result, intervals=None, answers=answers, larger=None)
-
-
-def _widened(result: Assessment, nominal: Assessment, moved: Sequence[Assessment]) -> Assessment:
-    """Widen the intervals of an assessment by the ratios of others to a nominal one."""
-    scatter = {
-        key: _ratios(nominal.answers[key].values, [other.answers[key].values for other in moved])
-        for key in result.answers
-    }
-    answers = {}
-    for key, each in result.answers.items():
-        ends, can_be = each.ends, each.limits
-        if each.rule.is_of_hardness_alone and result.intervals is not None:
-            ends = each.values, each.values  # nothing else leaves them open
-        if each.under is not None and each.under[0] in result.answers:
-            upper, factor = each.under
-            bound = result.answers[upper].ends
-            if bound is not None:
-                can_be = can_be[0], factor * _times(bound, scatter[upper])[1]
-        low, high = (None, None) if ends is None else _times(ends, scatter[key], can_be)
-        answers[key] = replace(each, low=low, high=high)
-
-    def of_curve(ends: Ends, name: str, most: Real | float = np.inf) -> Ends:
-        values = [getattr(each.curve, name) for each in (nominal, *moved)]
-        return _times(ends, _ratios(values[0], values[1:]), (0.0, most))
-
-    known = result.intervals
-    if known is not None:
-        unloading = of_curve(known.unloading, "unloading_stiffness")
-        known = Intervals(
-            of_curve(known.stiffness, "stiffness", unloading[1]),
-            unloading,
-            None if known.area is None else of_curve(known.area, "area_fraction_corrected", 1.0),
+def _of_the_larger_surface(
+    case: Case, variant: Variant, *, with_tiles: bool = False
+) -> list[Variant]:
+    """The same into a periodic half-space, and the tiles of the map, for what it is a piece of."""
+    body = case.map
+    if body is None:
+        return []
+    listed: list[Variant] = []
+    repeated = variant
+    if not case.loads.periodic:
+        repeated = replace(
+            variant,
+            name=periodic(variant.name),
+            purpose="interface" if variant.name == AS_ASKED else variant.purpose,
+            pressing=partial(_repeated, variant),
+            is_periodic=True,
         )
-    return replace(result, intervals=known, answers=answers, hardness_scatter=scatter)
+        listed.append(repeated)
+        if with_tiles and case.filled:
+            listed.append(_filled_otherwise(case, repeated, body))
+    return listed + (_tiles(case, repeated.name, body) if with_tiles else [])
 
 
-def _ratios(values: Real, moved: Sequence[Real]) -> Ends:
-    """Return the least and the largest of moved values over values, and of one.
-
-    Where a value is zero or not known, nothing moves it; a moved one that is not known leaves both
-    ends unknown.
-    """
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratios = np.stack([np.ones_like(values), *(each / values for each in moved)])
-    ratios = np.where((values == 0) | ~np.isfinite(values), 1.0, ratios)
-    return ratios.min(axis=0), ratios.max(axis=0)
+def _repeated(variant: Variant, curves: Curves) -> Pressing | None:
+    """Press the same body periodically, under the forces that it bears."""
+    first, curve = variant.pressing(curves), curves.get(variant.name)
+    if first is None or curve is None or not first.loads.borne(curve).any():
+        return None
+    again = first.loads.under_forces_of(curve)
+    return Pressing(first.body, replace(again, periodic=True, levelled=True))
 
 
-def _times(ends: Ends, ratios: Ends, can_be: Limits = (0.0, np.inf)) -> Ends:
-    """Ends times ratios, within what can be."""
-    with np.errstate(invalid="ignore"):  # nothing, times infinity
-        return within((ends[0] * ratios[0], ends[1] * ratios[1]), can_be)
+def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
+    """The map on fewer points, and its tiles, under the mean pressures of its periodic curve."""
+    if not case.loads.grid_error or not has_tiles(body):
+        return []
+    shape = coarse_shape(body.shape)
+    of_larger: Purpose = "larger surface"
+
+    @cache
+    def coarse() -> Surface:
+        return coarsened(body.detrended())
+
+    @cache
+    def cut(count: int) -> list[Surface]:
+        return tiles_of(coarse(), count)
+
+    def pressing(of: Callable[[], Surface], curves: Curves) -> Pressing | None:
+        curve = curves.get(whole)
+        if curve is None or curve.stiffness_error is None or broken("grid", body):
+            return None
+        borne = case.loads.borne(curve)
+        if not borne.any():
+            return None
+        tile = of()
+        forces = curve.force[borne] / body.area * tile.area
+        settings = replace(
+            case.loads, forces=forces.tolist(), depths=[], n_loads=None, periodic=True
+        )
+        return Pressing(
+            tile, replace(settings, levelled=False, grid_error=False), rtol=_RTOL_OF_TILES
+        )
+
+    listed = []
+    if shape != body.shape:
+        listed.append(Variant(COARSE, of_larger, partial(pressing, coarse), shape, True))
+    for count in (2, 4):
+        for i in range(count**2):
+            of = partial(lambda count, i: cut(count)[i], count, i)
+            part = 1 / count**2
+            listed.append(
+                Variant(tile(count, i), of_larger, partial(pressing, of), shape, True, part)
+            )
+    return listed

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import roughline as rl
-from roughline.assessment.uncertainty import Solution
+from roughline.assessment.uncertainty import intervals_of
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.contact.scaling import PAPER_PUNCH, stiffness_bar
 from roughline.engineering.intervals import Intervals
@@ -41,7 +41,7 @@ def contact_words(pressed: rl.Curve, fields: rl.Fields | None, surface: rl.Surfa
     if not pressed.converged[0] or fields is None:
         reason = rl.Status(pressed.status[0]).reason
         return [_item("stiffness_3d", "k̄ (3D)", "not solved", f"The load was not solved: {reason}")]
-    intervals = Solution.of(pressed, interrupted=False).intervals
+    intervals = intervals_of(pressed)
     return [
         _stiffness(pressed, intervals),
         _area(pressed, intervals),

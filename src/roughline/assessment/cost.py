@@ -1,0 +1,112 @@
+"""What pressing all variants of a case will cost: memory and time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from roughline.assessment.case import Case
+from roughline.assessment.variants import Purpose, Variant
+from roughline.computing.memory import refuse_beyond_memory
+from roughline.contact.arguments import given_half_space, law_of
+from roughline.contact.estimates import (
+    Estimate,
+    duration,
+    estimate,
+    expected_area_fraction,
+    gigabytes,
+    memory_for,
+)
+from roughline.contact.loads import Loads
+from roughline.errors.words import called
+from roughline.topography.body import Surface
+
+Announce = Callable[[str], None]
+"""Called with the cost of a large run in words, before it starts."""
+
+_LARGE = 2**20  # points from which on the cost is announced
+_MANY = 1000  # loads from which on the cost is announced
+# Memory of whole commands on 1024² and 2048² points, as measured. [bytes], and per point
+_BYTES_TO_READ = 30_000_000  # beside that of a press
+_BYTES_OF_OTHER_CURVES = 30  # with materials
+_BYTES_TO_DRAW, _BYTES_OF_FIGURES = 410_000_000, 145  # once the press is over, of the process
+_BYTES_TO_ANSWER = 45_000_000  # beside either, with materials
+
+
+def tell_cost(case: Case, variants: Sequence[Variant], announce: Announce | None) -> None:
+    """Refuse what does not fit into memory, and tell what a large run will cost.
+
+    Raises
+    ------
+    InputError
+        If a variant for the interface alone does not fit.
+    """
+    body = case.body
+    if not isinstance(body, Surface):
+        return
+    large, yielding = body.heights.size >= _LARGE, case.hardness is not None
+    share = _expected_share(case, body) if large else None
+    for each in variants:
+        if each.purpose == "interface":
+            refuse_beyond_memory(
+                memory_for(each.shape, True, 0, yielding=yielding, area_fraction=share),
+                f"pressing {body.shape[0]} x {body.shape[1]} points periodically, for the "
+                "interface alone,",
+                f"take a smaller piece or every other point, or {called('E_star')} instead of "
+                "materials",
+            )
+    if announce is None or not (large or case.loads.count >= _MANY):
+        return
+    fields = [0] if case.question.fields else False
+
+    def cost_of(each: Variant) -> Estimate:
+        return estimate(
+            each.shape,
+            n_loads=case.loads.count,
+            periodic=each.is_periodic,
+            fields=fields if each.purpose == "as asked" else False,
+            yielding=yielding,
+            area_fraction=share,
+        )
+
+    costs = [(each, cost_of(each)) for each in variants]
+    memory = _most_memory(case, body, max(cost.memory for _, cost in costs))
+
+    def seconds(purpose: Purpose) -> float:
+        return sum(each.share * cost.seconds for each, cost in costs if each.purpose == purpose)
+
+    told = f"about {gigabytes(memory)} and {duration(seconds('as asked'))}"
+    if of_filling := seconds("filling"):
+        told += f", {duration(of_filling)} with missing points filled otherwise"
+    if of_interface := seconds("interface"):
+        told += f", then {duration(of_interface)} for the interface"
+    if of_larger := seconds("larger surface"):
+        told += f", and {duration(of_larger)} for the surface around the map"
+    of_one = sum(each.purpose in ("as asked", "interface") for each in variants)
+    if more := math.fsum(each.share for each in variants if each.purpose == "hardness") / of_one:
+        told += (
+            f"; where points yield, up to {more:g} times as long in addition, for elastic "
+            "bodies and for the scatter of the hardness"
+        )
+    announce(f"{body.shape[0]} x {body.shape[1]} points, {case.loads.count} loads: {told}")
+
+
+def _most_memory(case: Case, body: Surface, pressing: int) -> int:
+    """Return the most memory of the process: while it presses, or while it draws. [bytes]"""
+    points, answers = body.heights.size, case.pair is not None
+    most = pressing + _BYTES_TO_READ + (_BYTES_OF_OTHER_CURVES * points if answers else 0)
+    if case.question.fields:
+        most = max(most, _BYTES_TO_DRAW + _BYTES_OF_FIGURES * points)
+    return most + (_BYTES_TO_ANSWER if answers else 0)
+
+
+def _expected_share(case: Case, body: Surface) -> float | None:
+    """Return about what share comes into contact at most; None for spaced loads."""
+    loads = case.loads
+    if loads.n_loads is not None:
+        return None
+    given = Loads("forces" if loads.forces else "depths", np.array(loads.forces or loads.depths))
+    half_space = given_half_space(None, loads.E_star, loads.periodic)
+    return expected_area_fraction(body, half_space, given, law_of(loads.hardness))

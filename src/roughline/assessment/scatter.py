@@ -1,0 +1,188 @@
+"""By how much the scatter of the hardness changes answers, and the answers without yield."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from roughline.assessment.answers import answers_of
+from roughline.assessment.case import Case
+from roughline.assessment.solution import Solution, larger_behind
+from roughline.assessment.variants import (
+    AS_HARD,
+    ELASTIC,
+    HARDEST,
+    SOFTEST,
+    Curves,
+    borne_by,
+    is_same,
+    periodic,
+    ways,
+    yields,
+)
+from roughline.computing.arrays import Real
+from roughline.contact.arguments import law_of
+from roughline.contact.curve import Curve
+from roughline.contact.selection import among_loads, at_loads
+from roughline.engineering.intervals import Ends, Intervals
+from roughline.engineering.rule import Answer, Limits, within
+from roughline.topography.body import Body
+
+
+@dataclass(frozen=True, eq=False)
+class _Way:
+    """The body with another hardness: its curve over all loads, and its answers."""
+
+    curve: Curve
+    answers: Mapping[str, Answer]
+
+
+@dataclass(frozen=True, eq=False)
+class Scatter:
+    """What the hardness leaves open.
+
+    Attributes
+    ----------
+    ratios : mapping of str to tuple of ndarray
+        By the keys of the answers, the least and the largest ratio of each to its value.
+    answers : mapping of str to Answer
+        With intervals that include that.
+    intervals : Intervals or None
+        Of the curve, that include it as well.
+    """
+
+    ratios: Mapping[str, Ends]
+    answers: Mapping[str, Answer]
+    intervals: Intervals | None
+
+
+def elastic_answers(case: Case, curves: Curves, solution: Solution) -> Mapping[str, Answer]:
+    """The answers of elastic bodies; none where nothing yields, and before they were pressed."""
+    if case.hardness is None or not yields(curves.as_asked) or not _is_pressed(curves, ELASTIC):
+        return {}
+    return _of_way(case, curves, solution, ELASTIC, None, case.body).answers
+
+
+def scatter_of(
+    case: Case, curves: Curves, solution: Solution, answers: Mapping[str, Answer]
+) -> Scatter:
+    """Widen all intervals by the effect of the scatter of the hardness.
+
+    The body is pressed again as soft and as hard as it may be. A large one is pressed on half as
+    many points a side, and only the ratios to the answers for the hardness itself are taken. An
+    interval then reaches from its lower end times the least ratio to its upper end times the
+    largest: the errors of the grid and of the hardness are added, not taken as independent. Under
+    loads that the softest body does not bear, the ends are not known. On Ctrl-C there are no
+    intervals, as those without the scatter would be too narrow.
+    """
+    hardness = case.hardness
+    if hardness is None or hardness.factor == 1:
+        return Scatter({}, answers, solution.intervals)
+    if curves.stopped:
+        return Scatter({}, {key: each.bare for key, each in answers.items()}, None)
+    found = {
+        name: _of_way(case, curves, solution, name, value, judged)
+        for name, value, judged in ways(case, hardness)
+        if name != ELASTIC
+    }
+    nominal = found.get(AS_HARD) or _Way(solution.curve, answers)
+    return _widened(solution.intervals, answers, nominal, [found[SOFTEST], found[HARDEST]])
+
+
+def _of_way(
+    case: Case,
+    curves: Curves,
+    solution: Solution,
+    name: str,
+    hardness: float | None,
+    judged: Body,
+) -> _Way:
+    """Answer the same of a body of another hardness, elastic if None; without intervals.
+
+    Loads that this body does not bear are not solved.
+    """
+    asked, pressed = curves.as_asked, curves.whole(name)
+    larger = solution.larger
+    if hardness is not None and is_same(case, asked, hardness, judged):
+        law, settings = law_of(hardness), {**asked.settings, "hardness": hardness}
+        curve = replace(asked, law=law, settings=settings)
+    else:
+        loads = borne_by(case, asked, hardness)
+        if pressed is None:  # it bears none of the loads
+            none = np.flatnonzero(loads)
+            curve = among_loads(at_loads(asked, none), loads)
+            larger = larger.at(none).among(loads) if larger else None
+        else:
+            curve = among_loads(pressed, loads)
+            larger = larger_behind(
+                case, curves, name, case.loads.of_hardness(hardness, loads, asked)
+            )
+            larger = larger.among(loads) if larger else None
+    answers, _ = answers_of(case, Solution(curve, None, larger), body=judged, hardness=hardness)
+    return _Way(curve, answers)
+
+
+def _is_pressed(curves: Curves, name: str) -> bool:
+    """Whether a variant was pressed to its end, and into the periodic half-space as well."""
+    return curves.stopped not in (name, periodic(name)) and curves.get(name) is not None
+
+
+def _widened(
+    known: Intervals | None, answers: Mapping[str, Answer], nominal: _Way, moved: Sequence[_Way]
+) -> Scatter:
+    """Widen the intervals of answers by the ratios of others to nominal ones."""
+    scatter = {
+        key: _ratios(_values(nominal, each), [_values(way, each) for way in moved])
+        for key, each in answers.items()
+    }
+    widened = {}
+    for key, each in answers.items():
+        ends, can_be = each.ends, each.limits
+        if each.rule.is_of_hardness_alone and known is not None:
+            ends = each.values, each.values  # nothing else leaves them open
+        if each.under is not None and each.under[0] in answers:
+            upper, factor = each.under
+            bound = answers[upper].ends
+            if bound is not None:
+                can_be = can_be[0], factor * _times(bound, scatter[upper])[1]
+        low, high = (None, None) if ends is None else _times(ends, scatter[key], can_be)
+        widened[key] = replace(each, low=low, high=high)
+
+    def of_curve(ends: Ends, name: str, most: Real | float = np.inf) -> Ends:
+        values = [getattr(each.curve, name) for each in (nominal, *moved)]
+        return _times(ends, _ratios(values[0], values[1:]), (0.0, most))
+
+    if known is not None:
+        unloading = of_curve(known.unloading, "unloading_stiffness")
+        known = Intervals(
+            of_curve(known.stiffness, "stiffness", unloading[1]),
+            unloading,
+            None if known.area is None else of_curve(known.area, "area_fraction_corrected", 1.0),
+        )
+    return Scatter(scatter, widened, known)
+
+
+def _values(way: _Way, answer: Answer) -> Real:
+    """Values of an answer with another hardness; NaN where it is left out there."""
+    of_way = way.answers.get(answer.key)
+    return np.full_like(answer.values, np.nan) if of_way is None else of_way.values
+
+
+def _ratios(values: Real, moved: Sequence[Real]) -> Ends:
+    """Return the least and the largest of moved values over values, and of one.
+
+    Where a value is zero or not known, nothing moves it; a moved one that is not known leaves both
+    ends unknown.
+    """
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratios = np.stack([np.ones_like(values), *(each / values for each in moved)])
+    ratios = np.where((values == 0) | ~np.isfinite(values), 1.0, ratios)
+    return ratios.min(axis=0), ratios.max(axis=0)
+
+
+def _times(ends: Ends, ratios: Ends, can_be: Limits = (0.0, np.inf)) -> Ends:
+    """Ends times ratios, within what can be."""
+    with np.errstate(invalid="ignore"):  # nothing, times infinity
+        return within((ends[0] * ratios[0], ends[1] * ratios[1]), can_be)
