@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import argparse
 import math
-from functools import partial
 from pathlib import Path
 from zlib import crc32
 
@@ -23,7 +22,7 @@ from scipy.special import erfinv
 import roughline as rl
 from roughline.assessment.assumptions import broken
 from roughline.assessment.larger_surface import larger_surface, roll_offs_along_a_side
-from roughline.assessment.tiles import Beyond, pressed_tiles
+from roughline.assessment.tiles import Beyond, coarsened, tiles_from, tiles_of
 
 WANTED = np.array([0.002, 0.01, 0.05, 0.2, 0.5, 0.8])  # contact area fractions, about
 BARS = {"elastic": None, "yielding": 0.15}  # hardness over E* and the rms slope
@@ -75,7 +74,12 @@ def rows_of(whole, maps, bar):
         curve = pressed(level)
         value = {"k_i": curve.unloading_stiffness / piece.area, "A": curve.area_fraction_corrected}
         beyond = Beyond.of(roll_offs_along_a_side(piece), piece.area, whole.area)
-        tiles = pressed_tiles(level, curve, partial(pressed, rtol=1e-4))
+        coarse = coarsened(level)
+        map_and_tiles = [[coarse], tiles_of(coarse, 2), tiles_of(coarse, 4)]
+        (map_,), halves, quarters = (
+            [pressed(each, rtol=1e-4) for each in some] for some in map_and_tiles
+        )
+        tiles = tiles_from(map_, halves, quarters, coarse.heights.size)
         k, area = curve.unloading_stiffness, curve.area_fraction_corrected
         larger = larger_surface(curve, beyond, tiles, (k, k), (area, area))
         ends = {"k_i": np.array(larger.stiffness.ends) / piece.area, "A": np.array(larger.area)}

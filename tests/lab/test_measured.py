@@ -139,7 +139,7 @@ def test_answers_are_those_of_the_library(page, key):
     question = question_of(said, source)
     with speaking(CONTROLS):
         expected = rl.assess(question)
-    header, arrays = page.ask("answer", said, presses=4)
+    header, arrays = page.ask("answer", said)
     rows = [
         list(table)
         for table in (
@@ -151,7 +151,10 @@ def test_answers_are_those_of_the_library(page, key):
     assert header["curve"] == list(curve_table(expected))
     assert header["remarks"] == list(expected.remarks)
     assert bool(page.steps) == (expected.fields is not None)  # a line scan is solved at once
-    assert all(done <= total for done, total in page.steps)
+    assert page.steps == sorted(page.steps)
+    assert len({total for _, total in page.steps}) <= 1
+    if page.steps:
+        assert page.steps[-1][0] == page.steps[-1][1]
     if expected.fields is not None:
         marks = expected.fields.contact.astype(int) + expected.fields.plastic
         np.testing.assert_array_equal(arrays["area"].T, marks)
@@ -488,12 +491,10 @@ def test_the_page_says_at_which_pressure_what_yields(page):
     assert ["yield", f"at {copper.hardness / 1e6:g} MPa, known to a factor of 1.5"] in header[
         "rows"
     ]
-    assert header["yields"]
     header, _ = page.ask("bodies", {**PAIR, "hardness": "2 GPa"}, sides=None)
     assert ["yield", "at 2 GPa, as given"] in header["rows"]
     header, _ = page.ask("bodies", {**PAIR, "elastic": "yes"}, sides=None)
     assert ["yield", "left out"] in header["rows"]
-    assert not header["yields"]
 
 
 def test_a_joint_is_answered_for_with_its_area(page):

@@ -40,7 +40,7 @@ def assess_body(
     announce : callable, optional
         Called with the cost of a large run in words, before it starts.
     progress : callable, optional
-        Called with (loads done, loads in all).
+        Called with (loads done, loads in all), over all the ways in which the body is pressed.
 
     Returns
     -------

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -34,8 +33,6 @@ from roughline.report.contact_tables import (
 )
 from roughline.topography.body import Surface
 from roughline.units import engineering
-
-_MOST_PRESSES = 16  # of one body: filled in two ways, repeated, elastic, and of other hardnesses
 
 
 @speaking(CONTROLS)
@@ -89,7 +86,7 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
     sources = sources_of(said, session)
     questions = [question_of(said, each) for each in sources]
     keys = {each.path: each.key for each in sources}
-    steps = Steps(arguments, progress)
+    steps = Steps(progress)
 
     def solve(question: Question) -> Assessment:
         assert isinstance(question.body, Path)
@@ -107,35 +104,24 @@ def assessed(arguments: Arguments, progress: Progress) -> Assessment | PartAsses
 
 
 class Steps:
-    """Steps over all the times that bodies are pressed, of which each counts its own loads.
+    """Steps over the loads of all maps.
 
     Parameters
     ----------
-    arguments : mapping
-        Of the task; "presses" says how often each body is pressed.
     progress : callable
         Told (steps done, steps in all).
     """
 
-    def __init__(self, arguments: Mapping[str, Any], progress: Progress) -> None:
-        given = arguments.get("presses")
-        self._presses = given if isinstance(given, int) and 1 <= given <= _MOST_PRESSES else 1
-        self._before, self._last, self._progress = 0, 0, progress
-        self._map, self._maps = 0, 1
+    def __init__(self, progress: Progress) -> None:
+        self._progress, self._map, self._maps = progress, 0, 1
 
     def __call__(self, done: int, total: int) -> None:
-        """Tell of the loads of one pressing."""
-        if done < self._last:
-            self._before += 1
-        self._last = done
-        presses = max(self._presses, self._before + 1)
-        before = self._map * presses + self._before
-        self._progress(before * total + done, self._maps * presses * total)
+        """Tell of the loads of one map."""
+        self._progress(self._map * total + done, self._maps * total)
 
     def of_map(self, done: int, total: int) -> None:
         """Begin the next of several maps."""
         self._map, self._maps = done, total
-        self._before = self._last = 0
 
 
 def _modulus(result: Assessment) -> str:

@@ -65,7 +65,6 @@ def bodies(arguments: Arguments, progress: Progress) -> bytes:
         "rows": rows,
         "loads": list(meanings),
         "notes": notes,
-        "yields": hardness is not None and not isinstance(body, Line),
     }
     return frame(header)
 

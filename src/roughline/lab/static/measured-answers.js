@@ -116,18 +116,8 @@ export class Answers {
   // Press the body, or all maps of a part, of which one is shown alone.
   #press(given = {}) {
     this.#view.find('[data-result="answers"]').classList.add("dimmed");
-    const asked = this.#now({presses: this.#presses(), map: 0, ...given});
+    const asked = this.#now({map: 0, ...given});
     this.#ask("measured.answer", "answers", asked, (answer) => this.#show(answer, asked.settings));
-  }
-
-  // How often a body is pressed: again where points were filled, for the larger surface, and, where it
-  // yields, without yield and as soft and as hard as it may be.
-  #presses() {
-    const {body, isFilled, state, yields} = this.#view;
-    if (!body || body.kind !== "surface") return 1;
-    const isRepeated = state.boundary === "periodic" || Boolean(state.joint_area);
-    const again = body.is_cut_out && !isRepeated && state.bodies !== "modulus";
-    return ((isFilled ? 2 : 1) + (yields ? 3 : 0)) * (again ? 2 : 1);
   }
 
   #show(answer, settings) {
@@ -173,7 +163,7 @@ export class Answers {
   }
 
   #report(given = {}) {
-    const asked = this.#now({presses: this.#presses(), ...given});
+    const asked = this.#now(given);
     this.#ask("measured.report", "report", asked, ({files}) => {
       this.#note("report", {...asked, files});
       this.#showLinks(files);

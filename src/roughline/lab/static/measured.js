@@ -118,12 +118,9 @@ class Measured {
   // The same of the one map that is shown.
   get stateOfMap() { return this.#part.shown ? {...this.state, file: this.#part.shown} : this.state; }
   get files() { return (this.#controls.said.file ?? "").split(",").filter(Boolean); }
-  get yields() { return this.#yields; }
-  #yields = false;
   get hasSource() { return this.files.length > 0 || Boolean(this.#controls.said.example); }
   get body() { return this.hasSource ? this.#prepared?.body ?? null : null; }
   get name() { return this.#read?.name ?? ""; }
-  get isFilled() { return (this.#prepared?.missing ?? 0) > 0; }
 
   // Digests and names of the files that all is set for, whether they are here or have to be chosen.
   get #of() { return this.files.length ? this.files.map((key) => this.#brought.get(key)) : this.#wanted; }
@@ -345,8 +342,7 @@ class Measured {
     // the file tells more of how it is read and prepared
     const keys = this.hasSource ? OF_BODIES : [...OF_READING, ...OF_PREPARATION, ...OF_BODIES];
     this.#link.ask("measured.bodies", "measured bodies", {...asked, sides: this.body?.sides ?? null}, {
-      answer: ({rows, loads, notes, yields, refused}) => {
-        this.#yields = yields;
+      answer: ({rows, loads, notes, refused}) => {
         this.#settle("bodies", asked, refused, keys);
         fillTable("measured-bodies", ["", ""], rows);
         fillList(this, "loads", loads);

@@ -1,0 +1,87 @@
+"""In how many ways a body is pressed: the list is an upper bound, told before and kept to."""
+
+import numpy as np
+import pytest
+
+import roughline as rl
+from roughline.assessment import loads as load_cases
+from roughline.assessment.case import Case
+from roughline.assessment.variants import AS_ASKED, Stopped, press_all, variants_of
+
+PAIR = "steel,copper"
+SURFACE = rl.SelfAffine(hurst=0.8, length=1e-3, rms_height=1e-6, q_roll=2.5e4).surface(64, 7)
+SURFACE = rl.Surface(SURFACE.heights, SURFACE.sizes, "m", is_cut_out=False)
+MAP = rl.Surface(SURFACE.heights, SURFACE.sizes, "m", is_cut_out=True)
+
+ASKED = {
+    "a modulus": (SURFACE, {"E_star": 1e11}, 1),
+    "elastic bodies": (SURFACE, {"materials": PAIR, "elastic": True}, 1),
+    "a known hardness": (SURFACE, {"materials": PAIR, "hardness": "1 GPa"}, 2),
+    "a hardness of the table": (SURFACE, {"materials": PAIR}, 4),
+    "a periodic map": (MAP, {"materials": PAIR, "elastic": True, "periodic": True}, 1 + 4 + 16),
+    "a map": (MAP, {"materials": PAIR, "elastic": True}, 2 + 4 + 16),
+    "a map that yields": (MAP, {"materials": PAIR}, 2 * 4 + 4 + 16),
+}
+
+
+@pytest.fixture
+def pressed(monkeypatch):
+    """What was pressed, in its order."""
+    done, original = [], load_cases.press
+    monkeypatch.setattr(
+        load_cases, "press", lambda body, **k: done.append(body.shape) or original(body, **k)
+    )
+    return done
+
+
+@pytest.mark.parametrize("asked", ASKED)
+def test_no_body_is_pressed_more_often_than_the_list_says(pressed, asked):
+    body, settings, most = ASKED[asked]
+    question = rl.Question(body, loads=["5 MPa", "20 MPa"], **settings)
+    assert len(variants_of(Case.of(question))) == most
+    steps = []
+    rl.assess(question, progress=lambda *step: steps.append(step))
+    assert 0 < len(pressed) <= most
+    assert steps == sorted(steps)
+    assert len({total for _, total in steps}) == 1
+    assert steps[-1][0] == steps[-1][1]
+
+
+def test_what_is_needless_is_not_pressed(pressed):
+    """Under light loads nothing yields, so that elastic and harder bodies are no others."""
+    question = rl.Question(SURFACE, "alumina,glass", loads="0.5 N")
+    assert len(variants_of(Case.of(question))) == 4
+    rl.assess(question)
+    assert len(pressed) == 2  # as asked, and the softest
+
+
+@pytest.mark.parametrize("stop_at", [0, 1, 5])
+def test_an_interrupt_carries_what_is_done(monkeypatch, stop_at):
+    case = Case.of(rl.Question(MAP, PAIR, loads=["5 MPa", "20 MPa"], elastic=True))
+    variants, count, original = variants_of(case), [], load_cases.press
+
+    def press(body, *, progress, **named):
+        count.append(body)
+
+        def stop(done, total):
+            if len(count) > stop_at:
+                raise KeyboardInterrupt
+
+        return original(body, progress=stop, **named)
+
+    monkeypatch.setattr(load_cases, "press", press)
+    with pytest.raises(Stopped) as stop:
+        press_all(variants, case.loads.count, lambda done, total: None)
+    curves = stop.value.curves
+    assert list(curves.by_name) == [each.name for each in variants[: stop_at + 1]]
+    assert curves.stopped == variants[stop_at].name
+    assert curves.whole(curves.stopped) is None
+    assert curves.as_asked is curves.by_name[AS_ASKED]
+    assert curves.as_asked.converged.all() == (stop_at > 0)
+    count.clear()
+    result = rl.assess(case.question, progress=lambda done, total: None)
+    assert result.interrupted
+    interface = result.answers.get("interface_stiffness")
+    assert interface is None or interface.ends is None
+    known = np.isfinite(result.answers["contact_stiffness"].values)
+    assert known.tolist() == [True, stop_at > 0]  # a load that was solved before is kept
