@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from roughline.paper.claim import by_dimension
+from roughline.paper.claim import judged
 from roughline.paper.claims import judge_claims
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Verdict
+from roughline.statistics.verdict import Claim, Verdict
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +92,7 @@ def test_what_the_grid_decides_stands_with_its_grid(claims):
 )
 def test_a_verdict_needs_the_whole_interval(ends, expected):
     sure = IntervalEstimate(0.0, -0.01, 0.01)
-    cases = [(2.0, IntervalEstimate(0.0, *ends)), (3.0, sure)]
-    whole, in_words = by_dimension(cases, (-0.05, 0.05))
-    assert whole is expected
-    assert in_words.startswith(expected)
+    numbers = {"at D_f = 2.0": IntervalEstimate(0.0, *ends), "at D_f = 3.0": sure}
+    claim = Claim.of("", "", "", judged(numbers, (-0.05, 0.05)))
+    assert claim.verdict is expected
+    assert claim.cases.startswith(expected)

@@ -4,46 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from roughline.paper import claims_on_computing as on_computing
-from roughline.paper import claims_on_contact as on_contact
-from roughline.paper import claims_on_exponents as on_exponents
-from roughline.paper.claim import STIFFNESS_TOLERANCE, Claim
-from roughline.paper.stated import EXPONENT_TOLERANCE
+from roughline.paper.claims_on_contact import claims_on_contact
+from roughline.paper.claims_on_exponents import claims_on_exponents
+from roughline.paper.stated import EXPONENT_TOLERANCE, STIFFNESS_TOLERANCE
 from roughline.report.page import Section, Table
 
 if TYPE_CHECKING:
     from roughline.paper.results import PaperResults
+    from roughline.statistics.verdict import Claim
 
 
 def judge_claims(results: PaperResults) -> list[Claim]:
     """Put each claim of the paper beside the same number here, with a verdict."""
-    return [
-        on_exponents.constant_exponent(results, "1D", "over low and medium forces (§6, §8)"),
-        on_exponents.constant_exponent(results, "3D", "k = ζ F^α (eq. 5)"),
-        on_exponents.lowest_forces(results, "1D"),
-        on_exponents.lowest_forces(results, "3D"),
-        on_exponents.ends_of_reduced(results),
-        on_exponents.between_half_and_four_fifths(results, "1D"),
-        on_exponents.between_half_and_four_fifths(results, "3D"),
-        on_exponents.great_accuracy(results),
-        on_exponents.linear_in_dimension(results),
-        on_exponents.scaling_argument(results, "1D"),
-        on_exponents.scaling_argument(results, "3D"),
-        on_exponents.small_discrepancy(results, "1D"),
-        on_exponents.small_discrepancy(results, "3D"),
-        on_exponents.scaling_identity(),
-        on_exponents.same_behaviour(results),
-        on_contact.stiffness_agrees(results),
-        on_contact.area_is_linear(results),
-        on_contact.equal_moments(results),
-        on_contact.punch_constant(results),
-        on_contact.configuration_alone(results),
-        on_contact.saturates_early(results),
-        on_contact.saturates_with_all_springs(results),
-        on_computing.no_difficulties(results),
-        *on_computing.reduced_within_minutes(results),
-        *on_computing.full_takes_weeks(results),
-    ]
+    return [*claims_on_exponents(results), *claims_on_contact(results)]
 
 
 def claims_section(claims: list[Claim]) -> Section:

@@ -15,10 +15,11 @@ ModelLabel = Literal["1D", "3D"]
 
 EXPONENT_TOLERANCE = 0.05
 """How near exponents must come; the paper's own plots show no more."""
+STIFFNESS_TOLERANCE = 0.10
+"""How near stiffnesses must come, as a share."""
 SMALL_DISCREPANCY = 2 * EXPONENT_TOLERANCE
 """What a "small discrepancy" of exponents may be."""
-EXTREMELY_WELL_UP_TO = 2.6
-"""Fractal dimension up to which the paper finds its scaling argument to hold extremely well."""
+_EXTREMELY_WELL_UP_TO = 2.6  # D_f up to which the scaling argument holds "extremely well"
 ENDS_OF_REDUCED = {2.0: 0.5, 3.0: 0.75}
 """Exponents of the reduced model at the ends of the fractal dimensions (§6)."""
 
@@ -49,7 +50,7 @@ class StatedExponent:
 
 def is_smooth(fractal_dimension: float) -> bool:
     """Whether the scaling argument should hold extremely well."""
-    return fractal_dimension <= EXTREMELY_WELL_UP_TO + 1e-9
+    return fractal_dimension <= _EXTREMELY_WELL_UP_TO + 1e-9
 
 
 def stated_exponents(model: ModelLabel, fractal_dimension: float) -> tuple[StatedExponent, ...]:

@@ -32,10 +32,10 @@ if TYPE_CHECKING:
     import xarray
 
     from roughline.contact.comparison.trust import Difference
-    from roughline.paper.claim import Claim
     from roughline.paper.laws import DimensionLaws
     from roughline.paper.sensitivity import Sensitivity
     from roughline.paper.windows import Window
+    from roughline.statistics.verdict import Claim
 
 _GRID_FORCES = (0.01, 0.1, 1.0)
 

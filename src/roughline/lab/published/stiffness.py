@@ -20,7 +20,7 @@ from roughline.lab.published.ensembles import (
 )
 from roughline.lab.published.state import PublishedState
 from roughline.lab.server.tasks import Progress
-from roughline.paper.claim import by_dimension
+from roughline.paper.claim import at
 from roughline.paper.exponents import exponent_estimate, prefactor_estimate
 from roughline.paper.stated import (
     EXPONENT_TOLERANCE,
@@ -29,9 +29,8 @@ from roughline.paper.stated import (
     stated_exponents,
 )
 from roughline.paper.tables import estimate_cell
-from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import PowerLaw
-from roughline.statistics.verdict import joint_verdict
+from roughline.statistics.verdict import Case, Verdict, in_words, joint_verdict
 from roughline.units import decimal
 
 _DIGITS = 3
@@ -193,13 +192,10 @@ def _strip(model: c.ModelLabel, laws: Mapping[float, PowerLaw]) -> list[dict[str
 
 def _case_by_case(stated: Mapping[float, StatedExponent], laws: Mapping[float, PowerLaw]) -> str:
     """The verdict in words, case by case where the cases differ."""
-    cases = []
-    for dimension, each in stated.items():
-        off = exponent_estimate(laws[dimension]) - each.value
-        in_tolerances = (value / each.tolerance for value in (off.value, off.low, off.high))
-        cases.append((dimension, IntervalEstimate(*in_tolerances)))
-    verdict, words = by_dimension(cases, (-1, 1))
-    return "at every D_f" if words == verdict else words
+    words = in_words(
+        [Case(at(d), each.verdict(exponent_estimate(laws[d]))) for d, each in stated.items()]
+    )
+    return "at every D_f" if words in set(Verdict) else words
 
 
 def _model_name(model: c.ModelLabel) -> str:
