@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,10 +11,10 @@ from matplotlib.ticker import PercentFormatter
 
 from roughline.contact import scaling
 from roughline.paper.contact_area import mean_area
+from roughline.paper.figures import looks
 from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
 from roughline.plot.style import (
     FORCE_LABEL,
-    MARKERS,
     OPEN,
     PAGE,
     SHADE,
@@ -35,9 +34,7 @@ if TYPE_CHECKING:
     from roughline.paper.laws import DimensionLaws
 
 CONVERGENCE_DIMENSIONS = (2.0, 2.4, 2.8)
-LINE_STYLES = (":", "-.", "--", "-")
-
-Colour = tuple[float, float, float, float]
+_LINE_STYLES = (":", "-.", "--", "-")
 
 
 def area_law_figure(full: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
@@ -52,8 +49,7 @@ def area_law_figure(full: xarray.Dataset, laws: list[DimensionLaws]) -> Figure:
 def _draw_area(axes: Axes, full: xarray.Dataset) -> None:
     axes.axvspan(*WINDOW_AREA, **SHADE)
     dimensions = full.fractal_dimension.values
-    looks = zip(colours(dimensions.size), cycle(MARKERS), strict=False)
-    for dimension, (colour, marker) in zip(dimensions, looks, strict=False):
+    for dimension, colour, marker in looks(dimensions):
         one = full.sel(fractal_dimension=dimension)
         area, resolved = mean_area(one)
         force = one.force_bar.values
@@ -104,8 +100,7 @@ def both_models_figure(full: xarray.Dataset, matched: xarray.Dataset) -> Figure:
     left, right = figure.subplots(1, 2)
     dimensions = np.intersect1d(full.fractal_dimension, matched.fractal_dimension)
     force = full.force_bar.values
-    looks = zip(colours(dimensions.size), cycle(MARKERS), strict=False)
-    for dimension, (colour, marker) in zip(dimensions, looks, strict=False):
+    for dimension, colour, marker in looks(dimensions):
         stiffness_1d, stiffness_3d = (
             data.sel(fractal_dimension=dimension).stiffness.values for data in (matched, full)
         )
@@ -159,7 +154,7 @@ def grid_convergence_figure(grids: dict[int, xarray.Dataset]) -> Figure:
 
 
 def _draw_ratios_to_finest(
-    axes: Axes, grids: dict[int, xarray.Dataset], dimension: float, name: str, colour: Colour
+    axes: Axes, grids: dict[int, xarray.Dataset], dimension: float, name: str, colour: Any
 ) -> None:
     """Draw a quantity of one fractal dimension on each grid over that on the finest grid."""
     surfaces = {
@@ -168,7 +163,7 @@ def _draw_ratios_to_finest(
         if dimension in data.fractal_dimension.values
     }
     finest = surfaces.pop(max(surfaces))
-    for (n, surface), style in zip(surfaces.items(), LINE_STYLES, strict=False):
+    for (n, surface), style in zip(surfaces.items(), _LINE_STYLES, strict=False):
         shared = np.intersect1d(surface.force_bar, finest.force_bar)
         coarse, fine = (each.sel(force_bar=shared) for each in (surface, finest))
         resolved = coarse.resolved.values == 1

@@ -38,23 +38,11 @@ def exponent_of_means(
 ) -> IntervalEstimate:
     """Return the exponent of mean stiffness over mean force in a window of the mean force.
 
-    Parameters
-    ----------
-    data : Dataset
-        An ensemble at one fractal dimension.
-    window : tuple of float
-        Smallest and largest mean force.
-    fixed : {"force", "depth", "level"}
-        Whether realisations are averaged under the same force, at the same depth since their first
-        touch, or at the same height of the rigid plane above their mean.
-    averaging : {"arithmetic", "geometric"}
-        Which mean, of both force and stiffness. At fixed level a geometric mean is that of the
-        levels at which all realisations touch.
-
-    Returns
-    -------
-    IntervalEstimate
-        By least squares of the logarithms; no estimate where the means do not cover the window.
+    It is that of an ensemble at one fractal dimension, by least squares of the logarithms; there is
+    no estimate where the means do not cover the window. Realisations are averaged under the same
+    force, at the same depth since their first touch, or at the same height of the rigid plane above
+    their mean (level). At fixed level a geometric mean is that of the levels at which all
+    realisations touch.
     """
     if fixed == "force":
         stiffness, _ = converged_stiffness(data, window)

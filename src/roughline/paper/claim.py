@@ -19,9 +19,7 @@ if TYPE_CHECKING:
     Numbers = Mapping[str, IntervalEstimate]
     Range = tuple[float, float]
 
-EXACT = "exact"
-"""Stands for the interval of a number that does not come from a sample."""
-_ENOUGH_LOADS = "three loads or more across this range"
+ENOUGH_LOADS = "three loads or more across this range"
 
 
 def claim_about_every_dimension(
@@ -31,24 +29,12 @@ def claim_about_every_dimension(
     numbers: Numbers,
     allowed: Range,
     form: str = ".3f",
-    needed: str = _ENOUGH_LOADS,
+    needed: str = ENOUGH_LOADS,
 ) -> Claim:
-    """Return a claim about a number that is judged for every fractal dimension.
+    """Return a claim about numbers that are judged by the range that the statement allows.
 
-    Parameters
-    ----------
-    statement, basis : str
-        As in :class:`Claim`.
-    found : str
-        What was found; the numbers stand in the place of "{}".
-    numbers : mapping of str to IntervalEstimate
-        The numbers that are judged, by where they are.
-    allowed : tuple of float
-        What the statement allows.
-    form : str, optional
-        Format of the numbers.
-    needed : str, optional
-        What the data lack where the number is not known at any fractal dimension.
+    In what was found they stand in the place of "{}". Where none is known, the data lack what is
+    needed.
     """
     if not known(numbers):
         return not_judged(statement, basis, needed)
@@ -63,7 +49,12 @@ def not_judged(statement: str, basis: str, needed: str) -> Claim:
 
 
 def exact_claim(
-    statement: str, found: str, basis: str, on_it: Verdict, remark: str = "", interval: str = EXACT
+    statement: str,
+    found: str,
+    basis: str,
+    on_it: Verdict,
+    remark: str = "",
+    interval: str = "exact",
 ) -> Claim:
     """Return a claim that no interval decides, with a remark on its verdict."""
     return Claim(statement, found, interval, basis, on_it, f"{on_it}{remark}")

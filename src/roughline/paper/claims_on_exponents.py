@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.paper.claim import (
+    ENOUGH_LOADS,
     around,
     basis_in,
     bodies_of,
@@ -34,10 +35,11 @@ from roughline.statistics.power_law import linear_exponent, scaling_exponent
 from roughline.statistics.verdict import Claim, Verdict
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     import xarray
 
+    from roughline.paper.claim import Range
     from roughline.paper.exponents import LocalExponents
     from roughline.paper.laws import DimensionLaws
     from roughline.paper.results import PaperResults
@@ -52,19 +54,60 @@ _BOTH_MODELS = "lines with the waves and the loads of the surfaces, across this 
 def claims_on_exponents(results: PaperResults) -> list[Claim]:
     """Judge them all."""
     windows = results.windows
-    both = [each for each in (results.full, results.matched) if each is not None]
+    same_waves = [each for each in (results.full, results.matched) if each is not None]
     reduced = _Model("1D", results.reduced, windows.reduced, results.laws)
     full = _Model("3D", results.full, windows.full, results.laws)
+    both = (reduced, full)
     return [
         _constant(reduced, "over low and medium forces (§6, §8)"),
         _constant(full, "k = ζ F^α (eq. 5)"),
-        *(_lowest_forces(model) for model in (reduced, full)),
+        *(
+            model.claim(
+                "the power law holds down to the lowest forces that the grid represents (§6)",
+                "α of the lowest half decade, less that of the window: {}",
+                lambda model, laws: model.local(laws).at_lowest,
+            )
+            for model in both
+        ),
         _ends_of_reduced(reduced),
-        *(_between_half_and_four_fifths(model) for model in (reduced, full)),
+        *(
+            model.claim(
+                "α between 0.5 and 0.8 for D_f from 2 to 3, in both investigations (§7)",
+                "{}",
+                _Model.exponent,
+                _RANGE_OF_BOTH,
+                form=".3f",
+            )
+            for model in both
+        ),
         _great_accuracy(reduced),
-        _linear_in_dimension(full),
-        *(_scaling_argument(model) for model in (reduced, full)),
-        *(_small_discrepancy(model) for model in (reduced, full)),
+        full.claim(
+            "α ≈ 0.2567 D_f (§7)",
+            "off by {}",
+            lambda model, laws: model.exponent(laws) - linear_exponent(laws.fractal_dimension),
+        ),
+        *(
+            model.claim(
+                "α = 1 / (4 - D_f) extremely well for D_f ≤ 2.6 (eq. 14, §7)",
+                "off by {}",
+                _Model.off_scaling,
+                needed="D_f ≤ 2.6 with loads across this range",
+                of=is_smooth,
+            )
+            for model in both
+        ),
+        *(
+            model.claim(
+                "a small discrepancy from 1 / (4 - D_f) for D_f > 2.6 (§7; small: "
+                f"{SMALL_DISCREPANCY:g})",
+                "off by {}",
+                _Model.off_scaling,
+                around(0, SMALL_DISCREPANCY),
+                needed="D_f > 2.6 with loads across this range",
+                of=lambda dimension: not is_smooth(dimension),
+            )
+            for model in both
+        ),
         exact_claim(
             "Entering eqs. 9, 11 and 12 in eq. 5 underlines its validity (§7)",
             "it gives 1 = 1^α: true for every α, and for any other law k̄(F̄), as k̄ and F̄ are "
@@ -76,7 +119,7 @@ def claims_on_exponents(results: PaperResults) -> list[Claim]:
         claim_about_every_dimension(
             "The same power-law behaviour in both models (abstract)",
             "α 3D less α 1D with the same waves: {}",
-            basis_in(windows.full, *both),
+            basis_in(windows.full, *same_waves),
             by_dimension(results.laws, lambda laws: laws.models_apart),
             _NO_CHANGE,
             "+.3f",
@@ -85,7 +128,7 @@ def claims_on_exponents(results: PaperResults) -> list[Claim]:
         claim_about_every_dimension(
             "Excellent agreement of the stiffness of the two models (abstract, §6)",
             "k / (E* L), 3D over 1D with the same waves: {}",
-            f"{basis_in(WINDOW_AGREEMENT, *both)}; all loads weighted equally",
+            f"{basis_in(WINDOW_AGREEMENT, *same_waves)}; all loads weighted equally",
             by_dimension(results.laws, lambda laws: laws.agreement),
             around(1, STIFFNESS_TOLERANCE),
             ".2f",
@@ -102,6 +145,23 @@ class _Model:
     data: xarray.Dataset
     window: Window
     laws: Sequence[DimensionLaws]
+
+    def claim(
+        self,
+        said: str,
+        found: str,
+        number: Callable[[_Model, DimensionLaws], IntervalEstimate],
+        allowed: Range = _NO_CHANGE,
+        *,
+        form: str = "+.3f",
+        needed: str = ENOUGH_LOADS,
+        of: Callable[[float], bool] = lambda dimension: True,
+    ) -> Claim:
+        """Return a claim about a number of its laws, at some or at every fractal dimension."""
+        laws = [each for each in self.laws if of(each.fractal_dimension)]
+        numbers = by_dimension(laws, lambda each: number(self, each))
+        said = f"{self.label}: {said}"
+        return claim_about_every_dimension(said, found, self.basis, numbers, allowed, form, needed)
 
     @property
     def basis(self) -> str:
@@ -139,19 +199,6 @@ def _constant(model: _Model, said: str) -> Claim:
     )
 
 
-def _lowest_forces(model: _Model) -> Claim:
-    """Judge whether the exponent of the window holds at the lowest loads of the grid."""
-    return claim_about_every_dimension(
-        f"{model.label}: the power law holds down to the lowest forces that the grid represents "
-        "(§6)",
-        "α of the lowest half decade, less that of the window: {}",
-        model.basis,
-        by_dimension(model.laws, lambda laws: model.local(laws).at_lowest),
-        _NO_CHANGE,
-        "+.3f",
-    )
-
-
 def _ends_of_reduced(model: _Model) -> Claim:
     """Judge whether the reduced model has the paper's exponents at D_f = 2 and 3."""
     statement = "1D: α from 0.5 to 0.75 as D_f goes from 2 to 3 (§6)"
@@ -169,70 +216,15 @@ def _ends_of_reduced(model: _Model) -> Claim:
     return Claim.of(statement, found, intervals(ends), judged(off, _NO_CHANGE), model.basis)
 
 
-def _between_half_and_four_fifths(model: _Model) -> Claim:
-    """Judge whether all exponents lie in the range that the paper gives for both models."""
-    return claim_about_every_dimension(
-        f"{model.label}: α between 0.5 and 0.8 for D_f from 2 to 3, in both investigations (§7)",
-        "{}",
-        model.basis,
-        by_dimension(model.laws, model.exponent),
-        _RANGE_OF_BOTH,
-    )
-
-
 def _great_accuracy(model: _Model) -> Claim:
     """Judge whether the exponent of the reduced model is the same in another window."""
     widest = max(float(np.ptp(laws.reduced.exponent_interval)) / 2 for laws in model.laws)
     low, high = OTHER_WINDOWS_REDUCED[-1]
-    return claim_about_every_dimension(
-        "1D: α is deduced with great accuracy (§7)",
+    return model.claim(
+        "α is deduced with great accuracy (§7)",
         f"± {widest:.3f} or less in a given window, but lower by {{}} in the window F̄ = {low:g} to "
         f"{high:g}; averages at fixed level differ by more",
-        model.basis,
-        by_dimension(model.laws, lambda laws: laws.reduced_by_window[-1]),
-        _NO_CHANGE,
+        lambda model, laws: laws.reduced_by_window[-1],
+        form=".3f",
         needed=f"loads across this range and from F̄ = {low:g} to {high:g}",
-    )
-
-
-def _linear_in_dimension(model: _Model) -> Claim:
-    """Judge whether the exponent of the full model is 0.2567 D_f."""
-    return claim_about_every_dimension(
-        "3D: α ≈ 0.2567 D_f (§7)",
-        "off by {}",
-        model.basis,
-        by_dimension(
-            model.laws, lambda laws: model.exponent(laws) - linear_exponent(laws.fractal_dimension)
-        ),
-        _NO_CHANGE,
-        "+.3f",
-    )
-
-
-def _scaling_argument(model: _Model) -> Claim:
-    """Judge whether eq. 14 gives the exponent of smooth surfaces."""
-    smooth = [laws for laws in model.laws if is_smooth(laws.fractal_dimension)]
-    return claim_about_every_dimension(
-        f"{model.label}: α = 1 / (4 - D_f) extremely well for D_f ≤ 2.6 (eq. 14, §7)",
-        "off by {}",
-        model.basis,
-        by_dimension(smooth, model.off_scaling),
-        _NO_CHANGE,
-        "+.3f",
-        "D_f ≤ 2.6 with loads across this range",
-    )
-
-
-def _small_discrepancy(model: _Model) -> Claim:
-    """Judge whether eq. 14 differs little from the exponent of rough surfaces."""
-    rough = [laws for laws in model.laws if not is_smooth(laws.fractal_dimension)]
-    return claim_about_every_dimension(
-        f"{model.label}: a small discrepancy from 1 / (4 - D_f) for D_f > 2.6 (§7; small: "
-        f"{SMALL_DISCREPANCY:g})",
-        "off by {}",
-        model.basis,
-        by_dimension(rough, model.off_scaling),
-        around(0, SMALL_DISCREPANCY),
-        "+.3f",
-        "D_f > 2.6 with loads across this range",
     )

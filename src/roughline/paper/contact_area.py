@@ -46,12 +46,7 @@ class AreaLaw:
 def mean_area(one: xarray.Dataset) -> tuple[Real, Mask]:
     """Return the mean real area fraction at each load, corrected for its outline.
 
-    Returns
-    -------
-    area : ndarray, shape (loads,)
-        Over the nominal area. [1]
-    resolved : ndarray of bool, shape (loads,)
-        Whether ten cells or more touch in every realisation.
+    Beside it stands whether ten cells or more touch in every realisation.
     """
     area = np.nanmean(one.area_fraction_corrected.values, axis=0)
     return area, (one.resolved.values == 1).all(axis=0)

@@ -45,10 +45,7 @@ class LocalExponents:
 def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Dataset:
     """Fit the power law for every fractal dimension of an ensemble, in several windows.
 
-    Returns
-    -------
-    Dataset
-        exponent, low, high, prefactor and left_out over (window, fractal_dimension).
+    The result has exponent, low, high, prefactor and left_out over (window, fractal_dimension).
     """
     import xarray  # here because it loads slowly
 
@@ -58,9 +55,8 @@ def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Data
     for j, dimension in enumerate(dimensions):
         one = data.sel(fractal_dimension=dimension)
         for i, window in enumerate(windows):
-            left_out = converged_stiffness(one, window)[1] if is_fitted(one, window) else 0
-            law = law_of(one, window)
-            fitted[:, i, j] = (law.exponent, *law.exponent_interval, law.prefactor, left_out)
+            law, missing = law_of(one, window), left_out(one, window)
+            fitted[:, i, j] = (law.exponent, *law.exponent_interval, law.prefactor, missing)
     variables = {
         name: (("window", "fractal_dimension"), values)
         for name, values in zip(names, fitted, strict=True)
@@ -76,14 +72,9 @@ def exponents_of(data: xarray.Dataset, windows: Sequence[Window]) -> xarray.Data
 
 
 def converged_stiffness(data: xarray.Dataset, window: Window) -> tuple[Real, int]:
-    """Return the raw stiffness of the realisations that converged throughout a window.
+    """Return the stiffness of the realisations that converged throughout a window.
 
-    Returns
-    -------
-    stiffness : ndarray, shape (realisations, loads)
-        At all loads, k / (E* L). [1]
-    left_out : int
-        Number of realisations that did not converge throughout the window.
+    It is k / (E* L) at all loads; beside it stands the number of realisations that are left out.
     """
     stiffness = data.stiffness.values
     inside = inside_window(data.force_bar.values, window)
@@ -108,6 +99,13 @@ def is_fitted(data: xarray.Dataset, window: Window) -> bool:
     inside = inside_window(data.force_bar.values, window)
     converged = np.isfinite(data.stiffness.values[:, inside]).all(axis=1)
     return covers(data.force_bar.values, window) and bool(converged.any())
+
+
+def left_out(data: xarray.Dataset | None, window: Window) -> int:
+    """Count the realisations that a fit leaves out."""
+    if data is None or not is_fitted(data, window):
+        return 0
+    return converged_stiffness(data, window)[1]
 
 
 def law_of(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import cycle
 from typing import TYPE_CHECKING, Any
 
@@ -182,8 +183,7 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
     axes = figure.add_subplot()
     axes.axvspan(*window, **SHADE)
     dimensions = data.fractal_dimension.values
-    looks = zip(colours(dimensions.size), cycle(MARKERS), strict=False)
-    for dimension, (colour, marker) in zip(dimensions, looks, strict=False):
+    for dimension, colour, marker in looks(dimensions):
         one = data.sel(fractal_dimension=dimension)
         curve = mean_curve(one, punch)
         force, mean, resolved = curve.force_bar, curve.mean, curve.resolved
@@ -202,6 +202,11 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
     label_decades(axes)
     legend_dimensions(axes, dimensions)
     return figure
+
+
+def looks(dimensions: Real) -> Iterator[tuple[float, Any, str]]:
+    """Return fractal dimensions with their colours and marks."""
+    return zip(dimensions, colours(dimensions.size), cycle(MARKERS), strict=False)
 
 
 def _draw_topography(axes: Any, heights: Real) -> None:

@@ -10,11 +10,10 @@ import numpy as np
 from roughline.paper.contact_area import AreaLaw, area_law, saturation
 from roughline.paper.exponents import (
     LocalExponents,
-    converged_stiffness,
     difference_between_models,
     difference_between_windows,
-    is_fitted,
     law_of,
+    left_out,
     local_exponents,
     surfaces_less_lines,
 )
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     import xarray
 
     from roughline.computing.arrays import Indices
-    from roughline.paper.windows import Window, Windows
+    from roughline.paper.windows import Windows
     from roughline.statistics.bootstrap import IntervalEstimate
     from roughline.statistics.power_law import PowerLaw
 
@@ -84,15 +83,9 @@ def dimension_laws(
     matched: xarray.Dataset | None,
     windows: Windows,
 ) -> DimensionLaws:
-    """Evaluate the three ensembles of one fractal dimension.
+    """Evaluate the lines, the surfaces and the lines with their waves of one fractal dimension.
 
-    Parameters
-    ----------
-    reduced, full, matched : Dataset
-        Lines, surfaces, and lines with the waves of the surfaces, of this fractal dimension. Where
-        there are no such lines, or loads do not cover a window, numbers are NaN.
-    windows : Windows
-        Where exponents are fitted.
+    Where there are no such lines, or loads do not cover a window, numbers are NaN.
     """
     in_window = inside_window(full.force_bar.values, windows.full)
     return DimensionLaws(
@@ -114,20 +107,13 @@ def dimension_laws(
         corrected=area_law(full, "area_fraction_corrected"),
         saturation=saturation(full),
         unresolved=1 - _share(full.resolved.values[:, in_window]),
-        left_out=_left_out(reduced, windows.reduced) + _left_out(full, windows.full),
+        left_out=left_out(reduced, windows.reduced) + left_out(full, windows.full),
     )
 
 
 def _share(flags: Indices) -> float:
     """Share of flags that are set; NaN where there is no flag."""
     return float(flags.mean()) if flags.size else np.nan
-
-
-def _left_out(data: xarray.Dataset | None, window: Window) -> int:
-    """Count the realisations that a fit leaves out."""
-    return (
-        converged_stiffness(data, window)[1] if data is not None and is_fitted(data, window) else 0
-    )
 
 
 def _stiffness_ratio(full: xarray.Dataset, matched: xarray.Dataset | None) -> IntervalEstimate:

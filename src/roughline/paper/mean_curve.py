@@ -40,17 +40,7 @@ class MeanCurve:
 def mean_curve(
     one: xarray.Dataset, punch: float = 1.0, averaging: Averaging = "arithmetic"
 ) -> MeanCurve:
-    """Average the stiffness of one fractal dimension at fixed force.
-
-    Parameters
-    ----------
-    one : Dataset
-        An ensemble at one fractal dimension.
-    punch : float, optional
-        Saturated stiffness over E* L that the stiffness is divided by.
-    averaging : {"arithmetic", "geometric"}, optional
-        Which mean.
-    """
+    """Average the stiffness of one fractal dimension, over that of a punch, at fixed force."""
     stiffness = one.stiffness.values / punch
     averaged = np.log(stiffness) if averaging == "geometric" else stiffness
     mean = np.nanmean(averaged, axis=0)

@@ -26,20 +26,7 @@ if TYPE_CHECKING:
 
 
 def write_page(results: PaperResults, out: Path) -> Path:
-    """Write figures, data and ``report.html`` of a finished study.
-
-    Parameters
-    ----------
-    results : PaperResults
-        The study.
-    out : Path
-        Folder for everything; made if it does not exist.
-
-    Returns
-    -------
-    Path
-        The page.
-    """
+    """Write figures, data and ``report.html`` of a study into a folder, and return the page."""
     title, lead, sections = compose(results, out)
     page = out / "report.html"
     page.write_text(render(title, lead, sections), encoding="utf-8")

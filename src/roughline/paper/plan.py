@@ -7,8 +7,6 @@ from typing import Any, Literal
 
 from roughline.campaign.plan import Ensemble, Gallery, Plan, decades, evenly
 
-StudyScale = Literal["quick", "full"]
-
 PAPER_DIMENSIONS = (2.0, 2.2, 2.4, 2.6, 2.8, 3.0)
 """The six fractal dimensions of the paper's Figures 3 and 4."""
 
@@ -18,15 +16,10 @@ ENSEMBLE_MATCHED = "lines-of-surfaces"
 """Lines of the reduced model with the waves of the surfaces and no shorter ones."""
 
 
-def paper_plan(scale: StudyScale, seed: int = 2012) -> Plan:
-    """Return the paper's study at one of two scales.
+def paper_plan(scale: Literal["quick", "full"], seed: int = 2012) -> Plan:
+    """Return the paper's study, for minutes on two cores or at its own sizes.
 
-    Parameters
-    ----------
-    scale : {"quick", "full"}
-        Minutes on two cores, or the paper's own sizes: 60 surfaces of 2048², 500 lines of 2^20.
-    seed : int, optional
-        Root of all seeds.
+    These are 60 surfaces of 2048² and 500 lines of 2^20. All seeds grow from the seed.
     """
     quick = scale == "quick"
     n = 256 if quick else 2048
@@ -85,23 +78,9 @@ def with_settings(
 ) -> Plan:
     """Return the paper's study with settings of one's own; what is not given stays.
 
-    Parameters
-    ----------
-    plan : Plan
-        What :func:`paper_plan` returned.
-    fractal_dimensions : tuple of float, optional
-        Of surfaces and lines.
-    points, line_points : int, optional
-        Points along a side of the surfaces, points of the lines.
-    realisations, lines : int, optional
-        Surfaces and lines for each fractal dimension.
-    force_bars : tuple of float, optional
-        Loads of the surfaces, and of the lines with their waves.
-
-    Raises
-    ------
-    InputError
-        If a value is outside its range.
+    The fractal dimensions are those of surfaces and lines, the loads those of the surfaces and of
+    the lines with their waves; `realisations` and `lines` are for each fractal dimension. A value
+    outside its range is refused.
     """
     every = {"fractal_dimensions": fractal_dimensions}
     changes: dict[str, dict[str, Any]] = {

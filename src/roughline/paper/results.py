@@ -126,25 +126,11 @@ def results_of_store(
     windows: Windows | None = None,
     plan: Plan | None = None,
 ) -> PaperResults:
-    """Read the results of a store that has surfaces and lines.
+    """Read the results of a finished store, of the paper's plan or of another one.
 
-    Parameters
-    ----------
-    store : Store
-        A finished store, of the paper's plan or of another one.
-    name, command : str
-        As in :class:`PaperResults`.
-    windows : Windows, optional
-        Where exponents are fitted, as far as the loads reach; default: the paper's.
-    plan : Plan, optional
-        What of the store is used; default: all.
-
-    Raises
-    ------
-    InputError
-        If there are not both surfaces and lines.
-    StoreError
-        If cases are not done.
+    Of the store that is used which a plan has, or all; exponents are fitted in the windows, as far
+    as the loads reach. A store without both surfaces and lines is refused, and so is one in which
+    cases are not done.
     """
     if plan is None:
         every = {each: store.dataset(each) for each in store.names}
@@ -184,58 +170,38 @@ def _refuse_unfinished(store: Store, name: str, data: xarray.Dataset) -> None:
         )
 
 
-def results_of_folder(folder: Path, name: str, command: str) -> PaperResults:
-    """Read the results that a reduced study keeps as files.
-
-    Parameters
-    ----------
-    folder : Path
-        The folder with the NetCDF files, and with ``computing.json``.
-    name, command : str
-        As in :class:`PaperResults`.
-    """
-    return PaperResults(
-        name=name,
-        command=command,
-        reduced=_read_netcdf(folder / "lines.nc"),
-        full=_read_netcdf(folder / "surfaces.nc"),
-        matched=_read_netcdf(folder / "matched.nc"),
-        exponents=_read_netcdf(folder / "exponents.nc"),
-        gallery=_read_netcdf(folder / "gallery.nc"),
-        grids={n: _read_netcdf(folder / f"grid_{n}.nc") for n in _GRIDS},
-        other_grid=_read_netcdf(folder / "coarse.nc"),
-        computing=_read_computing(folder / "computing.json"),
-    )
-
-
 @cache
 def published_results() -> PaperResults:
     """Return the study that comes with the package; it is read once.
 
-    Returns
-    -------
-    PaperResults
-        What the page "The paper, recomputed" is made of: 500 lines of 2^20 points and 60 surfaces
-        of 2048² for each of six fractal dimensions.
+    The page "The paper, recomputed" is made of it: 500 lines of 2^20 points and 60 surfaces of
+    2048² for each of six fractal dimensions.
     """
-    return results_of_folder(
-        published_folder(),
+    return PaperResults(
         name="from the study in studies/paper",
         command="roughline campaign run studies/paper/plan.toml",
+        reduced=published_dataset("lines"),
+        full=published_dataset("surfaces"),
+        matched=published_dataset("matched"),
+        exponents=published_dataset("exponents"),
+        gallery=published_dataset("gallery"),
+        grids={n: published_dataset(f"grid_{n}") for n in _GRIDS},
+        other_grid=published_dataset("coarse"),
+        computing=_read_computing(published_folder() / "computing.json"),
     )
 
 
 @cache
 def published_dataset(name: str) -> xarray.Dataset:
-    """Return one part of that study alone, which is faster than reading all; it is read once.
+    """Return one part of that study alone, by the name of its file; it is read once.
 
-    Parameters
-    ----------
-    name : str
-        A file of the study without its ending: "lines" and "surfaces" are the reduced and the full
-        ensemble, "exponents" those of the reduced model over all fractal dimensions.
+    "lines" and "surfaces" are the reduced and the full ensemble, "exponents" those of the reduced
+    model over all fractal dimensions.
     """
-    return _read_netcdf(published_folder() / f"{name}.nc")
+    import xarray  # here because it loads slowly
+
+    with xarray.open_dataset(published_folder() / f"{name}.nc", engine="h5netcdf") as data:
+        return data.load().drop_encoding()
 
 
 def published_folder() -> Path:
@@ -254,10 +220,3 @@ def _read_computing(path: Path) -> Computing:
     }
     each = {row: told["core_seconds"][ensemble] for row, ensemble in rows.items()}
     return Computing(told["processor"], told["cores"], told["hours"], each)
-
-
-def _read_netcdf(path: Path) -> xarray.Dataset:
-    import xarray  # here because it loads slowly
-
-    with xarray.open_dataset(path, engine="h5netcdf") as data:
-        return data.load().drop_encoding()

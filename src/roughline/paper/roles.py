@@ -44,15 +44,10 @@ class Roles:
 
 
 def roles_of(ensembles: Mapping[str, Settings]) -> Roles:
-    """Choose the ensembles of a report by their settings.
+    """Choose the ensembles of a report by their settings; both surfaces and lines are needed.
 
     Of several that fit, those with the names of the paper's own plan are taken, then elastic
     surfaces with free borders and no roll-off, then the finest grid.
-
-    Raises
-    ------
-    InputError
-        If there are not both surfaces and lines.
     """
     surfaces, lines = (
         {name: each for name, each in ensembles.items() if each["model"] == model}

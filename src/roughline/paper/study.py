@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from roughline.campaign.run import run
 from roughline.campaign.store import Store
@@ -17,7 +16,6 @@ from roughline.paper.windows import Windows
 
 if TYPE_CHECKING:
     from roughline.campaign.plan import Plan
-    from roughline.campaign.progress import EnsembleProgress
 
 
 @dataclass(frozen=True)
@@ -48,47 +46,16 @@ class Study:
 def recompute(
     study: Study,
     out: Path,
-    *,
-    workers: int | None = None,
-    scheduler: str | None = None,
-    progress: EnsembleProgress | None = None,
-    announce: Callable[[str], None] | None = None,
+    **how: Any,
 ) -> Path:
-    """Run a study, or what is left of it, and write its report.
+    """Run a study, or what is left of it, write its report into a folder, and return the page.
 
-    Parameters
-    ----------
-    study : Study
-        What is computed.
-    out : Path
-        Folder for the report.
-    workers, scheduler, progress, announce
-        As for :func:`roughline.campaign.run`.
-
-    Returns
-    -------
-    Path
-        The page.
-
-    Raises
-    ------
-    InputError
-        If the study has not both surfaces and lines.
-    StoreError
-        If a folder cannot be written, holds another study, or is not finished.
-    ClusterError
-        If the cluster cannot be used.
+    The other arguments are those of :func:`roughline.campaign.run`. A study without both surfaces
+    and lines is refused, and so is a folder that cannot be written, or holds another study.
     """
     if study.plan is not None:
         roles_of({ensemble.name: ensemble.identity() for ensemble in study.plan.ensembles})
-        run(
-            study.plan,
-            study.store,
-            workers=workers,
-            scheduler=scheduler,
-            progress=progress,
-            announce=announce,
-        )
+        run(study.plan, study.store, **how)
     results = results_of_store(
         Store(study.store), study.name, study.command, study.windows, study.plan
     )

@@ -15,8 +15,6 @@ WINDOW_REDUCED: Window = (1e-4, 1e-2)
 """Range of the exponent of the reduced model."""
 WINDOW_FULL: Window = (1e-2, 1e-1)
 """Range of the exponent of the full model, whose grid does not resolve lighter loads."""
-WINDOW_SAME_WAVES: Window = (1e-2, 1e-1)
-"""Range in which the exponents of both models with the same waves are compared."""
 WINDOW_AGREEMENT: Window = (1e-2, 0.3)
 """Range in which the stiffness of both models with the same waves is compared."""
 WINDOW_AREA: Window = (10**-1.5, 10**-0.5)
@@ -25,7 +23,7 @@ WINDOW_AREA: Window = (10**-1.5, 10**-0.5)
 OTHER_WINDOWS_REDUCED: tuple[Window, ...] = ((1e-3, 1e-1), (1e-2, 0.3))
 """Further ranges, which show how much the exponent of the reduced model depends on its window."""
 WINDOWS_REDUCED: tuple[Window, ...] = (WINDOW_REDUCED, *OTHER_WINDOWS_REDUCED)
-WINDOWS_FULL: tuple[Window, ...] = ((1e-3, 1e-2), WINDOW_FULL, (1e-2, 0.3))
+_WINDOWS_FULL: tuple[Window, ...] = ((1e-3, 1e-2), WINDOW_FULL, (1e-2, 0.3))
 
 
 @dataclass(frozen=True)
@@ -49,7 +47,7 @@ class Windows:
     @property
     def all_full(self) -> tuple[Window, ...]:
         """The range of the full model between a lower and a higher one."""
-        return (WINDOWS_FULL[0], self.full, WINDOWS_FULL[-1])
+        return (_WINDOWS_FULL[0], self.full, _WINDOWS_FULL[-1])
 
     def within(self, reduced: Real, full: Real) -> Windows:
         """Return the windows as far as the loads of both models reach."""
