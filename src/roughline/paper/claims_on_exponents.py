@@ -54,7 +54,6 @@ _BOTH_MODELS = "lines with the waves and the loads of the surfaces, across this 
 def claims_on_exponents(results: PaperResults) -> list[Claim]:
     """Judge them all."""
     windows = results.windows
-    same_waves = [each for each in (results.full, results.matched) if each is not None]
     reduced = _Model("1D", results.reduced, windows.reduced, results.laws)
     full = _Model("3D", results.full, windows.full, results.laws)
     both = (reduced, full)
@@ -86,28 +85,8 @@ def claims_on_exponents(results: PaperResults) -> list[Claim]:
             "off by {}",
             lambda model, laws: model.exponent(laws) - linear_exponent(laws.fractal_dimension),
         ),
-        *(
-            model.claim(
-                "α = 1 / (4 - D_f) extremely well for D_f ≤ 2.6 (eq. 14, §7)",
-                "off by {}",
-                _Model.off_scaling,
-                needed="D_f ≤ 2.6 with loads across this range",
-                of=is_smooth,
-            )
-            for model in both
-        ),
-        *(
-            model.claim(
-                "a small discrepancy from 1 / (4 - D_f) for D_f > 2.6 (§7; small: "
-                f"{SMALL_DISCREPANCY:g})",
-                "off by {}",
-                _Model.off_scaling,
-                around(0, SMALL_DISCREPANCY),
-                needed="D_f > 2.6 with loads across this range",
-                of=lambda dimension: not is_smooth(dimension),
-            )
-            for model in both
-        ),
+        *(_scaling_argument(model) for model in both),
+        *(_small_discrepancy(model) for model in both),
         exact_claim(
             "Entering eqs. 9, 11 and 12 in eq. 5 underlines its validity (§7)",
             "it gives 1 = 1^α: true for every α, and for any other law k̄(F̄), as k̄ and F̄ are "
@@ -116,24 +95,7 @@ def claims_on_exponents(results: PaperResults) -> list[Claim]:
             Verdict.UNDECIDED,
             ": the argument cannot tell",
         ),
-        claim_about_every_dimension(
-            "The same power-law behaviour in both models (abstract)",
-            "α 3D less α 1D with the same waves: {}",
-            basis_in(windows.full, *same_waves),
-            by_dimension(results.laws, lambda laws: laws.models_apart),
-            _NO_CHANGE,
-            "+.3f",
-            _BOTH_MODELS,
-        ),
-        claim_about_every_dimension(
-            "Excellent agreement of the stiffness of the two models (abstract, §6)",
-            "k / (E* L), 3D over 1D with the same waves: {}",
-            f"{basis_in(WINDOW_AGREEMENT, *same_waves)}; all loads weighted equally",
-            by_dimension(results.laws, lambda laws: laws.agreement),
-            around(1, STIFFNESS_TOLERANCE),
-            ".2f",
-            _BOTH_MODELS,
-        ),
+        *_agreement(results),
     ]
 
 
@@ -228,3 +190,51 @@ def _great_accuracy(model: _Model) -> Claim:
         form=".3f",
         needed=f"loads across this range and from F̄ = {low:g} to {high:g}",
     )
+
+
+def _scaling_argument(model: _Model) -> Claim:
+    """Judge whether eq. 14 gives the exponent of smooth surfaces."""
+    return model.claim(
+        "α = 1 / (4 - D_f) extremely well for D_f ≤ 2.6 (eq. 14, §7)",
+        "off by {}",
+        _Model.off_scaling,
+        needed="D_f ≤ 2.6 with loads across this range",
+        of=is_smooth,
+    )
+
+
+def _small_discrepancy(model: _Model) -> Claim:
+    """Judge whether eq. 14 differs little from the exponent of rough surfaces."""
+    return model.claim(
+        f"a small discrepancy from 1 / (4 - D_f) for D_f > 2.6 (§7; small: {SMALL_DISCREPANCY:g})",
+        "off by {}",
+        _Model.off_scaling,
+        around(0, SMALL_DISCREPANCY),
+        needed="D_f > 2.6 with loads across this range",
+        of=lambda dimension: not is_smooth(dimension),
+    )
+
+
+def _agreement(results: PaperResults) -> list[Claim]:
+    """Judge whether exponent and stiffness of both models are the same, with the same waves."""
+    bodies = [each for each in (results.full, results.matched) if each is not None]
+    return [
+        claim_about_every_dimension(
+            "The same power-law behaviour in both models (abstract)",
+            "α 3D less α 1D with the same waves: {}",
+            basis_in(results.windows.full, *bodies),
+            by_dimension(results.laws, lambda laws: laws.models_apart),
+            _NO_CHANGE,
+            "+.3f",
+            _BOTH_MODELS,
+        ),
+        claim_about_every_dimension(
+            "Excellent agreement of the stiffness of the two models (abstract, §6)",
+            "k / (E* L), 3D over 1D with the same waves: {}",
+            f"{basis_in(WINDOW_AGREEMENT, *bodies)}; all loads weighted equally",
+            by_dimension(results.laws, lambda laws: laws.agreement),
+            around(1, STIFFNESS_TOLERANCE),
+            ".2f",
+            _BOTH_MODELS,
+        ),
+    ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,8 +14,6 @@ from roughline.plot.style import save, styled
 from roughline.report.page import Picture
 
 if TYPE_CHECKING:
-    import xarray
-
     from roughline.paper.results import PaperResults
 
 _OPEN_MARKS = (
@@ -91,31 +88,23 @@ def draw_pictures(results: PaperResults, folder: Path) -> list[Picture]:
     return pictures
 
 
-def _share_dimensions(one: xarray.Dataset, other: xarray.Dataset) -> bool:
-    return bool(np.intersect1d(one.fractal_dimension, other.fractal_dimension).size)
-
-
 def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
     """How each figure is drawn, by the name of its file and in the order of the page."""
     reduced, full, gallery, laws = results.reduced, results.full, results.gallery, results.laws
     windows = results.windows
+    dimensions = full.fractal_dimension.values
     drawings: dict[str, Callable[[], Figure]] = {}
     if gallery is not None:
-        drawings |= {
-            "figure_1": partial(figures.figure_1, gallery),
-            "figure_2": partial(figures.figure_2, gallery),
-        }
-    drawings |= {
-        "figure_3": partial(
-            figures.figure_3, reduced, full.fractal_dimension.values, windows.reduced
-        ),
-        "figure_4": partial(figures.figure_4, full, windows.full),
-        "figure_5": partial(figures.figure_5, results.exponents, laws, windows.full),
-        "area_law": partial(added_figures.area_law_figure, full, laws),
-    }
-    if (matched := results.matched) is not None and _share_dimensions(full, matched):
-        drawings["models_compared"] = partial(added_figures.both_models_figure, full, matched)
+        drawings["figure_1"] = lambda: figures.figure_1(gallery)
+        drawings["figure_2"] = lambda: figures.figure_2(gallery)
+    drawings["figure_3"] = lambda: figures.figure_3(reduced, dimensions, windows.reduced)
+    drawings["figure_4"] = lambda: figures.figure_4(full, windows.full)
+    drawings["figure_5"] = lambda: figures.figure_5(results.exponents, laws, windows.full)
+    drawings["area_law"] = lambda: added_figures.area_law_figure(full, laws)
+    matched = results.matched
+    if matched is not None and np.isin(dimensions, matched.fractal_dimension).any():
+        drawings["models_compared"] = lambda: added_figures.both_models_figure(full, matched)
     if results.grids:
         grids = results.grids | {int(full.attrs["n"]): full}
-        drawings["grid_convergence"] = partial(added_figures.grid_convergence_figure, grids)
+        drawings["grid_convergence"] = lambda: added_figures.grid_convergence_figure(grids)
     return drawings

@@ -82,17 +82,13 @@ def with_settings(
     the lines with their waves; `realisations` and `lines` are for each fractal dimension. A value
     outside its range is refused.
     """
-    every = {"fractal_dimensions": fractal_dimensions}
     changes: dict[str, dict[str, Any]] = {
-        ENSEMBLE_REDUCED: {**every, "n": line_points, "realisations": lines},
-        ENSEMBLE_MATCHED: {**every, "realisations": lines, "force_bars": force_bars},
-        ENSEMBLE_FULL: {
-            **every,
-            "n": points,
-            "realisations": realisations,
-            "force_bars": force_bars,
-        },
+        ENSEMBLE_REDUCED: {"n": line_points, "realisations": lines},
+        ENSEMBLE_MATCHED: {"realisations": lines, "force_bars": force_bars},
+        ENSEMBLE_FULL: {"n": points, "realisations": realisations, "force_bars": force_bars},
     }
+    for each in changes.values():
+        each["fractal_dimensions"] = fractal_dimensions
     if points is not None:
         changes[ENSEMBLE_MATCHED] |= {"n": 256 * points, "cutoff_ratio": points / 2}
     changed = {

@@ -43,11 +43,7 @@ class Study:
     windows: Windows = field(default_factory=Windows)
 
 
-def recompute(
-    study: Study,
-    out: Path,
-    **how: Any,
-) -> Path:
+def recompute(study: Study, out: Path, **how: Any) -> Path:
     """Run a study, or what is left of it, write its report into a folder, and return the page.
 
     The other arguments are those of :func:`roughline.campaign.run`. A study without both surfaces

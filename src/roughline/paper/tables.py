@@ -204,16 +204,18 @@ def _number_cell(value: float) -> str:
 
 def settings_table(results: PaperResults) -> Table:
     """Return what was computed: an ensemble in each row."""
-    ensembles = [
-        (ROW_REDUCED, results.reduced),
-        *([] if _has_no_own(results) else [(ROW_MATCHED, results.matched)]),
-        (ROW_FULL, results.full),
-        *([] if results.other_grid is None else [(ROW_OTHER_GRID, results.other_grid)]),
-        *((row_of_grid(n), data) for n, data in sorted(results.grids.items())),
-    ]
+    ensembles = {
+        ROW_REDUCED: results.reduced,
+        ROW_MATCHED: None if results.matched is results.reduced else results.matched,
+        ROW_FULL: results.full,
+        ROW_OTHER_GRID: results.other_grid,
+        **{row_of_grid(n): data for n, data in sorted(results.grids.items())},
+    }
+    computing = results.computing
     rows = []
-    for name, data in ensembles:
-        assert data is not None
+    for name, data in ensembles.items():
+        if data is None:
+            continue
         # the exponents may come from more fractal dimensions than the lines that are kept
         dimensions = (results.exponents if name == ROW_REDUCED else data).fractal_dimension.values
         n, forces = data.attrs["n"], data.force_bar.values
@@ -225,21 +227,11 @@ def settings_table(results: PaperResults) -> Table:
                 f"{n}" if data.attrs["model"] == "reduced" else f"{n} × {n}",
                 f"{forces.size}, F̄ = {forces[0]:g} to {forces[-1]:g}",
                 f"SeedSequence({data.attrs['seed']}, spawn_key=(i,))",
-                *_time_cells(results, name),
+                *([f"{computing.core_seconds[name]:.3g} s"] if computing else []),
             )
         )
     header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")
-    return Table((*header, "One body, one core") if results.computing else header, rows)
-
-
-def _has_no_own(results: PaperResults) -> bool:
-    """Whether there are no lines that have the waves of the surfaces, or no others than these."""
-    return results.matched is None or results.matched is results.reduced
-
-
-def _time_cells(results: PaperResults, row: str) -> list[str]:
-    """Computing time of a row of the settings; no cell at all where no times are known."""
-    return [f"{results.computing.core_seconds[row]:.3g} s"] if results.computing else []
+    return Table((*header, "One body, one core") if computing else header, rows)
 
 
 def write_data(folder: Path, results: PaperResults, claims: list[Claim]) -> None:
@@ -247,13 +239,16 @@ def write_data(folder: Path, results: PaperResults, claims: list[Claim]) -> None
     import pandas as pd  # here because it loads slowly
 
     folder.mkdir(parents=True, exist_ok=True)
-    ensembles = {"reduced": results.reduced, "full": results.full}
-    if results.matched is not None:
-        ensembles["matched"] = results.matched
-    if results.other_grid is not None:
-        ensembles["other_grid"] = results.other_grid
-    ensembles |= {f"grid_{n}": data for n, data in results.grids.items()}
+    ensembles = {
+        "reduced": results.reduced,
+        "full": results.full,
+        "matched": results.matched,
+        "other_grid": results.other_grid,
+        **{f"grid_{n}": data for n, data in results.grids.items()},
+    }
     for name, data in ensembles.items():
+        if data is None:
+            continue
         write_netcdf(data, folder / f"{name}.nc")
         mean_table(data).to_csv(folder / f"{name}.csv", index=False)
     if results.gallery is not None:
