@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
+.PHONY: mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -25,6 +25,10 @@ test: $(VENV)/installed
 # What matters while editing, in about a minute: no tests marked slow, no processes, no reports.
 quick: check
 	$(PYTEST) -m "not slow" $(addprefix --ignore=tests/,campaign cli docs lab paper)
+
+# Which of the mistakes of tests/mutants.toml the tests find that each names; in about half an hour.
+mutants: $(VENV)/installed
+	$(BIN)/python tests/mutants.py out/mutants
 
 check: $(VENV)/installed
 	$(BIN)/ruff format --check .

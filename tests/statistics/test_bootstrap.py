@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.stats import ttest_ind
 
 from roughline.statistics import bootstrap
 
@@ -24,3 +25,11 @@ def test_errors_of_smooth_functions_are_those_of_their_scatter(ensemble):
     assert found.error == pytest.approx(each.std(ddof=1) / np.sqrt(40))
     alone = bootstrap.sum_of_log_means(ensemble, np.array([0.0, 1.0, 0, 0, 0]))
     assert alone.interval() == pytest.approx(bootstrap.means(ensemble[:, 1]).log().interval())
+
+
+def test_a_difference_of_two_ensembles_has_the_freedom_of_welch(ensemble):
+    few = 3 * ensemble[:7]  # which scatter more than the others
+    found = bootstrap.means(few) - bootstrap.means(ensemble, 1)
+    welch = ttest_ind(few, ensemble, equal_var=False)
+    assert found.freedom == pytest.approx(welch.df)
+    assert found.value / found.error == pytest.approx(welch.statistic)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.stats import linregress, t
 
 import roughline as rl
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
@@ -42,6 +43,19 @@ def test_intervals_cover_the_truth_at_their_level(realisations):
         covered += law.exponent_interval[0] <= 0.6 <= law.exponent_interval[1]
     # 95 % of 200, less three standard errors of a binomial: 180.8
     assert 0.95 * trials - 3 * np.sqrt(0.05 * 0.95 * trials) <= covered
+
+
+def test_the_intervals_of_a_single_curve_are_those_of_a_regression():
+    force = np.geomspace(1e-2, 1e-1, 6)
+    stiffness = 0.8 * force**0.6 * np.exp([0.02, -0.03, 0.01, 0.04, -0.02, -0.01])
+    law = rl.fit_power_law(force, stiffness, (1e-2, 1e-1), confidence=0.9)
+    line = linregress(np.log(force), np.log(stiffness))
+    width = t.ppf(0.95, 6 - 2)
+    for found, expected, error in (
+        (law.exponent_interval, line.slope, line.stderr),
+        (np.log(law.prefactor_interval), line.intercept, line.intercept_stderr),
+    ):
+        assert found == pytest.approx([expected - width * error, expected + width * error])
 
 
 def test_the_mean_at_fixed_force_is_fitted():
