@@ -102,7 +102,7 @@ lab-attack: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_attack.py
 
 fuzz: $(VENV)/installed
-	ROUGHLINE_FUZZ=12 $(BIN)/python -m pytest tests/contact/test_fuzz.py tests/halfspace/test_hardness_robustness.py
+	ROUGHLINE_FULL=1 $(BIN)/python -m pytest tests/contact/test_fuzz.py tests/halfspace/test_hardness_robustness.py
 
 study: $(VENV)/installed
 	$(BIN)/roughline campaign run studies/paper/plan.toml --store out/study.zarr

@@ -1,17 +1,16 @@
 """Random bodies that yield, under random histories: each is certified, or refused in one line."""
 
-import os
-
 import numpy as np
 import pytest
 
 import roughline as rl
+from random_cases import cases
 from random_problems import E_STAR, random_history
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
 from roughline.halfspace.operators.convolution import displacement_field
 from roughline.halfspace.operators.discretisation import on_grid
 
-PROBLEMS = 2000 if "ROUGHLINE_FUZZ" in os.environ else 100  # `make fuzz` takes all
+PROBLEMS = cases(2000, share=20)
 RTOL = {"mixed": 1e-6, "float64": 1e-6, "float32": 1e-3}
 ROUNDING = {"mixed": 1e-14, "float64": 1e-14, "float32": 1e-6}
 

@@ -10,8 +10,9 @@ import pytest
 
 import roughline as rl
 from halfspace.dense_hardness import Body
+from random_cases import cases
 
-BODIES = 84  # for each precision, under four loads each: 1,008 in all
+BODIES = cases(84, share=4)  # for each precision, under four loads each: of 1,008 in all
 BELOW = 10.0 ** np.array([-6, -1])  # of the depths below that of full contact, over it
 MANY = 1000  # convolutions; the loads take 400 at most, and thousands where nodes go one by one
 RTOL = {"mixed": 1e-6, "float64": 1e-6, "float32": 1e-4}

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from random_cases import cases
 from roughline.halfspace.search.window import Window
 
 
 def surfaces():
     """Surfaces with one peak or several, also beside a corner, on sides that are not even."""
     rng = np.random.default_rng(11)
-    for seed in range(6):
+    for seed in range(cases(6, share=2)):
         nx, ny = rng.integers(96, 200, 2)
         hurst = rng.uniform(0.2, 0.9)
         whole = rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(256, seed)
