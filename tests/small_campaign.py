@@ -5,7 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-# Nine batches of surfaces of up to a second, so that a campaign can be disturbed on its way.
+# Nine batches of surfaces under light loads, of a fifth of a second, so that a campaign can be disturbed
+# on its way.
 PLAN = """
 name = "small"
 seed = 5
@@ -24,7 +25,7 @@ model = "full"
 fractal_dimensions = [2.0, 2.4, 3.0]
 points = 128
 realisations = 9
-force_bars = { from = 1e-3, to = 10, per_decade = 6 }
+force_bars = { from = 1e-5, to = 0.1, per_decade = 6 }
 """
 
 FEW = PLAN.replace("realisations = 60", "realisations = 6").replace(

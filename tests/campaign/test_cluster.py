@@ -91,7 +91,7 @@ def test_a_server_that_is_no_scheduler(plan, tmp_path, monkeypatch, says):
 
 
 def test_a_scheduler_without_workers(plan, tmp_path, monkeypatch):
-    monkeypatch.setattr(cluster, "_PATIENCE", 9.0)
+    monkeypatch.setattr(cluster, "_PATIENCE", 6.0)
     scheduler, address = start_scheduler(tmp_path)
     try:
         with pytest.raises(rl.ClusterError, match="has no workers; start some with"):

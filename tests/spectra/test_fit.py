@@ -9,12 +9,13 @@ from scipy import ndimage
 
 import roughline as rl
 from benchmarks.made_surfaces import Make, measured, parent_of, piece_of
+from random_cases import cases
 from roughline.spectra.fit import fit_self_affine
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.profile import profile_spectrum
 
 Q_0 = 2 * math.pi
-TRIALS = 200
+TRIALS = cases(200, share=2)
 
 
 def random_spectrum(rng, n, hursts=(0.1, 0.95), without=1.0):
@@ -105,7 +106,7 @@ def piece_of_a_cut(rng, n, spectrum, longer):
 @pytest.mark.parametrize("n", [256, 2048])
 def test_line_scans_are_recovered_in_95_of_100(n):
     rng, hits, longer = np.random.default_rng(8), np.zeros(4), 8
-    trials = TRIALS // 2
+    trials = 100
     for _ in range(trials):
         hurst, roll, cutoff = random_spectrum(rng, n, without=1 / longer)
         spectrum = rl.SelfAffine(

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from random_cases import cases
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.leakage import map_leakage
 from roughline.spectra.profile import cuts_of_surface, profile_spectrum
@@ -85,8 +86,8 @@ def test_one_scan_leads_to_the_stiffness_of_its_surface(hurst, roll):
     """Rows of tilted pieces of Gaussian surfaces against the full model of the pieces."""
     n, longer = 128, 4
     parent = rl.SelfAffine(hurst=hurst, length=longer, C_0=1.0, q_roll=roll * Q_0 * (1 + 1e-12))
-    ratios, held = [], []
-    for seed in range(12):
+    ratios, held, seeds = [], [], cases(12, share=2)
+    for seed in range(seeds):
         heights = parent.surface(longer * n, seed, "gaussian").heights
         for first in (0, 2 * n):
             piece = rl.Surface(heights[first : first + n, :n], (1.0, 1.0), is_cut_out=True)
@@ -100,7 +101,7 @@ def test_one_scan_leads_to_the_stiffness_of_its_surface(hurst, roll):
                 held.append((found.low <= full) & (full <= found.high))
     # of 24 scans, the mean is known to 8 % (one standard error)
     assert np.abs(np.mean(ratios, axis=0)).max() < math.log(1.1) + 0.16
-    assert len(held) >= 20
+    assert len(held) >= 20 / 24 * len(ratios)
     assert np.mean(held) >= 0.92
 
 
