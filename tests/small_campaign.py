@@ -5,8 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-# Nine batches of surfaces under light loads, of a fifth of a second, so that a campaign can be disturbed
-# on its way.
+# Nine batches of surfaces, of a fifth of a second under light loads, so that a campaign can be
+# disturbed on its way.
 PLAN = """
 name = "small"
 seed = 5

@@ -71,6 +71,14 @@ def test_bodies_that_give_way_leave_the_harmonic_mean():
     assert high[0] == 0
 
 
+def test_bodies_as_stiff_as_their_places_give_way_by_half():
+    """To waves twice as long as a map: E* q / 2 = k over its area."""
+    side, E_star, area, scatter = 2.0, 3.0, 1e-4, 0.01
+    k = math.pi * E_star * side / 2 * np.exp(scatter * np.array([[-1.0], [0.0], [1.0]]))
+    (low, _), _ = shared_load(k, np.full_like(k, area), side, E_star)
+    assert low[0] == pytest.approx(math.log(area) / 2 * scatter**2)
+
+
 def test_maps_that_are_alike_share_their_load_alike():
     k, a = np.ones((3, 2)), np.full((3, 2), 0.1)
     for ends in shared_load(k, a, 1.0, 1.0):

@@ -302,6 +302,10 @@ def test_a_failed_load_does_not_poison_the_next(surface, periodic):
 def test_dimensionless_numbers_are_the_papers(surface, line):
     curve = rl.press(surface.scaled(2.0), E_star=5.0, forces=[0.3])
     assert curve.force_bar[0] == pytest.approx(0.3 / (5 * 2 * 1))
+    large = rl.Surface(surface.heights, (2.0, 8.0))  # of the length 4
+    wide = rl.press(large, E_star=5.0, forces=[0.3])
+    assert wide.force_bar[0] == pytest.approx(0.3 / (5 * surface.rms_height * 4))
+    assert wide.stiffness_bar[0] == pytest.approx(wide.stiffness[0] / (1.1419 * 5 * 4))
     assert curve.stiffness_bar[0] == pytest.approx(curve.stiffness[0] / (1.1419 * 5))
     curve = rl.press(line, E_star=5.0, forces=[0.3])
     assert curve.stiffness_bar[0] == pytest.approx(curve.stiffness[0] / 5)

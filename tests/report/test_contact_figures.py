@@ -1,11 +1,13 @@
 """Figures of an assessment show what its tables say, where it is."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 import roughline as rl
-from roughline.report.contact_figures import draw_filled, draw_last_contact
+from roughline.report.contact_figures import draw_filled, draw_last_contact, draw_stiffness
 from roughline.report.contact_tables import quantity
 
 
@@ -41,3 +43,17 @@ def test_filled_points_are_marked_where_they_were(holed):
     pixel = 1 / 64  # mm
     assert low == pytest.approx([0, 20 * pixel], abs=pixel)
     assert high == pytest.approx([3 * pixel, 25 * pixel], abs=pixel)
+
+
+def test_theories_are_drawn_in_the_units_of_the_curve():
+    spectrum = rl.SelfAffine(hurst=0.7, length=3e-3, rms_height=1e-6)
+    surface = replace(spectrum.surface(32, 3), unit="m")
+    pressed = rl.assess(rl.Question(surface, E_star=1e9, loads=[0.1, 1.0], theories="persson"))
+    axes = Figure().subplots()
+    draw_stiffness(axes, pressed)
+    (persson,) = pressed.theories
+    (theory,) = (line for line in axes.lines if line.get_label() == "persson")
+    (curve,) = (line for line in axes.lines if len(line.get_xdata()) == 2 and line is not theory)
+    ratio = persson.stiffness * pressed.area / pressed.curve.stiffness
+    assert theory.get_xdata() == pytest.approx(curve.get_xdata(), rel=1e-9)
+    assert theory.get_ydata() / curve.get_ydata() == pytest.approx(ratio, rel=1e-9)

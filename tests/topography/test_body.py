@@ -46,6 +46,9 @@ def test_detrending_removes_mean_and_tilt_and_nothing_else():
     tilted = rl.Surface(wave() + 5 + 0.3 * x - 0.2 * y, (1, 1)).detrended()
     assert tilted.heights == pytest.approx(flat.heights, abs=1e-12)
     assert tilted.settings["detrended"] == "tilt"
+    twisted = rl.Surface((x - x.mean()) * (y - y.mean()), (1, 1))  # of the second degree
+    assert twisted.detrended().heights == pytest.approx(twisted.heights, abs=1e-12)
+    assert twisted.detrended("curvature").heights == pytest.approx(0, abs=1e-12)
     plane = np.stack([np.ones(x.size), x.ravel(), y.ravel()])
     assert np.abs(plane @ tilted.heights.ravel()).max() < 1e-8
     plane_alone = rl.Surface(1e3 + 0.3 * x - 0.2 * y, (1, 1)).detrended()

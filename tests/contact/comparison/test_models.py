@@ -36,6 +36,17 @@ def test_scale_does_not_matter(compared):
     assert other.difference == pytest.approx(compared.difference, rel=1e-6)
 
 
+def test_the_roll_off_is_that_of_the_spectrum_in_any_unit():
+    unit = rl.SelfAffine(hurst=0.5, rms_height=1.0, q_roll=8 * np.pi, q_high=16 * 2 * np.pi)
+    tiny = rl.SelfAffine(
+        hurst=0.5, length=1e-6, rms_height=1e-9, q_roll=8e6 * np.pi, q_high=16 * 2e6 * np.pi
+    )
+    found = rl.compare(tiny, n=32, surfaces=2, force_bars=[0.1])
+    seeds = [np.random.SeedSequence(0, spawn_key=(i,)) for i in range(2)]
+    full = [rl.press(unit.surface(32, s), E_star=1.0, forces=[0.1]).stiffness for s in seeds]
+    assert found.full.mean == pytest.approx(np.mean(full, axis=0))
+
+
 def test_a_surface_is_compared_with_lines_of_its_spectrum():
     spectrum = rl.SelfAffine(hurst=0.5, length=1e-3, rms_height=1e-6, q_high=16 * 2e3 * np.pi)
     surface = spectrum.surface(64, rng=4)

@@ -1,6 +1,7 @@
 """What a single surface shows of the difference between the two models."""
 
 import numpy as np
+import pytest
 
 from roughline.contact.comparison.single_surface import difference_of_one, scatter_of_surfaces
 
@@ -23,3 +24,12 @@ def test_the_interval_beside_one_surface_holds_its_scatter(published_results):
     # 60 surfaces: 95 % less three standard errors is 87 %
     assert np.min(shares) > 0.86
     assert np.mean(shares) > 0.95
+
+
+def test_of_surfaces_that_do_not_scatter_the_error_of_the_lines_is_left():
+    lines = np.exp(np.random.default_rng(1).normal(0, 0.2, (200, 3)))
+    difference, low, high = difference_of_one(np.full(3, 1.5), lines, np.zeros(3))
+    error = lines.std(axis=0, ddof=1) / np.sqrt(200) / lines.mean(axis=0)
+    assert difference == pytest.approx(1.5 / lines.mean(axis=0) - 1)
+    for end, sign in ((low, -1), (high, 1)):
+        assert np.log1p(end) == pytest.approx(np.log1p(difference) + sign * 1.97 * error)
