@@ -7,10 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Case, Claim, Verdict, places, verdict
-
-Range = tuple[float, float]
-"""Smallest and largest number that a statement allows."""
+from roughline.statistics.verdict import Case, Claim, Range, Verdict, places, verdict
 
 
 @dataclass(frozen=True)
@@ -106,11 +103,6 @@ def claim_on(
         told = spread((one.value for one in numbers), form)
         interval = spread((end for one in numbers for end in (one.low, one.high)), form)
     return Claim.of(statement, f"{what}: {told}", interval, cases)
-
-
-def around(value: float, tolerance: float) -> Range:
-    """Return the range of numbers within a tolerance of a value."""
-    return value - tolerance, value + tolerance
 
 
 def confidence_of_each(cases: int, level: float = 0.95) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Claim
+from roughline.statistics.verdict import Claim, Range, around
 from roughline.theories import bush_gibson_thomas, persson
 from studies.area.measure import (
     BANDS,
@@ -29,7 +29,7 @@ from studies.area.measure import (
 )
 from studies.area.rings import COUNT as RINGS_OF_EACH
 from studies.area.rings import Rings, rings
-from studies.judged import Found, Range, around, claim_on, confidence_of_each
+from studies.judged import Found, claim_on, confidence_of_each
 
 TOLERANCE = 0.05
 """How near kappa must come to a number to confirm it."""

@@ -21,8 +21,8 @@ from roughline.paper.windows import Window
 from roughline.statistics.averages import Averaging
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
-from roughline.statistics.verdict import Case
-from studies.judged import Found, around
+from roughline.statistics.verdict import Case, around
+from studies.judged import Found
 from studies.reduced_data import read_one, write_one
 
 HERE = Path(__file__).parent

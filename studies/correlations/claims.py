@@ -8,7 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from roughline.statistics.averages import average
-from roughline.statistics.verdict import Case, Claim, Verdict, joint_verdict, places, verdict
+from roughline.statistics.verdict import (
+    Case,
+    Claim,
+    Verdict,
+    around,
+    joint_verdict,
+    places,
+    verdict,
+)
 from studies.correlations.measure import (
     BANDS,
     DIMENSIONS,
@@ -26,7 +34,7 @@ from studies.correlations.ratios import (
     over_holm,
     over_root_sum,
 )
-from studies.judged import Found, around, confidence_of_each, growth_to_decide, spread
+from studies.judged import Found, confidence_of_each, growth_to_decide, spread
 
 TOLERANCES = (0.1, 0.2)
 LEVEL = 0.95

@@ -6,7 +6,7 @@ import math
 
 from roughline.paper.stated import EXPONENT_TOLERANCE
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Case, Claim, Verdict, verdict
+from roughline.statistics.verdict import Case, Claim, Verdict, around, verdict
 from roughline.units import decimal
 from studies.finite_size.crossover import BETWEEN_THEM, scaling_exponent_of
 from studies.finite_size.measure import (
@@ -17,7 +17,7 @@ from studies.finite_size.measure import (
     reduced_over_full,
 )
 from studies.finite_size.samples import BAND, HURSTS, SIZES, WIDE, Sample, sample
-from studies.judged import Found, around, claim_on, confidence_of_each, spread
+from studies.judged import Found, claim_on, confidence_of_each, spread
 
 MANY = 8
 """Roll-off waves along a side from which on there are many."""

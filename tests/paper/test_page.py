@@ -10,13 +10,7 @@ import xarray
 import roughline as rl
 from roughline.paper import added_figures
 from roughline.paper.page import compose, write_page
-from roughline.paper.results import (
-    ROW_FULL,
-    ROW_MATCHED,
-    ROW_OTHER_GRID,
-    ROW_REDUCED,
-    Computing,
-)
+from roughline.paper.results import Computing
 from roughline.report.page import render_markdown
 
 DIMENSIONS = (2.0, 2.4, 3.0)  # of the study in small
@@ -84,8 +78,8 @@ def test_the_published_page_has_grids_and_times(results, tmp_path):
             cores=2,
             hours=2.5,
             core_seconds={
-                **dict.fromkeys((ROW_MATCHED, ROW_OTHER_GRID, "full, 48²", "full, 96²"), 1.0),
-                **{ROW_REDUCED: 0.02, ROW_FULL: 2400.0},
+                **dict.fromkeys(("lines-of-surfaces", "coarse-surfaces"), 1.0),
+                **{"grids-n48": 1.0, "grids-n96": 1.0, "lines": 0.02, "surfaces": 2400.0},
             },
         ),
     )

@@ -10,10 +10,10 @@ from roughline.paper import studies as summaries
 from roughline.plot.style import new_figure
 from roughline.report.page import Table
 from roughline.statistics.power_law import scaling_exponent
-from roughline.statistics.verdict import Verdict
+from roughline.statistics.verdict import Verdict, around
 from studies import study as skeleton
 from studies.__main__ import main
-from studies.judged import Found, around, claim_on
+from studies.judged import Found, claim_on
 from studies.reduced_data import Reduced
 from studies.study import Study, claims_table, filled
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from roughline.plot.style import dimension_label
-from roughline.statistics.verdict import Case, Claim, Verdict, places, verdict
+from roughline.statistics.verdict import Case, Claim, Range, Verdict, places, verdict
 
 if TYPE_CHECKING:
     import xarray
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from roughline.statistics.bootstrap import IntervalEstimate
 
     Numbers = Mapping[str, IntervalEstimate]
-    Range = tuple[float, float]
 
 ENOUGH_LOADS = "three loads or more across this range"
 
@@ -101,11 +100,6 @@ def intervals(numbers: Numbers, form: str = ".3f") -> str:
         f"{each.low:{form}} to {each.high:{form}}" if math.isfinite(each.low) else "-"
         for each in known(numbers).values()
     )
-
-
-def around(value: float, tolerance: float) -> Range:
-    """Return the range of numbers within a tolerance of a value."""
-    return value - tolerance, value + tolerance
 
 
 def basis_in(window: Window, *bodies: xarray.Dataset, averaged: str = "k") -> str:

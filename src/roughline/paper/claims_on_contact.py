@@ -8,7 +8,6 @@ import numpy as np
 
 from roughline.contact import scaling
 from roughline.paper.claim import (
-    around,
     at,
     basis_in,
     bodies_of,
@@ -23,12 +22,12 @@ from roughline.paper.claim import (
     not_judged,
 )
 from roughline.paper.contact_area import SATURATED, saturation
-from roughline.paper.results import ROW_FULL, ROW_REDUCED
+from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_REDUCED
 from roughline.paper.stated import EXPONENT_TOLERANCE, STIFFNESS_TOLERANCE
 from roughline.paper.windows import WINDOW_AREA
 from roughline.spectra.self_affine import SelfAffine
 from roughline.statistics.bootstrap import IntervalEstimate
-from roughline.statistics.verdict import Claim, Verdict, joint_verdict, verdict
+from roughline.statistics.verdict import Claim, Verdict, around, joint_verdict, verdict
 
 if TYPE_CHECKING:
     from roughline.paper.laws import DimensionLaws
@@ -194,7 +193,7 @@ def _no_difficulties(results: PaperResults) -> Claim:
 
 def _reduced_within_minutes(results: PaperResults, computing: Computing) -> Claim:
     """Judge whether lines of 2^20 points take minutes."""
-    seconds, data = computing.core_seconds[ROW_REDUCED], results.reduced
+    seconds, data = computing.core_seconds[ENSEMBLE_REDUCED], results.reduced
     dimensions = results.exponents.sizes["fractal_dimension"]
     ensemble = seconds * data.sizes["realisation"]
     return exact_claim(
@@ -211,7 +210,7 @@ def _reduced_within_minutes(results: PaperResults, computing: Computing) -> Clai
 
 def _full_takes_weeks(results: PaperResults, computing: Computing) -> Claim:
     """Judge whether a study of surfaces takes weeks."""
-    seconds, data = computing.core_seconds[ROW_FULL], results.full
+    seconds, data = computing.core_seconds[ENSEMBLE_FULL], results.full
     bodies = data.sizes["realisation"] * data.sizes["fractal_dimension"]
     hours = seconds * bodies / computing.cores / 3600
     return exact_claim(

@@ -9,7 +9,6 @@ import numpy as np
 
 from roughline.paper.claim import (
     ENOUGH_LOADS,
-    around,
     basis_in,
     bodies_of,
     by_dimension,
@@ -32,14 +31,13 @@ from roughline.paper.stated import (
 )
 from roughline.paper.windows import MEDIUM_FORCE, OTHER_WINDOWS_REDUCED, WINDOW_AGREEMENT
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
-from roughline.statistics.verdict import Claim, Verdict
+from roughline.statistics.verdict import Claim, Range, Verdict, around
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     import xarray
 
-    from roughline.paper.claim import Range
     from roughline.paper.exponents import LocalExponents
     from roughline.paper.laws import DimensionLaws
     from roughline.paper.results import PaperResults
@@ -186,7 +184,7 @@ def _great_accuracy(model: _Model) -> Claim:
         "α is deduced with great accuracy (§7)",
         f"± {widest:.3f} or less in a given window, but lower by {{}} in the window F̄ = {low:g} to "
         f"{high:g}; averages at fixed level differ by more",
-        lambda model, laws: laws.reduced_by_window[-1],
+        lambda model, laws: laws.reduced_by_window,
         form=".3f",
         needed=f"loads across this range and from F̄ = {low:g} to {high:g}",
     )

@@ -157,9 +157,11 @@ def local_exponents(data: xarray.Dataset | None, window: Window) -> LocalExponen
 
 
 def difference_between_windows(
-    data: xarray.Dataset, first: Window, second: Window
+    data: xarray.Dataset | None, first: Window, second: Window
 ) -> IntervalEstimate:
     """Return the exponent in one window less that in another, of the same realisations."""
+    if data is None:
+        return NO_ESTIMATE
     force = data.force_bar.values
     both = (min(first[0], second[0]), max(first[1], second[1]))
     if not (covers(force, first) and covers(force, second) and is_fitted(data, both)):

@@ -18,13 +18,11 @@ from roughline.paper.exponents import (
     surfaces_less_lines,
 )
 from roughline.paper.windows import OTHER_WINDOWS_REDUCED, WINDOW_AGREEMENT
-from roughline.statistics.bootstrap import NO_ESTIMATE
 from roughline.statistics.window import inside_window
 
 if TYPE_CHECKING:
     import xarray
 
-    from roughline.computing.arrays import Indices
     from roughline.paper.windows import Windows
     from roughline.statistics.bootstrap import IntervalEstimate
     from roughline.statistics.power_law import PowerLaw
@@ -42,8 +40,8 @@ class DimensionLaws:
         k̄ over F̄ in the two models' windows; k̄ is raw, k / (E* L). NaN where it is not known.
     reduced_elsewhere : tuple of PowerLaw
         The law of the reduced model in other windows.
-    reduced_by_window : tuple of IntervalEstimate
-        Exponent of the reduced model in its window, less that in each of the other windows.
+    reduced_by_window : IntervalEstimate
+        Exponent of the reduced model in its window, less that in the last of the other windows.
     reduced_local, full_local : LocalExponents
         How far the exponent of each model changes from the lowest loads to medium ones.
     models_apart : IntervalEstimate
@@ -65,7 +63,7 @@ class DimensionLaws:
     reduced: PowerLaw
     full: PowerLaw
     reduced_elsewhere: tuple[PowerLaw, ...]
-    reduced_by_window: tuple[IntervalEstimate, ...]
+    reduced_by_window: IntervalEstimate
     reduced_local: LocalExponents
     full_local: LocalExponents
     models_apart: IntervalEstimate
@@ -87,17 +85,14 @@ def dimension_laws(
 
     Where there are no such lines, or loads do not cover a window, numbers are NaN.
     """
-    in_window = inside_window(full.force_bar.values, windows.full)
+    flags = full.resolved.values[:, inside_window(full.force_bar.values, windows.full)]
     return DimensionLaws(
         fractal_dimension=float(full.fractal_dimension),
         reduced=law_of(reduced, windows.reduced),
         full=law_of(full, windows.full),
         reduced_elsewhere=tuple(law_of(reduced, window) for window in OTHER_WINDOWS_REDUCED),
-        reduced_by_window=tuple(
-            NO_ESTIMATE
-            if reduced is None
-            else difference_between_windows(reduced, windows.reduced, window)
-            for window in OTHER_WINDOWS_REDUCED
+        reduced_by_window=difference_between_windows(
+            reduced, windows.reduced, OTHER_WINDOWS_REDUCED[-1]
         ),
         reduced_local=local_exponents(reduced, windows.reduced),
         full_local=local_exponents(full, windows.full),
@@ -106,14 +101,9 @@ def dimension_laws(
         cells=area_law(full, "area_fraction"),
         corrected=area_law(full, "area_fraction_corrected"),
         saturation=saturation(full),
-        unresolved=1 - _share(full.resolved.values[:, in_window]),
+        unresolved=1 - float(flags.mean()) if flags.size else np.nan,
         left_out=left_out(reduced, windows.reduced) + left_out(full, windows.full),
     )
-
-
-def _share(flags: Indices) -> float:
-    """Share of flags that are set; NaN where there is no flag."""
-    return float(flags.mean()) if flags.size else np.nan
 
 
 def _stiffness_ratio(full: xarray.Dataset, matched: xarray.Dataset | None) -> IntervalEstimate:

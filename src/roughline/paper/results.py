@@ -13,7 +13,6 @@ from roughline.campaign.layout import CASE_STATUS, PENDING
 from roughline.errors import StoreError
 from roughline.paper.exponents import at_dimension, exponents_of
 from roughline.paper.laws import DimensionLaws, dimension_laws
-from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
 from roughline.paper.roles import roles_of
 from roughline.paper.windows import Windows
 
@@ -23,16 +22,7 @@ if TYPE_CHECKING:
     from roughline.campaign.plan import Ensemble, Plan
     from roughline.campaign.store import Store
 
-ROW_REDUCED, ROW_MATCHED, ROW_FULL = "reduced", "reduced, with the waves of the surfaces", "full"
-ROW_OTHER_GRID = "full, on another grid"
-"""Names of the ensembles in the table of what was computed."""
-
 _GRIDS = (128, 256, 512, 1024)
-
-
-def row_of_grid(n: int) -> str:
-    """Return the name of single surfaces on a grid of n points along a side."""
-    return f"full, {n}²"
 
 
 @dataclass(frozen=True)
@@ -48,7 +38,7 @@ class Computing:
     hours : float
         All ensembles of the study together, with the map, on these cores. [h]
     core_seconds : dict of float
-        One body with all its loads on one core, on the average, by the name of its row. [s]
+        One body with all its loads on one core, on the average, by its ensemble. [s]
     """
 
     processor: str
@@ -177,6 +167,7 @@ def published_results() -> PaperResults:
     The page "The paper, recomputed" is made of it: 500 lines of 2^20 points and 60 surfaces of
     2048² for each of six fractal dimensions.
     """
+    told = (published_folder() / "computing.json").read_text(encoding="utf-8")
     return PaperResults(
         name="from the study in studies/paper",
         command="roughline campaign run studies/paper/plan.toml",
@@ -187,7 +178,7 @@ def published_results() -> PaperResults:
         gallery=published_dataset("gallery"),
         grids={n: published_dataset(f"grid_{n}") for n in _GRIDS},
         other_grid=published_dataset("coarse"),
-        computing=_read_computing(published_folder() / "computing.json"),
+        computing=Computing(**json.loads(told)),
     )
 
 
@@ -207,16 +198,3 @@ def published_dataset(name: str) -> xarray.Dataset:
 def published_folder() -> Path:
     """Folder with the files of the study that comes with the package."""
     return Path(str(files("roughline.paper").joinpath("data")))
-
-
-def _read_computing(path: Path) -> Computing:
-    told = json.loads(path.read_text(encoding="utf-8"))
-    rows = {
-        ROW_REDUCED: ENSEMBLE_REDUCED,
-        ROW_MATCHED: ENSEMBLE_MATCHED,
-        ROW_FULL: ENSEMBLE_FULL,
-        ROW_OTHER_GRID: "coarse-surfaces",
-        **{row_of_grid(n): f"grids-n{n}" for n in _GRIDS},
-    }
-    each = {row: told["core_seconds"][ensemble] for row, ensemble in rows.items()}
-    return Computing(told["processor"], told["cores"], told["hours"], each)

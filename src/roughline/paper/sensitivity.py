@@ -29,10 +29,9 @@ class Sensitivity:
     ----------
     fractal_dimension : float
         D_f.
-    arithmetic, geometric : tuple of PowerLaw
-        Law of the mean stiffness at fixed force, for each window.
-    at_level : tuple of IntervalEstimate
-        Exponent of mean stiffness over mean force, both at fixed level, for each window.
+    fits : list of tuple
+        For each window the law of the arithmetic mean of the stiffness at fixed force, that of the
+        geometric mean, and the exponent of mean stiffness over mean force, both at fixed level.
     automatic : PowerLaw or None
         Law of the arithmetic mean in the longest window in which a power law is not rejected.
     unresolved : int
@@ -41,9 +40,7 @@ class Sensitivity:
     """
 
     fractal_dimension: float
-    arithmetic: tuple[PowerLaw, ...]
-    geometric: tuple[PowerLaw, ...]
-    at_level: tuple[IntervalEstimate, ...]
+    fits: list[tuple[PowerLaw, PowerLaw, IntervalEstimate]]
     automatic: PowerLaw | None
     unresolved: int
 
@@ -56,14 +53,10 @@ def sensitivity(data: xarray.Dataset, windows: tuple[Window, ...]) -> Sensitivit
     automatic = find_window(force[usable], stiffness) if _is_enough(stiffness) else None
     return Sensitivity(
         fractal_dimension=float(data.fractal_dimension),
-        arithmetic=tuple(law_of(data, window) for window in windows),
-        geometric=tuple(law_of(data, window, "geometric") for window in windows),
-        at_level=tuple(
-            exponent_of_means(data, window, "level", "arithmetic")
-            if is_fitted(data, window)
-            else NO_ESTIMATE
+        fits=[
+            (law_of(data, window), law_of(data, window, "geometric"), _at_level(data, window))
             for window in windows
-        ),
+        ],
         automatic=fit_power_law(force[usable], stiffness, automatic) if automatic else None,
         unresolved=int(np.count_nonzero(~usable)),
     )
@@ -75,6 +68,13 @@ def sensitivities(
     """Fit each of several fractal dimensions that an ensemble has in several ways."""
     found = (at_dimension(data, float(each)) for each in dimensions)
     return [sensitivity(one, windows) for one in found if one is not None]
+
+
+def _at_level(data: xarray.Dataset, window: Window) -> IntervalEstimate:
+    """Exponent between means at fixed level."""
+    if not is_fitted(data, window):
+        return NO_ESTIMATE
+    return exponent_of_means(data, window, "level", "arithmetic")
 
 
 def _is_enough(stiffness: Real) -> bool:

@@ -8,7 +8,6 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 
 @dataclass(frozen=True)
@@ -101,7 +100,11 @@ def write_summary(summary: StudySummary) -> None:
     """Write what a study found into the package."""
     folder = summaries_folder()
     folder.mkdir(exist_ok=True)
-    text = json.dumps(_rounded(asdict(summary)), ensure_ascii=False, indent=0)
+    # five digits are more than a figure shows
+    rounded = json.loads(
+        json.dumps(asdict(summary)), parse_float=lambda digits: float(f"{float(digits):.5g}")
+    )
+    text = json.dumps(rounded, ensure_ascii=False, indent=0)
     (folder / f"{summary.name}.json").write_text(text + "\n", encoding="utf-8")
 
 
@@ -117,12 +120,3 @@ def _read(path: Path) -> StudySummary:
         for panel in content.pop("panels")
     ]
     return StudySummary(**content, panels=panels)
-
-
-def _rounded(value: Any) -> Any:
-    """Numbers with five digits, which are more than a figure shows."""
-    if isinstance(value, float):
-        return float(f"{value:.5g}")
-    if isinstance(value, dict):
-        return {key: _rounded(each) for key, each in value.items()}
-    return [_rounded(each) for each in value] if isinstance(value, list | tuple) else value

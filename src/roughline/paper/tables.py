@@ -9,14 +9,7 @@ import numpy as np
 
 from roughline.campaign.export import mean_table, write_netcdf
 from roughline.paper.exponents import exponent_estimate, law_of, prefactor_estimate
-from roughline.paper.results import (
-    ROW_FULL,
-    ROW_MATCHED,
-    ROW_OTHER_GRID,
-    ROW_REDUCED,
-    PaperResults,
-    row_of_grid,
-)
+from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
 from roughline.paper.windows import MEDIUM_FORCE, OTHER_WINDOWS_REDUCED
 from roughline.plot.style import dimension_label
 from roughline.report.page import Table
@@ -33,6 +26,7 @@ if TYPE_CHECKING:
 
     from roughline.contact.comparison.trust import Difference
     from roughline.paper.laws import DimensionLaws
+    from roughline.paper.results import PaperResults
     from roughline.paper.sensitivity import Sensitivity
     from roughline.paper.windows import Window
     from roughline.statistics.verdict import Claim
@@ -95,13 +89,15 @@ def constant_table(laws: list[DimensionLaws]) -> Table:
 def sensitivity_table(model: str, rows: list[Sensitivity]) -> Table:
     """Return the exponents of one model by window and averaging."""
     header = ["D_f"]
-    for law in rows[0].arithmetic:
+    for law, _, _ in rows[0].fits:
         header += [f"α {model}, {law.window[0]:g} to {law.window[1]:g}", "geometric", "fixed level"]
     cells = []
     for row in rows:
-        fits = zip(row.arithmetic, row.geometric, row.at_level, strict=True)
-        found = [cell for fit in fits for cell in _fit_cells(*fit)]
-        cells.append([dimension_label(row.fractal_dimension), *found])
+        found = [dimension_label(row.fractal_dimension)]
+        for arithmetic, geometric, level in row.fits:
+            found += [estimate_cell(exponent_estimate(arithmetic))]
+            found += [_number_cell(geometric.exponent), estimate_cell(level)]
+        cells.append(found)
     return Table(header, cells, numbers=range(len(header)))
 
 
@@ -111,9 +107,8 @@ def automatic_windows_table(rows: dict[str, list[Sensitivity]]) -> Table:
     for model in rows:
         header += [f"window {model}", "α there", "loads left out"]
     cells = []
-    for dimension in sorted(
-        {each.fractal_dimension for of_model in rows.values() for each in of_model}
-    ):
+    every = {each.fractal_dimension for of_model in rows.values() for each in of_model}
+    for dimension in sorted(every):
         found: list[str] = []
         for of_model in rows.values():
             one = [each for each in of_model if np.isclose(each.fractal_dimension, dimension)]
@@ -122,21 +117,11 @@ def automatic_windows_table(rows: dict[str, list[Sensitivity]]) -> Table:
     return Table(header, cells, numbers=range(len(header)))
 
 
-def _fit_cells(arithmetic: PowerLaw, geometric: PowerLaw, level: IntervalEstimate) -> list[str]:
-    return [
-        estimate_cell(exponent_estimate(arithmetic)),
-        _number_cell(geometric.exponent),
-        estimate_cell(level),
-    ]
-
-
 def _automatic_cells(law: PowerLaw | None) -> list[str]:
     if law is None:
         return ["none", "-"]
-    return [
-        f"{law.window[0]:.2g} to {law.window[1]:.2g}",
-        estimate_cell(exponent_estimate(law)),
-    ]
+    low, high = law.window
+    return [f"{low:.2g} to {high:.2g}", estimate_cell(exponent_estimate(law))]
 
 
 def two_grids_table(full: xarray.Dataset, other: xarray.Dataset, window: Window) -> Table:
@@ -158,18 +143,14 @@ def two_grids_table(full: xarray.Dataset, other: xarray.Dataset, window: Window)
             for data in (fine, coarse)
         )
         laws = [law_of(data, window) for data in (coarser, finer)]
+        areas = [data.area_fraction_corrected for data in (finer, coarser)]
         rows.append(
             [
                 dimension_label(dimension),
                 f"{count}",
                 *(_ratio_cell(finer.stiffness, coarser.stiffness, force) for force in forces),
                 *(_number_cell(law.exponent) for law in laws),
-                *(
-                    _ratio_cell(
-                        finer.area_fraction_corrected, coarser.area_fraction_corrected, each
-                    )
-                    for each in of_area
-                ),
+                *(_ratio_cell(areas[0], areas[1], force) for force in of_area),
             ]
         )
     return Table(header, rows, numbers=range(len(header)))
@@ -204,20 +185,20 @@ def _number_cell(value: float) -> str:
 
 def settings_table(results: PaperResults) -> Table:
     """Return what was computed: an ensemble in each row."""
-    ensembles = {
-        ROW_REDUCED: results.reduced,
-        ROW_MATCHED: None if results.matched is results.reduced else results.matched,
-        ROW_FULL: results.full,
-        ROW_OTHER_GRID: results.other_grid,
-        **{row_of_grid(n): data for n, data in sorted(results.grids.items())},
-    }
-    computing = results.computing
+    reduced, matched, computing = results.reduced, results.matched, results.computing
+    ensembles = [
+        (ENSEMBLE_REDUCED, "reduced", reduced),
+        (ENSEMBLE_MATCHED, "reduced, with the waves of the surfaces", matched),
+        (ENSEMBLE_FULL, "full", results.full),
+        ("coarse-surfaces", "full, on another grid", results.other_grid),
+        *((f"grids-n{n}", f"full, {n}²", data) for n, data in sorted(results.grids.items())),
+    ]
     rows = []
-    for name, data in ensembles.items():
-        if data is None:
+    for ensemble, name, data in ensembles:
+        if data is None or (ensemble == ENSEMBLE_MATCHED and matched is reduced):
             continue
         # the exponents may come from more fractal dimensions than the lines that are kept
-        dimensions = (results.exponents if name == ROW_REDUCED else data).fractal_dimension.values
+        dimensions = (results.exponents if data is reduced else data).fractal_dimension.values
         n, forces = data.attrs["n"], data.force_bar.values
         rows.append(
             (
@@ -227,7 +208,7 @@ def settings_table(results: PaperResults) -> Table:
                 f"{n}" if data.attrs["model"] == "reduced" else f"{n} × {n}",
                 f"{forces.size}, F̄ = {forces[0]:g} to {forces[-1]:g}",
                 f"SeedSequence({data.attrs['seed']}, spawn_key=(i,))",
-                *([f"{computing.core_seconds[name]:.3g} s"] if computing else []),
+                *([f"{computing.core_seconds[ensemble]:.3g} s"] if computing else []),
             )
         )
     header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")

@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from itertools import groupby
 
+Range = tuple[float, float]
+"""Smallest and largest number that a statement allows."""
+
 _NAMED = 6  # cases of the commonest verdict up to which they are named
 _COUNTLESS = 100_000  # realisations above which the mean lies on the border of the range
 
@@ -38,6 +41,11 @@ def verdict(low: float, high: float, least: float, most: float) -> Verdict:
     if high < least or low > most:
         return Verdict.REFUTED
     return Verdict.UNDECIDED
+
+
+def around(value: float, tolerance: float) -> Range:
+    """Return the range of numbers within a tolerance of a value."""
+    return value - tolerance, value + tolerance
 
 
 def joint_verdict(verdicts: Iterable[Verdict]) -> Verdict:
