@@ -8,7 +8,7 @@ TEST_PROCESSES ?= 2
 PEERS_PYTHON ?= $(BIN)/python
 PYTEST := $(BIN)/python -m pytest -n $(TEST_PROCESSES) --dist loadgroup
 
-.PHONY: mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
+.PHONY: full mutants lab lab-sessions lab-attack paper paper-full test quick check benchmark turns peers memory grid-error coverage intervals interface-stiffness part-coverage bootstrap-coverage persson contact-area robustness soak yielding yield-of-maps start-up lab-benchmark fuzz study correlations finite-size area averaging published docs validation lowest newest dist architecture clean
 
 lab: $(VENV)/installed
 	$(BIN)/roughline lab
@@ -21,6 +21,10 @@ paper-full: $(VENV)/installed
 
 test: $(VENV)/installed
 	$(PYTEST)
+
+# The same with all random cases, of which `make test` tries a fixed share.
+full: $(VENV)/installed
+	ROUGHLINE_FULL=1 $(PYTEST)
 
 # What matters while editing, in about a minute: no tests marked slow, no processes, no reports.
 quick: check

@@ -19,8 +19,10 @@ _TOPOGRAPHIES = Path(__file__).parents[2] / "shared" / "topographies"
 # first, so that no process is left with a long file at the end.
 _SHARING = ("campaign", "paper")
 _LONGEST = (
-    *("campaign", "lab/test_hands", "lab/test_resumed_page", "lab/test_measured_page"),
-    *("lab/test_controls_walk", "lab/test_explore_page", "lab/test_published_page", "paper"),
+    *("campaign", "lab/test_hands", "lab/test_resumed_page", "lab/test_measured_page", "paper"),
+    *("lab/test_measured", "cli/test_real_files", "lab/test_controls_walk", "spectra/test_fit"),
+    *("lab/test_explore_page", "lab/test_published_page", "contact/test_grid_error"),
+    *("contact/test_fuzz", "spectra/test_profile", "cli/test_pressed", "cli/test_cli"),
 )
 
 

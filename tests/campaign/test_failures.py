@@ -32,7 +32,9 @@ def test_a_case_that_fails(few_plan_file, few_undisturbed, two_workers, tmp_path
     patched.mkdir()
     (patched / "sitecustomize.py").write_text(PATCH.format(what=what))
     store = tmp_path / "store"
-    code, out, err = run(few_plan_file, store, env={**os.environ, "PYTHONPATH": str(patched)})
+    code, out, err = run(
+        few_plan_file, store, "--workers", 1, env={**os.environ, "PYTHONPATH": str(patched)}
+    )
     assert code == 1
     assert "Traceback" not in err
     assert "29 cases computed, 1 failed" in out

@@ -78,7 +78,7 @@ from roughline.paper import plan as plans
 original = plans.paper_plan
 def slow_but_small(scale, seed):
     plan = original(scale, seed)
-    sizes = {"lines": (2**14, 20), "lines-of-surfaces": (2**13, 20), "surfaces": (96, 8)}
+    sizes = {"lines": (2**13, 10), "lines-of-surfaces": (2**13, 10), "surfaces": (64, 8)}
     ensembles = tuple(
         replace(e, n=sizes[e.name][0], realisations=sizes[e.name][1], cutoff_ratio=None)
         for e in plan.ensembles
