@@ -64,7 +64,8 @@ def assert_same(one, other, i, j, hardness):
     off = np.abs(other.fields[j].indentation - one.fields[i].indentation)
     assert off.max() <= RTOL * max(length, one.rms_height)
     # a pressure answers a gap with the grid's stiffness
-    assert other.fields[j].pressure == pytest.approx(one.fields[i].pressure, abs=1e-4 * hardness)
+    off = np.abs(other.fields[j].pressure - one.fields[i].pressure)
+    assert off.max() <= 1e-4 * hardness
     assert other.work[j] == pytest.approx(one.work[i], rel=10 * RTOL)
 
 

@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from random_cases import cases
 from roughline.halfspace.search.window import Window
 
 
 def surfaces():
     """Surfaces with one peak or several, also beside a corner, on sides that are not even."""
     rng = np.random.default_rng(11)
-    for seed in range(cases(6, share=2)):
+    for seed in range(6):
         nx, ny = rng.integers(96, 200, 2)
         hurst = rng.uniform(0.2, 0.9)
         whole = rl.SelfAffine(hurst=hurst, rms_height=1.0).surface(256, seed)
@@ -63,8 +62,8 @@ def test_what_is_found_in_a_window_is_found_on_the_whole_grid(monkeypatch, contr
         assert windowed.area_fraction.tolist() == whole.area_fraction.tolist()
         for one, other in zip(windowed.fields, whole.fields, strict=True):
             assert (one.contact == other.contact).all()
-            assert one.gap == pytest.approx(other.gap, abs=3e-6)
-            assert one.indentation == pytest.approx(other.indentation, abs=3e-6)
+            assert np.abs(one.gap - other.gap).max() <= 3e-6
+            assert np.abs(one.indentation - other.indentation).max() <= 3e-6
     assert min(shares) < 0.1
 
 
