@@ -13,7 +13,7 @@ from roughline.assessment.question import Question
 from roughline.computing.arrays import Indices, Real
 from roughline.computing.summary import summary
 from roughline.engineering.intervals import Ends
-from roughline.engineering.rule import Answer, within
+from roughline.engineering.rule import Answer, Rule, within
 from roughline.statistics.places import average_of_places
 
 
@@ -128,6 +128,11 @@ class PartAnswer:
     def key(self) -> str:
         """Name by which it is found, such as "contact_stiffness"."""
         return self.of_maps[0].key
+
+    @property
+    def rule(self) -> Rule:
+        """That it follows from."""
+        return self.of_maps[0].rule
 
     @property
     def name(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,24 +26,36 @@ from roughline.report.contact_figures import (
 from roughline.report.contact_tables import (
     UNRESOLVED,
     answer_table,
-    elastic_in_words,
     formula_table,
+    groups,
+    headline,
     keys_at_many_loads,
-    leading_keys,
+    lead_of,
     load_table,
     material_in_words,
-    quantity,
     star_is_shown,
     symbol_table,
+    told,
 )
 from roughline.report.document import write_document
-from roughline.report.page import Headline, KeyFigure, Picture, Section, Table
+from roughline.report.groups import (
+    sections_of,
+    sentence,
+    with_numbers,
+)
+from roughline.report.page import Picture, Section, Table
 from roughline.report.preparation import STEPS, preparation_in_words
 from roughline.topography.body import Line, Surface
 from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
+    from roughline.engineering.pair import MaterialPair
+
+OF_FORMULAS = "how each answer follows, where that holds, and whose result it is"
+OF_ASSUMPTIONS = "what all answers and their intervals rest on"
+OF_REPEATING = "what gives the same numbers again"
+"""Said of sections that are folded."""
 
 _ABREAST = 3  # loads that fit beside each other on a page
 _PANEL, _PANELS = 2.6, 8.2  # heights of a row of panels, and of all at most [inch]
@@ -91,39 +104,10 @@ def write_contact_report(assessment: Assessment, folder: Path, how_to_repeat: st
     files = write_contact(assessment, folder)
     with styled():
         overview = save(_overview(assessment), folder, "overview")
-    title, lead = f"Contact of {assessment.question.name}", _lead(assessment)
+    title, lead = f"Contact of {assessment.question.name}", lead_of(assessment)
     sections = _sections(assessment, overview[0], how_to_repeat)
-    document = write_document(folder, title, lead, sections, _headline(assessment))
+    document = write_document(folder, title, lead, sections, headline(assessment))
     return [*document, *files, *overview]
-
-
-def _lead(assessment: Assessment) -> str:
-    """What was asked: both materials, and the largest load with its nominal area."""
-    pair, curve = assessment.question.pair, assessment.curve_as_asked
-    assert pair is not None
-    largest = assessment.largest
-    force, pressure = (
-        quantity(assessment.answers[key], largest) for key in ("normal_force", "mean_pressure")
-    )
-    joint = assessment.question.joint
-    over = "the nominal area" if joint is None else f"a joint of {engineering(joint, 'm²')}"
-    unsure = curve.converged[largest] and not curve.resolved[largest]
-    count = assessment.asked.size
-    which = f", the largest of {count} loads" if count > 1 else ""
-    return sentence(
-        f"{pair.first.name} on {pair.second.name} under {force}, {pressure} over {over}{which}"
-        + (f" ({UNRESOLVED})" if unsure else "")
-    )
-
-
-def _headline(assessment: Assessment) -> Headline:
-    """The answers at the largest load, by the names that they have in the table."""
-    leading = [assessment.answers[key] for key in leading_keys(assessment)]
-    return Headline(
-        [KeyFigure.of(each.name, quantity(each, assessment.largest)) for each in leading],
-        [*map(sentence, assessment.warnings)],
-        sentence(elastic_in_words(assessment)),
-    )
 
 
 def _overview(assessment: Assessment) -> Figure:
@@ -156,8 +140,6 @@ def _draw_body(axes: Axes, assessment: Assessment) -> None:
 
 
 def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> list[Section]:
-    pair = assessment.question.pair
-    assert pair is not None
     settings = "; ".join(
         f"{key} = {_shown(value)}"
         for key, value in assessment.settings.items()
@@ -168,12 +150,10 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
     return [
         Section(
             "Answers",
-            [
-                f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}.",
-                *legend,
-            ],
-            tables=_answers(assessment),
+            [*materials_in_words(assessment.question.pair), *legend],
+            tables=_many_loads(assessment),
         ),
+        *sections_of(groups(assessment), partial(told, assessment), partial(_answers, assessment)),
         *([Section("Notes", notes=notes)] if notes else []),
         Section(
             "Surface",
@@ -183,20 +163,33 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
         Section(
             "Formulas and sources",
             tables=[Table(*formula_table(assessment)), Table(*symbol_table(assessment))],
+            behind=OF_FORMULAS,
         ),
-        Section("Assumptions", assumptions_of(assessment)),
-        Section("How to repeat it", [how_to_repeat, settings]),
+        Section("Assumptions", assumptions_of(assessment), behind=OF_ASSUMPTIONS),
+        Section("How to repeat it", [how_to_repeat, settings], behind=OF_REPEATING),
     ]
 
 
-def _answers(assessment: Assessment) -> list[Table]:
-    """All answers, a few loads beside each other; of many loads the leading ones first."""
-    count = assessment.asked.size
-    loads = [slice(i, i + _ABREAST) for i in range(0, count, _ABREAST)]
-    found = [answer_table(assessment, each, with_elastic=True) for each in loads]
-    if count > _ABREAST:
-        found.insert(0, load_table(assessment, keys_at_many_loads(assessment)))
-    return [Table(header, rows, numbers=range(1, len(header))) for header, rows in found]
+def materials_in_words(pair: MaterialPair | None) -> list[str]:
+    """A sentence on both materials."""
+    if pair is None:
+        return []
+    return [f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}."]
+
+
+def _many_loads(assessment: Assessment) -> list[Table]:
+    """Of many loads, the leading answers of each."""
+    if assessment.asked.size <= _ABREAST:
+        return []
+    return [with_numbers(*load_table(assessment, keys_at_many_loads(assessment)))]
+
+
+def _answers(
+    assessment: Assessment, keys: Sequence[str]
+) -> list[tuple[list[str], list[list[str]]]]:
+    """Some answers, a few loads beside each other."""
+    loads = [slice(i, i + _ABREAST) for i in range(0, assessment.asked.size, _ABREAST)]
+    return [answer_table(assessment, each, keys=keys, with_elastic=True) for each in loads]
 
 
 def assumptions_of(assessment: Assessment) -> list[str]:
@@ -258,10 +251,3 @@ def _surface(assessment: Assessment) -> str:
     if parameters is not None and parameters.remarks:
         text += " " + " ".join(sentence(remark) for remark in parameters.remarks)
     return text
-
-
-def sentence(text: str) -> str:
-    """A remark as a sentence: with a capital and a full stop; nothing stays nothing."""
-    if not text:
-        return ""
-    return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")

@@ -1,4 +1,4 @@
-"""The curve and the answers of one assessment as tables."""
+"""The curve and the answers of one assessment: in large figures, in groups, and as tables."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ import numpy as np
 from roughline.contact.quantities import QUANTITIES
 from roughline.contact.status import Status
 from roughline.engineering.symbols import symbols_of
+from roughline.report.groups import Group, figures_of, groups_of, headline_of, sentence
+from roughline.report.page import Headline
 from roughline.report.values import value_and_interval, with_interval
 from roughline.units import change_in_words, engineering
 
@@ -70,7 +72,11 @@ def curve_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 
 
 def answer_table(
-    assessment: Assessment, loads: slice, *, with_elastic: bool = False
+    assessment: Assessment,
+    loads: slice,
+    *,
+    keys: Sequence[str] | None = None,
+    with_elastic: bool = False,
 ) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the answers at some of the loads that were asked for.
 
@@ -80,6 +86,8 @@ def answer_table(
         With answers.
     loads : slice
         Which of the loads.
+    keys : sequence of str, optional
+        Of the answers; default: all.
     with_elastic : bool, optional
         Whether the answer of elastic bodies stands below where yield changes it by more than its
         interval.
@@ -87,7 +95,8 @@ def answer_table(
     header = ["", *starred(assessment)[loads]]
     numbers = range(assessment.asked.size)[loads]
     rows = []
-    for key, each in assessment.answers.items():
+    for key in assessment.answers if keys is None else keys:
+        each = assessment.answers[key]
         rows.append([f"{each.name} {each.symbol}", *(quantity(each, i) for i in numbers)])
         elastic = assessment.elastic.get(key) if with_elastic else None
         if elastic is not None and any(_differs(elastic, each, i) for i in numbers):
@@ -158,7 +167,9 @@ def formula_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
 def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of the symbols of the formulas that are no answers."""
     question, pair = assessment.question, assessment.question.pair
-    assert pair is not None
+    header = ["symbol", "meaning", "value"]
+    if pair is None:
+        return header, []
     rows = [
         [each.symbol, each.meaning, "" if each.value is None else _number(each.value, each.unit)]
         for each in symbols_of(
@@ -170,7 +181,7 @@ def symbol_table(assessment: Assessment) -> tuple[list[str], list[list[str]]]:
             rms_height=assessment.body.rms_height,
         )
     ]
-    return ["symbol", "meaning", "value"], rows
+    return header, rows
 
 
 def keys_at_many_loads(assessment: Assessment) -> list[str]:
@@ -187,6 +198,48 @@ def leading_keys(assessment: Assessment) -> list[str]:
     return [key for key, each in assessment.answers.items() if each.leads]
 
 
+def told(assessment: Assessment, key: str) -> str:
+    """Name and value of an answer at the largest load."""
+    answer = assessment.answers[key]
+    return f"{answer.name} {answer.symbol} {quantity(answer, assessment.largest)}"
+
+
+def lead_of(assessment: Assessment) -> str:
+    """What was asked: both materials, and the largest load with its nominal area."""
+    pair, curve = assessment.question.pair, assessment.curve_as_asked
+    if pair is None:
+        return ""
+    largest = assessment.largest
+    force, pressure = (
+        quantity(assessment.answers[key], largest) for key in ("normal_force", "mean_pressure")
+    )
+    joint = assessment.question.joint
+    over = "the nominal area" if joint is None else f"a joint of {engineering(joint, 'm²')}"
+    unsure = curve.converged[largest] and not curve.resolved[largest]
+    count = assessment.asked.size
+    which = f", the largest of {count} loads" if count > 1 else ""
+    return sentence(
+        f"{pair.first.name} on {pair.second.name} under {force}, {pressure} over {over}{which}"
+        + (f" ({UNRESOLVED})" if unsure else "")
+    )
+
+
+def headline(assessment: Assessment) -> Headline:
+    """The answers at the largest load, by the names that they have in the tables."""
+    leading = leading_keys(assessment)
+    shown = [assessment.answers[key] for key in figures_of(groups(assessment), leading)]
+    return headline_of(
+        [(each.name, quantity(each, assessment.largest)) for each in shown],
+        assessment.warnings,
+        [elastic_in_words(assessment)],
+    )
+
+
+def groups(assessment: Assessment) -> list[Group]:
+    """The groups of its answers."""
+    return groups_of(assessment.answers, leading_keys(assessment))
+
+
 def star_is_shown(assessment: Assessment) -> bool:
     """Whether the grid decides one of the loads that were asked for."""
     return any(_decided_by_grid(assessment))
@@ -200,7 +253,8 @@ def quantity(answer: Answer, i: int) -> str:
 def area_in_words(assessment: Assessment, load: int) -> str:
     """Write the corrected area fraction under a load of the curve, with the digits known of it."""
     share = assessment.curve.area_fraction_corrected
-    assert share is not None
+    if share is None:
+        return "an area that is not known"
     written = with_interval(float(share[load]), _at(assessment.area_interval, load), "%")
     return value_and_interval(written)[0]
 

@@ -8,8 +8,6 @@ from dataclasses import dataclass, field
 from importlib.resources import files
 from pathlib import Path
 
-import jinja2
-
 from roughline.report.values import value_and_interval
 from roughline.statistics.verdict import Verdict
 
@@ -40,7 +38,10 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """A heading and the content below it, in this order; `notes` are shown as a list."""
+    """A heading and the content below it, in this order; `notes` are shown as a list.
+
+    On a screen the content is folded behind the heading where `behind` says in short what it is.
+    """
 
     heading: str
     paragraphs: Sequence[str] = ()
@@ -48,6 +49,7 @@ class Section:
     notes: Sequence[str] = ()
     tables: Sequence[Table] = ()
     pictures: Sequence[Picture] = field(default=())
+    behind: str = ""
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,8 @@ def render(
     headline: Headline | None = None,
 ) -> str:
     """Return the page as HTML; `made` says when and with which version it was made."""
+    import jinja2  # here because the terminal needs none
+
     environment = jinja2.Environment(autoescape=True, undefined=jinja2.StrictUndefined)
     environment.filters["verdict_class"] = _verdict_class
     environment.filters["value_and_interval"] = value_and_interval

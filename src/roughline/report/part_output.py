@@ -9,9 +9,13 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 
 from roughline.report.contact_tables import UNRESOLVED
+from roughline.report.groups import grouped_rows
 from roughline.report.json_output import of_assessment
 from roughline.report.part_tables import (
     elastic_of_part_in_words,
+    groups_of_part,
+    headline_of_part,
+    lead_of_part,
     leading_keys_of,
     leading_table,
     maps_table,
@@ -19,7 +23,13 @@ from roughline.report.part_tables import (
     part_table,
     star_is_shown_of,
 )
-from roughline.report.terminal import MOST_WITH_ALL, print_files, print_remarks, print_table
+from roughline.report.terminal import (
+    MOST_WITH_ALL,
+    print_files,
+    print_headline,
+    print_remarks,
+    print_table,
+)
 
 if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
@@ -43,12 +53,20 @@ def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers
     print_table(console, *maps_table(part))
     console.print()
     print_remarks(console, "warning", part.warnings)
+    if part.answers:
+        print_headline(console, lead_of_part(part), headline_of_part(part))
     print_table(console, *leading_table(part))
     count = len(part.headings)
     if part.answers:
         console.print()
     if part.answers and count <= _MOST_ABREAST:
-        print_table(console, *part_table(part, range(count)))
+        header, _ = part_table(part, range(count), keys=())
+        rows = grouped_rows(
+            groups_of_part(part),
+            lambda keys: part_table(part, range(count), keys=keys)[1],
+            len(header),
+        )
+        print_table(console, header, rows)
     elif part.answers:
         leading = [key for key in leading_keys_of(part) if key in part.answers]
         keys = leading if count > MOST_WITH_ALL else dict.fromkeys((*leading, *part.answers))

@@ -2,35 +2,49 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughline.plot.style import save, styled
 from roughline.report.contact_figures import write_contact
-from roughline.report.contact_report import assumptions_of, sentence, write_contact_report
+from roughline.report.contact_report import (
+    OF_ASSUMPTIONS,
+    OF_FORMULAS,
+    OF_REPEATING,
+    assumptions_of,
+    materials_in_words,
+    write_contact_report,
+)
 from roughline.report.contact_tables import (
     UNRESOLVED,
     formula_table,
-    material_in_words,
     symbol_table,
 )
 from roughline.report.document import write_document
-from roughline.report.page import Headline, KeyFigure, Picture, Section, Table
+from roughline.report.groups import (
+    sections_of,
+    sentence,
+    with_numbers,
+)
+from roughline.report.page import Picture, Section, Table
 from roughline.report.part_figures import MOST_HEIGHTS, answers_figure, heights_figure
 from roughline.report.part_tables import (
+    count_in_words,
     each_map_table,
-    elastic_of_part_in_words,
+    groups_of_part,
+    headline_of_part,
+    lead_of_part,
     leading_keys_of,
     leading_table,
     maps_table,
-    mean_and_interval,
     part_load_table,
     part_table,
-    scatter_in_words,
     star_is_shown_of,
+    told_of_part,
 )
-from roughline.units import engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
@@ -64,9 +78,9 @@ def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) ->
     for of_map, each in zip(_folders(part, folder), part.assessments, strict=True):
         written.append(write_contact_report(each, of_map, how_to_repeat)[0])
     figures = _figures(part, folder)
-    title, lead = f"Contact of a part, {_count(part)}", _lead(part)
+    title, lead = f"Contact of a part, {count_in_words(part)}", lead_of_part(part)
     sections = _sections(part, figures[0], figures[2], how_to_repeat)
-    document = write_document(folder, title, lead, sections, _headline(part))
+    document = write_document(folder, title, lead, sections, headline_of_part(part))
     return [*document, *figures, *written]
 
 
@@ -98,60 +112,15 @@ def _figures(part: PartAssessment, folder: Path) -> list[Path]:
         ]
 
 
-def _count(part: PartAssessment) -> str:
-    """Number of maps on the page, and of all maps if some are missing."""
-    count = len(part.names)
-    text = f"{count} maps" if count > 1 else "a single map"
-    missing = len(part.refused) + len(part.left)
-    return f"{text} of {count + missing}" if missing else text
-
-
-def _lead(part: PartAssessment) -> str:
-    """What was asked: both materials, and the largest load."""
-    i = part.largest
-    pair, joint = part.question.pair, part.question.joint
-    assert pair is not None
-    under = part.headings[i] + (
-        "" if joint is None else f" on a joint of {engineering(joint, 'm²')}"
-    )
-    count = len(part.headings)
-    which = f", the largest of {count} loads" if count > 1 else ""
-    text = f"{pair.first.name} on {pair.second.name} under {under}{which}"
-    if not any(key in part.answers for key in leading_keys_of(part)):
-        return sentence(f"{text}: the maps have no common mean")
-    unsure = any(not each.curve_as_asked.resolved[i] for each in part.assessments)
-    return sentence(text + (f" ({UNRESOLVED})" if unsure else ""))
-
-
-def _headline(part: PartAssessment) -> Headline:
-    """Means of the leading answers with their intervals, and how far places scatter."""
-    i = part.largest
-    leading = [part.answers[key] for key in leading_keys_of(part) if key in part.answers]
-    below = [elastic_of_part_in_words(part)]
-    if leading and len(part.names) > 1:
-        below.insert(0, f"places scatter by {scatter_in_words(leading[0], i)} in {leading[0].name}")
-    return Headline(
-        [KeyFigure.of(each.name, mean_and_interval(each, i)) for each in leading],
-        [*map(sentence, part.warnings)],
-        " ".join(map(sentence, filter(None, below))),
-    )
-
-
 def _sections(
     part: PartAssessment, answers: Path, heights: Path, how_to_repeat: str
 ) -> list[Section]:
-    pair, first = part.question.pair, part.assessments[0]
-    assert pair is not None
+    first = part.assessments[0]
     legend = [f"A star: {UNRESOLVED}."] if star_is_shown_of(part) else []
     notes = [*map(sentence, part.notes)]
     loads, maps = range(len(part.headings)), range(len(part.names))
-    of_part = [
-        part_table(part, loads[i : i + _LOADS_ABREAST], with_elastic=True)
-        for i in loads[::_LOADS_ABREAST]
-    ]
-    if len(loads) > _LOADS_ABREAST:
-        leading = [key for key in leading_keys_of(part) if key in part.answers]
-        of_part.insert(0, part_load_table(part, leading))
+    leading = [key for key in leading_keys_of(part) if key in part.answers]
+    several = part.answers and len(loads) > _LOADS_ABREAST
     of_maps = [
         each_map_table(part, load, maps[i : i + _MAPS_ABREAST])
         for load in loads
@@ -161,16 +130,14 @@ def _sections(
     return [
         Section(
             "The part",
-            [
-                f"Materials: {material_in_words(pair.first)}; {material_in_words(pair.second)}.",
-                *legend,
-            ],
-            tables=[_with_numbers(*each) for each in of_part if part.answers],
+            [*materials_in_words(part.question.pair), *legend],
+            tables=[with_numbers(*part_load_table(part, leading))] if several else [],
         ),
+        *sections_of(groups_of_part(part), partial(told_of_part, part), partial(_answers, part)),
         *([Section("Notes", notes=notes)] if notes else []),
         Section(
             "The maps",
-            tables=[_with_numbers(*maps_table(part)), _with_numbers(*leading_table(part))],
+            tables=[with_numbers(*maps_table(part)), with_numbers(*leading_table(part))],
             pictures=[
                 Picture(answers, "Answers", _caption_of_answers(part)),
                 Picture(heights, "Heights", _caption_of_heights(part)),
@@ -182,17 +149,26 @@ def _sections(
                 "Values and intervals of each map alone; its own report lies in a folder beside "
                 "this page."
             ],
-            tables=[_with_numbers(*each) for each in of_maps],
+            tables=[with_numbers(*each) for each in of_maps],
+            behind="values and intervals of each map alone",
         ),
-        Section("Formulas and sources", tables=[Table(*formulas), Table(*symbol_table(first))]),
-        Section("Assumptions", [*assumptions_of(first), ASSUMPTION_OF_PART]),
-        Section("How to repeat it", [how_to_repeat]),
+        Section(
+            "Formulas and sources",
+            tables=[Table(*formulas), Table(*symbol_table(first))],
+            behind=OF_FORMULAS,
+        ),
+        Section("Assumptions", [*assumptions_of(first), ASSUMPTION_OF_PART], behind=OF_ASSUMPTIONS),
+        Section("How to repeat it", [how_to_repeat], behind=OF_REPEATING),
     ]
 
 
-def _with_numbers(header: list[str], rows: list[list[str]]) -> Table:
-    """A table whose columns are numbers, but for the first."""
-    return Table(header, rows, numbers=range(1, len(header)))
+def _answers(part: PartAssessment, keys: Sequence[str]) -> list[tuple[list[str], list[list[str]]]]:
+    """Some answers, a few loads beside each other."""
+    loads = range(len(part.headings))
+    return [
+        part_table(part, loads[i : i + _LOADS_ABREAST], keys=keys, with_elastic=True)
+        for i in loads[::_LOADS_ABREAST]
+    ]
 
 
 def _caption_of_answers(part: PartAssessment) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from roughline.report.contact_tables import (
     IF_ELASTIC,
+    UNRESOLVED,
     differs,
     leading_keys,
     quantity,
@@ -16,6 +17,8 @@ from roughline.report.contact_tables import (
     starred,
     unit_shown,
 )
+from roughline.report.groups import Group, figures_of, groups_of, headline_of, sentence
+from roughline.report.page import Headline
 from roughline.report.values import with_interval
 from roughline.topography.body import Body, Surface
 from roughline.units import decimal, engineering
@@ -30,7 +33,11 @@ _SAME = 1e-6  # scatter below which a quantity was given, and did not come out
 
 
 def part_table(
-    part: PartAssessment, loads: Sequence[int], *, with_elastic: bool = False
+    part: PartAssessment,
+    loads: Sequence[int],
+    *,
+    keys: Sequence[str] | None = None,
+    with_elastic: bool = False,
 ) -> tuple[list[str], list[list[str]]]:
     """Return header and rows of mean, interval and scatter of all answers at some of the loads.
 
@@ -42,7 +49,8 @@ def part_table(
     for i in loads:
         header += [max((each[i] for each in headings), key=len), "scatter"]
     rows = []
-    for key, each in part.answers.items():
+    for key in part.answers if keys is None else keys:
+        each = part.answers[key]
         row = [f"{each.name} {each.symbol}"]
         for i in loads:
             row += [mean_and_interval(each, i), scatter_in_words(each, i)]
@@ -137,6 +145,57 @@ def leading_keys_of(part: PartAssessment) -> list[str]:
     """Keys of the answers that the page of a part begins with: those of its maps."""
     keys = max(map(leading_keys, part.assessments), key=len)  # some maps may yield, and others not
     return [key for key in keys if key in part.assessments[0].answers]
+
+
+def told_of_part(part: PartAssessment, key: str) -> str:
+    """Name, mean and interval of an answer at the largest load."""
+    answer = part.answers[key]
+    return f"{answer.name} {answer.symbol} {mean_and_interval(answer, part.largest)}"
+
+
+def count_in_words(part: PartAssessment) -> str:
+    """Number of maps on the page, and of all maps if some are missing."""
+    count = len(part.names)
+    text = f"{count} maps" if count > 1 else "a single map"
+    missing = len(part.refused) + len(part.left)
+    return f"{text} of {count + missing}" if missing else text
+
+
+def lead_of_part(part: PartAssessment) -> str:
+    """What was asked: both materials, and the largest load."""
+    i = part.largest
+    pair, joint = part.question.pair, part.question.joint
+    if pair is None:
+        return ""
+    under = part.headings[i] + (
+        "" if joint is None else f" on a joint of {engineering(joint, 'm²')}"
+    )
+    count = len(part.headings)
+    which = f", the largest of {count} loads" if count > 1 else ""
+    text = f"{pair.first.name} on {pair.second.name} under {under}{which}"
+    if not any(key in part.answers for key in leading_keys_of(part)):
+        return sentence(f"{text}: the maps have no common mean")
+    unsure = any(not each.curve_as_asked.resolved[i] for each in part.assessments)
+    return sentence(text + (f" ({UNRESOLVED})" if unsure else ""))
+
+
+def headline_of_part(part: PartAssessment) -> Headline:
+    """Means of the leading answers with their intervals, and how far places scatter."""
+    i = part.largest
+    leading = [key for key in leading_keys_of(part) if key in part.answers]
+    shown = [part.answers[key] for key in figures_of(groups_of_part(part), leading)]
+    below = [elastic_of_part_in_words(part)]
+    if leading and len(part.names) > 1:
+        first = part.answers[leading[0]]
+        below.insert(0, f"places scatter by {scatter_in_words(first, i)} in {first.name}")
+    return headline_of(
+        [(each.name, mean_and_interval(each, i)) for each in shown], part.warnings, below
+    )
+
+
+def groups_of_part(part: PartAssessment) -> list[Group]:
+    """The groups of its answers."""
+    return groups_of(part.answers, leading_keys_of(part))
 
 
 def mean_and_interval(answer: PartAnswer, i: int) -> str:

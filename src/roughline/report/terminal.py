@@ -18,7 +18,10 @@ from roughline.report.contact_tables import (
     answer_table,
     curve_table,
     elastic_in_words,
+    groups,
+    headline,
     keys_at_many_loads,
+    lead_of,
     leading_keys,
     load_table,
     quantity,
@@ -26,6 +29,8 @@ from roughline.report.contact_tables import (
 )
 from roughline.report.curve_file import loads_table, settings_table
 from roughline.report.description_table import description_table, missing_map
+from roughline.report.groups import grouped_rows
+from roughline.report.page import Headline
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
@@ -77,8 +82,16 @@ def print_assessment(
     elif pair is None:
         print_table(console, *curve_table(assessment))
     elif count <= _MOST_ABREAST:  # formulas are for the report
-        print_table(console, *answer_table(assessment, slice(None)))
+        print_headline(console, lead_of(assessment), headline(assessment))
+        header, _ = answer_table(assessment, slice(None), keys=())
+        rows = grouped_rows(
+            groups(assessment),
+            lambda keys: answer_table(assessment, slice(None), keys=keys)[1],
+            len(header),
+        )
+        print_table(console, header, rows)
     else:
+        print_headline(console, lead_of(assessment), headline(assessment))
         many = count > MOST_WITH_ALL
         keys = keys_at_many_loads(assessment) if many else list(assessment.answers)
         print_table(console, *load_table(assessment, keys))
@@ -95,6 +108,17 @@ def print_assessment(
         console.print(_theory_line(theory, assessment), highlight=False, soft_wrap=True)
     print_remarks(console, "note", assessment.notes)
     print_files(files)
+
+
+def print_headline(console: Console, lead: str, told: Headline) -> None:
+    """Print what was asked in words, and the answers that lead."""
+    console.print()
+    console.print(Text(lead, "bold"), soft_wrap=not console.is_terminal)
+    width = max((len(each.name) for each in told.figures), default=0)
+    for each in told.figures:
+        interval = f"  ({each.interval})" if each.interval else ""
+        console.print(Text(f"  {each.name:<{width}}  {each.value}{interval}"), soft_wrap=True)
+    console.print()
 
 
 def print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:
