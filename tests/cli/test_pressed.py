@@ -190,7 +190,7 @@ def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     assert max(map(len, lines)) <= 80
     assert len(lines) - 1 <= 2 * 20  # two lines a quantity at most
     code, out, _ = invoke("press", *holed, *PAIR, *loads[:2])
-    assert len(table_lines(out)) == 1 + 20  # one load: one line a quantity
+    assert len(table_lines(out)) == 1 + 20 + 3  # one load: one line a quantity, and names of groups
     assert (
         sum(line.startswith("for comparison, if nothing yielded: ") for line in out.splitlines())
         == 1

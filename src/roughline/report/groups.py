@@ -111,6 +111,15 @@ def grouped_rows(
     return found
 
 
+def counted(
+    groups: Sequence[Group],
+    told: Callable[[str], str],
+    rows: Callable[[Sequence[str]], list[list[str]]],
+) -> list[tuple[str, str, int]]:
+    """Name, headline and number of rows of each group, for a page that folds one table."""
+    return [(each.name, told(each.headline), len(rows(each.keys))) for each in groups]
+
+
 def sentence(text: str) -> str:
     """A remark as a sentence: with a capital and a full stop; nothing stays nothing."""
     if not text:

@@ -29,8 +29,13 @@ from roughline.report.contact_tables import (
     answer_table,
     curve_table,
     formula_table,
+    groups,
+    headline,
+    lead_of,
     star_is_shown,
+    told,
 )
+from roughline.report.groups import counted
 from roughline.topography.body import Surface
 from roughline.units import engineering
 
@@ -58,10 +63,14 @@ def _framed(result: Assessment, **others: Any) -> bytes:
     if isinstance(result.body, Surface):
         drawing = contact_drawing(result)
         contact, arrays = drawing.header, drawing.arrays
-    answers = answer_table(result, slice(None), with_elastic=True) if result.answers else None
+    table = partial(answer_table, result, slice(None), with_elastic=True)
+    folded = counted(groups(result), partial(told, result), lambda keys: table(keys=keys)[1])
     header = {
         "modulus": _modulus(result),
-        "answers": answers,
+        "lead": lead_of(result),
+        "figures": [vars(each) for each in headline(result).figures],
+        "answers": table() if result.answers else None,
+        "groups": folded,
         "if_elastic": IF_ELASTIC,
         "formulas": formula_table(result) if result.answers else None,
         "curve": curve_table(result),

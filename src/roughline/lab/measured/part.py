@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,12 +24,17 @@ from roughline.lab.measured.state import (
 from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress, without_paths
 from roughline.report.contact_tables import UNRESOLVED, leading_keys, unit_shown
+from roughline.report.groups import counted
 from roughline.report.part_tables import (
     body_in_words,
+    groups_of_part,
+    headline_of_part,
+    lead_of_part,
     leading_table,
     maps_table,
     part_table,
     star_is_shown_of,
+    told_of_part,
 )
 from roughline.report.values import scale_of
 
@@ -62,7 +68,14 @@ def part_in_words(part: PartAssessment, arguments: Arguments) -> dict[str, Any]:
         "names": part.names,
         "maps": maps_table(part),
         "leading": leading_table(part),
+        "lead": lead_of_part(part),
+        "figures": [vars(each) for each in headline_of_part(part).figures],
         "answers": part_table(part, loads) if part.answers else None,
+        "groups": counted(
+            groups_of_part(part),
+            partial(told_of_part, part),
+            lambda keys: part_table(part, loads, keys=keys)[1],
+        ),
         "star": f"* {UNRESOLVED}" if star_is_shown_of(part) else "",
         "remarks": [without_paths(each, arguments) for each in part.remarks],
         "load": part.headings[part.largest],

@@ -2,7 +2,7 @@
 import {copy} from "./clipboard.js";
 import {openDialog} from "./dialogs.js";
 import {fillList} from "./measured-pictures.js";
-import {fillTable} from "./plots.js";
+import {fillFigures, fillTable, foldRows} from "./plots.js";
 import {recall, remember} from "./remember.js";
 import {Waiting} from "./waiting.js";
 
@@ -132,6 +132,8 @@ export class Answers {
     for (const cell of view.findAll('[data-table="measured-answers"] td:first-child')) {
       cell.parentElement.classList.toggle("elastic", cell.textContent === answer.if_elastic);
     }
+    if (answer.answers) foldRows("measured-answers", answer.groups);
+    fillFigures(view.find('[data-figures="answers"]'), answer.lead, answer.figures);
     view.find("[data-star]").textContent = answer.star;
     fillList(view, "answer-remarks", [...(answer.part ? [] : answer.remarks), ...answer.theories]); // the part has all
     fillTable("measured-formulas", ...(answer.formulas ?? [["no answers follow from a contact modulus alone"], []]));

@@ -1,6 +1,6 @@
 // Maps of one part in My surface: each checked, shown one at a time, and what they gave together.
 import {fillList} from "./measured-pictures.js";
-import {fillTable} from "./plots.js";
+import {fillFigures, fillTable, foldRows} from "./plots.js";
 import {Waiting} from "./waiting.js";
 
 export class Part {
@@ -80,6 +80,8 @@ export class Part {
     this.#view.find("[data-map-shown]").hidden = !part;
     if (!part) return;
     fillTable("measured-part-answers", ...(part.answers ?? [["the maps have no common answers"], []]));
+    if (part.answers) foldRows("measured-part-answers", part.groups);
+    fillFigures(this.#view.find('[data-figures="part"]'), part.lead, part.figures);
     fillTable("measured-part-leading", ...part.leading);
     fillTable("measured-part-maps", ...part.maps);
     this.#view.find("[data-part-star]").textContent = part.star;

@@ -148,6 +148,47 @@ export function fillTable(id, header, rows) {
   document.querySelector(`[data-table="${id}"]`).replaceChildren(table);
 }
 
+// Fold the rows of a table behind the headlines of their groups, which are given with the number of
+// rows of each; those of the first are shown.
+export function foldRows(id, groups) {
+  const table = document.querySelector(`[data-table="${id}"] table`);
+  const rows = [...table.tBodies[0].rows], columns = table.tHead.rows[0].cells.length;
+  table.tBodies[0].remove();
+  for (const [i, [name, told, count]] of groups.entries()) {
+    const head = table.createTBody(), body = table.createTBody();
+    const cell = document.createElement("th"), button = document.createElement("button");
+    const show = (isShown) => {
+      body.hidden = !isShown;
+      button.setAttribute("aria-expanded", String(isShown));
+      button.textContent = isShown ? name : `${name}: ${told}`;
+    };
+    cell.colSpan = columns;
+    cell.scope = "rowgroup";
+    button.type = "button";
+    button.className = "fold";
+    button.addEventListener("click", () => show(body.hidden));
+    cell.append(button);
+    head.insertRow().append(cell);
+    body.append(...rows.splice(0, count));
+    show(i === 0);
+  }
+}
+
+// What was asked in words, and the answers that lead in large figures.
+export function fillFigures(place, lead, figures) {
+  place.querySelector("[data-lead]").textContent = lead;
+  const list = place.querySelector("dl");
+  list.replaceChildren(...figures.map(({name, value, interval}) => {
+    const figure = document.createElement("div");
+    for (const [kind, text] of [["dt", name], ["dd", value], ["dd", interval]]) {
+      const line = document.createElement(kind);
+      line.textContent = text;
+      figure.append(line);
+    }
+    return figure;
+  }));
+}
+
 // Draw all plots in the colours of the theme.
 export function recolourAll() {
   known.clear();
