@@ -196,7 +196,7 @@ def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
         == 1
     )
     code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--elastic")
-    assert len(table_lines(out)) == 1 + 17
+    assert len(table_lines(out)) == 1 + 17 + 3
     assert "if nothing yielded" not in out
 
 
