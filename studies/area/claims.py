@@ -33,9 +33,9 @@ from studies.judged import Found, claim_on, confidence_of_each
 
 TOLERANCE = 0.05
 """How near kappa must come to a number to confirm it."""
-SAME = 0.02
+_SAME = 0.02
 """How near kappas must come to be called the same."""
-STRAIGHT = 0.01
+_STRAIGHT = 0.01
 """How near kappa must come to a straight line over log Nayak."""
 LIGHT, MIDDLE, HEAVY = 0.005, 0.05, 0.15
 """Shares of the area at which statements are judged."""
@@ -119,11 +119,11 @@ def claims() -> list[Claim]:
             (-math.inf, 0.0),
         ),
         _of_hursts(
-            f"It falls about logarithmically, to {STRAIGHT:.0%} of κ",
+            f"It falls about logarithmically, to {_STRAIGHT:.0%} of κ",
             "κ of the middle band over the straight line between the narrowest and the widest, "
             f"less 1, at {MIDDLE:.0%} in contact",
             lambda hurst: _percent(bend_with_nayak(hurst, MIDDLE, _OF_HURSTS)),
-            around(0, STRAIGHT),
+            around(0, _STRAIGHT),
         ),
         _nayak_alone(),
         _nayak_of_others(),
@@ -145,11 +145,11 @@ def _nayak_alone() -> Claim:
     """Judge that the law of all spectra holds for each."""
     law = common_law(MIDDLE)
     return _of_samples(
-        f"Of self-affine spectra, Nayak's parameter alone determines κ (here), to {SAME:.0%}",
+        f"Of self-affine spectra, Nayak's parameter alone determines κ (here), to {_SAME:.0%}",
         f"κ at {MIDDLE:.0%} in contact over {law.at_ten.value:.3f} {law.per_decade.value:+.3f} "
         "log10(α/10)",
         lambda one: Found.of(kappa(one, MIDDLE, _OF_EACH).over(law(one.nayak)), one.count),
-        around(1, SAME),
+        around(1, _SAME),
         ".3f",
     )
 
@@ -158,13 +158,13 @@ def _nayak_of_others() -> Claim:
     """Judge that the law of self-affine spectra holds for those of another family."""
     level = confidence_of_each(len(rings()))
     return claim_on(
-        f"The same line holds for spectra of two narrow rings of waves (here), to {SAME:.0%}",
+        f"The same line holds for spectra of two narrow rings of waves (here), to {_SAME:.0%}",
         f"κ at {MIDDLE:.0%} in contact over the line, less 1",
         {
             f"at α = {one.nayak:.0f}": Found.of(over_law(one, level), RINGS_OF_EACH)
             for one in rings()
         },
-        around(0, SAME),
+        around(0, _SAME),
         "+.1%",
     )
 

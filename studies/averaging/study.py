@@ -34,7 +34,7 @@ from studies.reduced_data import version_of
 from studies.study import Study
 
 FORCE, LEVEL = Choice("force", "arithmetic"), Choice("level", "arithmetic")
-GEOMETRIC, DEPTH = Choice("force", "geometric"), Choice("depth", "arithmetic")
+_GEOMETRIC, _DEPTH = Choice("force", "geometric"), Choice("depth", "arithmetic")
 USUAL: dict[str, Window] = {"surfaces": (1e-2, 1e-1), "lines": (1e-4, 1e-2)}
 """Windows of the page "The paper, recomputed"."""
 
@@ -58,14 +58,14 @@ def told() -> dict[str, object]:
         "laws_apart": max(abs(scaling_exponent(d) - linear_exponent(d)) for d in DIMENSIONS),
         "held_at_level": HELD_AT_LEVEL,
         "tolerance": EXPONENT_TOLERANCE,
-        "verdicts_on_lines": verdict_table("lines"),
+        "verdicts_on_lines": _verdict_table("lines"),
         "usual": spread(usual, "g"),
         "narrowest_at": ", ".join(str(each) for each, share in excess.items() if share == 0),
         "excess": max(excess.values()),
         "width_at_force": _width(FORCE, 2.0),
         "width_at_level": _width(LEVEL, 2.0),
-        "by_means": _largest_change(GEOMETRIC),
-        "by_depth": _largest_change(DEPTH),
+        "by_means": _largest_change(_GEOMETRIC),
+        "by_depth": _largest_change(_DEPTH),
         "light": spread(light, "g"),
         "light_at_level": cell(exponent("surfaces", light, LEVEL, 2.0)),
         "light_at_force": cell(exponent("surfaces", light, FORCE, 2.0)),
@@ -75,7 +75,7 @@ def told() -> dict[str, object]:
     }
 
 
-def verdict_table(bodies: str) -> Table:
+def _verdict_table(bodies: str) -> Table:
     """Return what every window and mean reproduces."""
     return _table(
         bodies,
@@ -143,7 +143,7 @@ def _largest_change(other: Choice) -> float:
 
 STUDY = Study(
     HERE,
-    verdicts=partial(verdict_table, "surfaces"),
+    verdicts=partial(_verdict_table, "surfaces"),
     told=told,
     figures={"exponents": exponents_figure},
     panels=panels,

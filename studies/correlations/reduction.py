@@ -33,14 +33,14 @@ def reduce_store(path: Path) -> None:
             precision = data[variable].dtype if variable == "status" else np.float32
             arrays[f"{name}/{variable}"] = data[variable].values.astype(precision)
         arrays[f"{name}/rms_slope"] = data.rms_slope.values
-        arrays[f"{name}/core_seconds"] = np.array(seconds_of(ensemble))
+        arrays[f"{name}/core_seconds"] = np.array(_seconds_of(ensemble))
     arrays |= {f"heights/{name}": values for name, values in heights_of(plan.ensembles[0]).items()}
     versions = version_of(store.dataset(each.name) for each in plan.ensembles)
     arrays["roughline_version"] = np.array(versions)
     np.savez_compressed(HERE / "data.npz", **arrays)  # type: ignore[arg-type]
 
 
-def seconds_of(ensemble: campaign.Ensemble) -> float:
+def _seconds_of(ensemble: campaign.Ensemble) -> float:
     """Return the time of all bodies of an ensemble on one core, from that of one. [s]"""
     fft.set_threads(1)
     start = time.thread_time()

@@ -61,7 +61,7 @@ from studies.study import Study, claims_table
 
 BETWEEN = 0.3
 """Hardness at which elastic and plastic deformation both count."""
-IN_WINDOW = PRESSURES[1:]
+_IN_WINDOW = PRESSURES[1:]
 _LIMITS = {"elastic": ELASTIC, "fully plastic": FULL}
 
 
@@ -193,15 +193,15 @@ def _between_table() -> Table:
                     *(f"{hardness:g}", _hurst(one)),
                     f"{elastic_pressure_over_hardness(one):.1f}",
                     f"{one.mean_at(one.plastic, 1e-2).mean[0]:.0%}",
-                    *_cells(one, one.over_yovanovich, IN_WINDOW),
-                    *_cells(one, one.over_mikic, IN_WINDOW),
+                    *_cells(one, one.over_yovanovich, _IN_WINDOW),
+                    *_cells(one, one.over_mikic, _IN_WINDOW),
                     *(str(judge("", each, tolerance).verdict) for each in found),
                 ]
             )
     header = (
         *("H/(E*∇h)", "Hurst", "elastic p_c/H", "plastic share"),
-        *_at(IN_WINDOW, "over CMY's, p/H ="),
-        *_at(IN_WINDOW, "over Mikic's, p/H ="),
+        *_at(_IN_WINDOW, "over CMY's, p/H ="),
+        *_at(_IN_WINDOW, "over Mikic's, p/H ="),
         *(f"CMY within {tolerance:.0%}", f"Mikic within {tolerance:.0%}"),
     )
     return _numeric(header, rows, words=2)
@@ -210,11 +210,11 @@ def _between_table() -> Table:
 def _root_sum_table() -> Table:
     """Return ratios to the root sum of squares of the elastic and the plastic conductance."""
     rows = [
-        [f"{hardness:g}", _hurst(one), *_cells(one, over_root_sum(one), IN_WINDOW)]
+        [f"{hardness:g}", _hurst(one), *_cells(one, over_root_sum(one), _IN_WINDOW)]
         for hardness in MIXED
         for one in _samples(hardness)
     ]
-    return _numeric(("H/(E*∇h)", "Hurst", *_at(IN_WINDOW, "p/H =")), rows)
+    return _numeric(("H/(E*∇h)", "Hurst", *_at(_IN_WINDOW, "p/H =")), rows)
 
 
 def _area_table() -> Table:
@@ -291,8 +291,8 @@ def _boundary_table() -> Table:
     for name, hardness in _LIMITS.items():
         for prefix, boundary in (("main", "periodic"), ("free", "free")):
             one = sample(prefix, hardness, MIDDLE)
-            rows.append([name, boundary, *_cells(one, one.ratio, IN_WINDOW)])
-    return _numeric(("bodies", "boundary", *_at(IN_WINDOW, "pressure")), rows)
+            rows.append([name, boundary, *_cells(one, one.ratio, _IN_WINDOW)])
+    return _numeric(("bodies", "boundary", *_at(_IN_WINDOW, "pressure")), rows)
 
 
 def _ensembles_table() -> Table:

@@ -21,7 +21,7 @@ from studies.judged import Found, claim_on, confidence_of_each, spread
 
 MANY = 8
 """Roll-off waves along a side from which on there are many."""
-SINGLE = (0.006, 0.06)
+_SINGLE = (0.006, 0.06)
 """F / (E* h lambda_r) of the power law of a single wave."""
 BETWEEN = (0.5, 5.0)
 """F / (E* h lambda_r) between the power law and the load at which the exponent nears 1."""
@@ -56,9 +56,9 @@ def _single_wave() -> Claim:
     return claim_on(
         "A surface of one roll-off wave: k ~ F^(1/(1+H)) under light loads (eq. 14; Pastewka and "
         f"others), to ±{EXPONENT_TOLERANCE:g}",
-        f"exponent from F/(E* h λ_r) = {SINGLE[0]:g} to {SINGLE[1]:g}",
+        f"exponent from F/(E* h λ_r) = {_SINGLE[0]:g} to {_SINGLE[1]:g}",
         {
-            where: Found.of(exponent_in(one, SINGLE, level), one.count)
+            where: Found.of(exponent_in(one, _SINGLE, level), one.count)
             for where, one in cases.items()
         },
         {

@@ -38,7 +38,7 @@ FINE_SIZES = (2, 8)
 """Those pressed with eight cells for the shortest wave too, periodic, band 16."""
 RESOLVED = 0.95
 """Share of the bodies that must have ten cells or springs in contact."""
-NEAR_PUNCH = 0.9
+_NEAR_PUNCH = 0.9
 """Share of the punch's stiffness up to which a free surface shows that of its interface."""
 
 
@@ -110,7 +110,7 @@ def sample(geometry: Geometry, band: int, size: int, hurst: float, fine: bool = 
     stiffness = whole
     if geometry == "free":
         punch = EXACT_PUNCH - PUNCH_GRID_ERROR / ensemble.n
-        usable &= np.nan_to_num(whole, nan=np.inf).mean(axis=0) < NEAR_PUNCH * punch
+        usable &= np.nan_to_num(whole, nan=np.inf).mean(axis=0) < _NEAR_PUNCH * punch
         stiffness = interface_stiffness(whole, punch)
     return Sample(
         geometry=geometry,

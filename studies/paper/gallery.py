@@ -15,7 +15,7 @@ from roughline.campaign.gallery import bodies_of
 from roughline.paper.plan import paper_plan
 from roughline.paper.results import published_folder
 
-EVERY, BLOCK = 16, 4
+_EVERY, _BLOCK = 16, 4
 
 
 def main() -> None:
@@ -27,13 +27,13 @@ def main() -> None:
     blocks = ("fractal_dimension", "x_block", "y_block")
     shares = [_shares(body["contact"]) for body in bodies]
     variables = {
-        "heights": (places, _single([body["heights"][::EVERY, ::EVERY] for body in bodies])),
+        "heights": (places, _single([body["heights"][::_EVERY, ::_EVERY] for body in bodies])),
         "displacement": (
             places,
-            _single([body["displacement"][::EVERY, ::EVERY] for body in bodies]),
+            _single([body["displacement"][::_EVERY, ::_EVERY] for body in bodies]),
         ),
         # readers multiply the numbers of cells to shares
-        "contact": (blocks, np.array(shares), {"scale_factor": 1 / BLOCK**2}),
+        "contact": (blocks, np.array(shares), {"scale_factor": 1 / _BLOCK**2}),
         "line_heights": (
             ("fractal_dimension", "s"),
             _single([body["line_heights"] for body in bodies]),
@@ -46,7 +46,7 @@ def main() -> None:
         "force_bar": gallery.force_bar,
         "seed": gallery.seed,
         "roughline_version": __version__,
-        "contact": f"share of each block of {BLOCK} x {BLOCK} cells",
+        "contact": f"share of each block of {_BLOCK} x {_BLOCK} cells",
     }
     write_netcdf(
         xarray.Dataset(variables, coordinates, attributes), published_folder() / "gallery.nc"
@@ -55,8 +55,8 @@ def main() -> None:
 
 def _shares(contact: np.ndarray) -> np.ndarray:
     """Count the cells in contact of each block."""
-    side = contact.shape[0] // BLOCK
-    return contact.reshape(side, BLOCK, side, BLOCK).sum(axis=(1, 3)).astype(np.uint8)
+    side = contact.shape[0] // _BLOCK
+    return contact.reshape(side, _BLOCK, side, _BLOCK).sum(axis=(1, 3)).astype(np.uint8)
 
 
 def _single(values: list[np.ndarray]) -> np.ndarray:

@@ -32,7 +32,7 @@ from studies.reduced_data import finished, refuse_other_settings
 from studies.study import DOCS
 
 PLAN = Path(__file__).parent / "plan.toml"
-FIGURES = DOCS / "figures" / "paper"
+_FIGURES = DOCS / "figures" / "paper"
 DATA = published_folder()
 MAP = DATA.parents[1] / "contact" / "comparison" / "trust_map.csv"
 ENSEMBLES = {
@@ -113,8 +113,8 @@ def computing_of(path: Path) -> dict[str, Any]:
 def publish() -> None:
     """Draw the pages and their figures again."""
     refuse_another_plan()
-    shutil.rmtree(FIGURES, ignore_errors=True)
-    FIGURES.mkdir(parents=True)
+    shutil.rmtree(_FIGURES, ignore_errors=True)
+    _FIGURES.mkdir(parents=True)
     _publish_paper()
     _publish_map()
 
@@ -140,7 +140,7 @@ def _publish_paper() -> None:
     with TemporaryDirectory() as folder:
         text = render_markdown(*compose(results, Path(folder)), "figures/paper")
         for picture in (Path(folder) / "figures").glob("*.png"):
-            shutil.copy(picture, FIGURES)
+            shutil.copy(picture, _FIGURES)
     (DOCS / "paper.md").write_text(text, encoding="utf-8")
 
 
@@ -148,8 +148,8 @@ def _publish_map() -> None:
     """Draw the page of the map."""
     trust = rl.trust_map()
     with styled():
-        save(trust_map_figure(trust), FIGURES, "trust_map")
-    (FIGURES / "trust_map.pdf").unlink()
+        save(trust_map_figure(trust), _FIGURES, "trust_map")
+    (_FIGURES / "trust_map.pdf").unlink()
     rows = np.loadtxt(DATA / "map_fine.csv", delimiter=",", skiprows=1)
     fine = TrustMap.from_rows(rows)
     (DOCS / "trust.md").write_text(trust_page(trust, fine), encoding="utf-8")
