@@ -18,14 +18,15 @@ PRESS = ("--materials", "steel,copper", "--load", "10 uN")  # more than copper b
     ("name", "points", "told"),
     [
         ("al3d-1.al3d", [200, 296], "within 5% of the border"),
-        ("di-1.di", [512, 512], "21 spikes kept"),
-        ("opd-1.opd", [640, 480], "116 missing points (0.04%) filled: harmonic"),
+        ("di-1.di", [128, 128], "21 spikes kept"),
+        ("opd-1.opd", [128, 96], "116 missing points (0.04%) filled: harmonic"),
         ("dektak-1.csv", [9600], "a line scan shows one line"),
         ("mitutoyo_mock.xlsx", [960], "a line scan shows one line"),
     ],
 )
 def test_files_that_can_be_pressed(topographies, invoke, name, points, told):
-    code, out, errors = invoke("press", topographies / name, *PRESS, "--json")
+    steps = ("--resample", 128) if max(points) == 128 else ()  # the large ones on fewer points
+    code, out, errors = invoke("press", topographies / name, *PRESS, *steps, "--json")
     assert code == 0, errors
     found = json.loads(out)
     assert found["body"]["points"] == points
@@ -320,7 +321,9 @@ def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke
 
 
 def test_points_filled_before_are_not_said_to_matter_nothing(topographies, invoke, tmp_path):
-    code, _, errors = invoke("info", topographies / "opd-1.opd", "--out", tmp_path)
+    code, _, errors = invoke(
+        "info", topographies / "opd-1.opd", "--resample", 128, "--out", tmp_path
+    )
     assert code == 0, errors
     code, out, errors = invoke("press", tmp_path / "prepared.nc", *PRESS, "--resample", "64")
     assert code == 0, errors

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from random_cases import cases
 from studies.area.claims import HEAVY, LIGHT, MIDDLE, common_law, main_samples, over_law
 from studies.area.measure import (
     AREAS,
@@ -26,7 +27,7 @@ from studies.area.study import STUDY
 from studies.study import DOCS
 
 AGAIN = "the page is not that of the data any more: run make published"
-TRIALS = 200
+TRIALS = cases(200, share=2)
 PRESSURES = 0.002 * 10 ** (np.arange(9) / 5)
 
 

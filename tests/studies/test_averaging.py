@@ -8,6 +8,7 @@ import pytest
 import xarray
 from scipy.integrate import quad
 
+from random_cases import cases
 from roughline.paper.averaging import exponent_of_means
 from roughline.paper.results import published_dataset
 from roughline.statistics.verdict import Verdict
@@ -32,7 +33,7 @@ POWER = 2.2  # F = c d^POWER, k = dF/dd
 ALPHA = 1 - 1 / POWER
 SPREAD = 0.3  # standard deviation of the highest points, over h
 WINDOW = (1e-2, 1e-1)
-TRIALS = 200
+TRIALS = cases(200, share=2)
 
 
 def ensemble(count, rng):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
+from random_cases import cases
 from studies.finite_size.claims import MANY
 from studies.finite_size.crossover import (
     BETWEEN_THEM,
@@ -39,7 +40,7 @@ AGAIN = "the page is not that of the data any more: run make published"
 
 ASYMPTOTE, ONSET, SHARPNESS, FULL = 0.47, 0.3, 1.0, 1000.0
 FORCES = 10 ** (np.arange(-12, 11) / 4)
-TRIALS = 200
+TRIALS = cases(200, share=2)
 ENOUGH = 0.95 * TRIALS - math.sqrt(0.95 * 0.05 * TRIALS)
 """95 % of the trials, less the standard error of that count."""
 

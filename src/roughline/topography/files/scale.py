@@ -120,6 +120,6 @@ class Scale:
         lengths = "a positive length" if axes == 1 else f"{axes} positive lengths"
         return InputError(
             f"is {shown(self.given_sizes)}; {self.file} has {points} points: give {lengths}, such "
-            f"as {example}; numbers without a unit are in {self.given_unit or 'm'}",
+            f'as "{example}"; numbers without a unit are in {self.given_unit or "m"}',
             "sizes",
         )
