@@ -29,16 +29,7 @@ def answers_of(
 ) -> tuple[Mapping[str, Answer], Sequence[str]]:
     """Answers at the loads that were asked for, by their keys, and which are left out, and why.
 
-    Parameters
-    ----------
-    case : Case
-        Whose materials and loads they are for.
-    solution : Solution
-        Of it, or of a variant of it.
-    body : Surface or Line, optional
-        Of the solution; default: that of the case.
-    hardness : float, optional
-        Of the solution; default: that of the case. [Pa]
+    The solution is that of the case, or of a variant of it with another body or hardness [Pa].
     """
     question, body = case.question, case.body if body is None else body
     if hardness is not None:
@@ -64,16 +55,9 @@ def answers_of(
 def ends_from_many(
     result: Assessment, further: tuple[Ends, Ends], *, with_grid: bool
 ) -> Mapping[str, Ends]:
-    """Ends of the answers of one of many maps, by their keys.
+    """Ends of the answers of one of many maps, by their keys; `further` is over the asked loads.
 
-    Parameters
-    ----------
-    result : Assessment
-        With its answers.
-    further : tuple of (tuple of ndarray)
-        As for :meth:`LargerSurface.from_many`, at the loads that were asked for.
-    with_grid : bool
-        Whether the ends hold what the grid leaves open as well.
+    `with_grid` says whether they hold what the grid leaves open as well.
     """
     larger, curve, pair = result.larger, result.curve_as_asked, result.question.pair
     if larger is None or pair is None or curve.area_fraction_corrected is None:

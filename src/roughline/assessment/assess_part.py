@@ -32,7 +32,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
 
-MapProgress = Callable[[int, int], None]
+_MapProgress = Callable[[int, int], None]
 """Called with (maps done, maps in all)."""
 
 
@@ -51,7 +51,7 @@ def assess(
     *,
     announce: Announce | None = None,
     progress: LoadProgress | None = None,
-    map_progress: MapProgress | None = None,
+    map_progress: _MapProgress | None = None,
 ) -> Assessment | PartAssessment:
     """Answer a question of one body, or of several maps of a part.
 
@@ -103,7 +103,7 @@ def assess_part(
     names: Sequence[str] | None = None,
     announce: Announce | None = None,
     progress: LoadProgress | None = None,
-    map_progress: MapProgress | None = None,
+    map_progress: _MapProgress | None = None,
     answer: Callable[[Question], Assessment] | None = None,
 ) -> PartAssessment:
     """Answer one question for several maps of a part.
@@ -134,7 +134,7 @@ def assess_part(
     answer = answer or partial(assess_body, announce=announce, progress=progress)
     _refuse_unlike(questions)
     done = _Pressed()
-    todo = list(zip(names or names_of(questions), questions, strict=True))
+    todo = list(zip(names or _names_of(questions), questions, strict=True))
     for i, (name, question) in enumerate(todo):
         if map_progress is not None:
             map_progress(i, len(todo))
@@ -152,7 +152,7 @@ def assess_part(
     return _part_of(done)
 
 
-def names_of(questions: Sequence[Question]) -> list[str]:
+def _names_of(questions: Sequence[Question]) -> list[str]:
     """What maps are called: their files' names, with folders where these are the same."""
     paths = [each.body if isinstance(each.body, Path) else None for each in questions]
     names = [

@@ -11,7 +11,7 @@ from roughline.topography.body import Body
 Prediction = Literal["line scan", "larger surface", "part", "theories", "grid", "fit"]
 """What is predicted from a topography beyond the numbers of its own heights."""
 
-RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
+_RESTS_ON: Mapping[Prediction, frozenset[Assumption]] = {
     # reduced lines of Gaussian surfaces with its spectrum, for a square as long as it
     "line scan": frozenset({"gaussian", "stationary", "measured"}),
     # k_i, h_c and reflection of one map, and all answers of a joint: its tiles have the heights and
@@ -38,7 +38,7 @@ def takes_down(departure: Departure, prediction: Prediction, body: Body) -> bool
     Places of a surface that is not Gaussian scatter more than those of a Gaussian one even if it is
     alike everywhere. Tiles of a map show by how much, unless the roughness drifts.
     """
-    if departure.assumption not in RESTS_ON[prediction]:
+    if departure.assumption not in _RESTS_ON[prediction]:
         return False
     if prediction == "larger surface" and departure.assumption == "stationary":
         return all(each.assumption != "gaussian" for each in departures(body))

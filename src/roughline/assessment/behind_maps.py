@@ -128,24 +128,11 @@ def shared_load(
 ) -> tuple[Ends, Ends]:
     """Bounds of how a part differs from the mean of its places as they share its load.
 
-    Parameters
-    ----------
-    stiffness : ndarray, shape (maps, loads)
-        Of the interface of each map, under the same mean pressure. [N / m]
-    area : ndarray, shape (maps, loads)
-        Contact area fractions. [1]
-    side : float
-        Of a map. [m]
-    E_star : float
-        [Pa]
-    of_places : float, optional
-        Share of the variance between maps that belongs to places, and not to chance.
-
-    Returns
-    -------
-    stiffness, area : tuple of ndarray, shape (loads,)
-        Both bounds of the differences of its logarithm, and of its logit. A mean area is not the
-        logit's mean either.
+    The stiffness of the interface [N / m] and the area fraction of each map are of shape (maps,
+    loads), under the same mean pressure; `side` is that of a map [m]. `of_places` is the share of
+    the variance between maps that belongs to places, and not to chance. The bounds are of the
+    differences of the stiffness's logarithm and of the area's logit: a mean area is not the logit's
+    mean either.
     """
     s_k, log_k = _scatter_and_middle(np.log, stiffness)
     s_a, logit_a = _scatter_and_middle(logit, area)

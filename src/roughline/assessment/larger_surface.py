@@ -71,16 +71,10 @@ class LargerSurface:
     def from_many(
         self, area: Real, further: tuple[Ends, Ends], *, with_grid: bool
     ) -> LargerSurface:
-        """The same with intervals that many pieces leave open.
+        """The same with intervals that many pieces leave open; `area` is the piece's area fraction.
 
-        Parameters
-        ----------
-        area : ndarray, shape (loads,)
-            Area fraction of the piece. [1]
-        further : tuple of (tuple of ndarray)
-            Both ends of the differences of its stiffness's logarithm and its area's logit.
-        with_grid : bool
-            Whether these are combined with what the grid leaves open, as independent.
+        `further` are ends of the differences of its stiffness's logarithm and its area's logit;
+        with the grid, they are combined with what that leaves open, as independent.
         """
         k, shares = self.of_grid if with_grid else (None, None)
         values = self.stiffness.values
@@ -102,15 +96,9 @@ class LargerSurface:
     def intervals(self, curve: Curve) -> Intervals | None:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
 
-        There are none where the piece does not tell of that.
-
-        The stiffness on loading keeps its ratio to that on unloading. Where points yield, the error
-        of its grid is combined with that, as independent.
-
-        Parameters
-        ----------
-        curve : Curve
-            Of the piece.
+        There are none where the piece does not tell of that. The stiffness on loading keeps its
+        ratio to that on unloading. Where points yield, the error of its grid is combined with that,
+        as independent.
         """
         ends = self.stiffness.ends
         if ends is None:
@@ -139,16 +127,8 @@ class LargerSurface:
 def roll_offs_along_a_side(surface: Surface) -> float | None:
     """Roll-off wavelengths along a side of a surface.
 
-    Parameters
-    ----------
-    surface : Surface
-        [length]
-
-    Returns
-    -------
-    float or None
-        None if the fitted interval of the roll-off reaches the longest waves, so that there may be
-        none, or if there are too few points for a fit.
+    None if the fitted interval of the roll-off reaches the longest waves, so that there may be
+    none, or if there are too few points for a fit.
     """
     try:
         _, fit = fitted(surface)
@@ -166,16 +146,7 @@ def stiffness_of_the_piece(body: Body, curve: Curve, interval: Ends | None = Non
     """Interface stiffness of a free body as it is, 1 / k_i = 1 / k - 1 / k_s.
 
     Where the stiffness differs from the punch's by less than the grid's error of the punch, the
-    upper end of the interval is infinite.
-
-    Parameters
-    ----------
-    body : Surface or Line
-        What was pressed, in SI units.
-    curve : Curve
-        In the free half-space, or of the reduced model.
-    interval : tuple of ndarray, shape (loads,), optional
-        Both ends of its stiffness on unloading. [N / m]
+    upper end of the interval is infinite; `interval` is that of the stiffness on unloading. [N / m]
     """
     k = unloading_stiffness(curve)
     if isinstance(body, Line):
@@ -216,20 +187,10 @@ def larger_surface(
 ) -> LargerSurface:
     """Stiffness and area of the part of a large surface that a piece was cut out of.
 
-    The intervals are those of the large surface under the same mean pressure: they combine the
-    curve's with what the piece's tiles say of the large surface, as independent.
-
-    Parameters
-    ----------
-    curve : Curve
-        Of the piece in the periodic half-space.
-    beyond : Beyond
-        The larger surface.
-    tiles : tuple of Tiles, or None
-        Logarithms of the stiffness, and logits of the contact area fraction; without them there are
-        no intervals.
-    stiffness, area : tuple of ndarray, shape (loads,), optional
-        Both ends of its stiffness on unloading [N / m] and of its corrected area fraction [1].
+    The curve is that of the piece in the periodic half-space, with ends of its stiffness on
+    unloading [N / m] and of its corrected area fraction [1]. The intervals are those of the large
+    surface under the same mean pressure: they combine the curve's with what the piece's tiles say
+    of the large surface, as independent. Without tiles there are none.
     """
     touching, k = area_fraction(curve), unloading_stiffness(curve)
     formula = "dF/dd of the map in a periodic half-space under the same force, on unloading"

@@ -22,7 +22,7 @@ from roughline.spectra.scan_bins import ScanBins
 from roughline.topography.body import Line
 from roughline.topography.settings import as_body
 
-SCAN_LINES = 200
+_SCAN_LINES = 200
 _SPRINGS_A_WAVE = 8
 _LEAST_SPRINGS = 2**12
 
@@ -106,7 +106,7 @@ def press_scan(
     curve, low, high = _of_surfaces(_median(curves, scan, rng), curves, bins[0])
     doubts = []
     for which, each in enumerate(scans):
-        seed = np.random.SeedSequence(rng, spawn_key=(SCAN_LINES, which, 1))
+        seed = np.random.SeedSequence(rng, spawn_key=(_SCAN_LINES, which, 1))
         found = doubts_of(each, bins[which], curve.force_bar, is_known_gaussian=gaussian, rng=seed)
         whose = f"{('first', 'second')[which]} body: " if len(scans) > 1 else ""
         doubts += [whose + doubt for doubt in found]
@@ -123,7 +123,7 @@ def _pressed(
     springs = max(_LEAST_SPRINGS, _SPRINGS_A_WAVE * scans[0].heights.size)
     surfaces = [
         _surfaces(
-            bins[which], each.length, np.random.SeedSequence(seed, spawn_key=(SCAN_LINES, which))
+            bins[which], each.length, np.random.SeedSequence(seed, spawn_key=(_SCAN_LINES, which))
         )
         for which, each in enumerate(scans)
     ]
@@ -155,7 +155,7 @@ def _median(curves: Sequence[Curve], scan: Line, seed: int) -> Curve:
             "roughline_version": first.settings["roughline_version"],
             "model": "reduced",
             "control": "forces",
-            "lines": SCAN_LINES,
+            "lines": _SCAN_LINES,
             "seed": seed,
             "spectrum": "of surfaces that the line scan may be cut from",
             **as_body(scan.settings),
@@ -184,7 +184,7 @@ def _surfaces(
 ) -> Iterator[IsotropicSpectrum]:
     """Draw the spectra of surfaces that a scan may be cut from, one for each line."""
     q_low = 2 * math.pi / length
-    for power in bins.surfaces(SCAN_LINES, np.random.default_rng(rng)):
+    for power in bins.surfaces(_SCAN_LINES, np.random.default_rng(rng)):
         m = np.arange(1.0, power.size + 1)
         yield IsotropicSpectrum(
             q=q_low * m,

@@ -183,7 +183,7 @@ def cropping_and_resampling(body: Body) -> list[str]:
     return notes
 
 
-def largest_elastic_slope(question: Question, body: Body) -> float | None:
+def _largest_elastic_slope(question: Question, body: Body) -> float | None:
     """Rms slope up to which a line, whose model has no yield, stands for metals."""
     pair = question.pair
     if pair is None or pair.hardness is None or not isinstance(body, Line):
@@ -193,7 +193,7 @@ def largest_elastic_slope(question: Question, body: Body) -> float | None:
 
 def is_scan_that_yields(question: Question, body: Body) -> bool:
     """Whether a scan is so steep that metals yield, of which its model knows nothing."""
-    most = largest_elastic_slope(question, body)
+    most = _largest_elastic_slope(question, body)
     is_scan = isinstance(body, Line) and body.kind == "profile"
     return is_scan and most is not None and body.rms_slope > most
 
@@ -204,7 +204,7 @@ def how_far_a_line_serves(result: Assessment, *, grave: bool) -> list[str]:
     It is grave where the slopes of a scan are larger.
     """
     body = result.body
-    most = largest_elastic_slope(result.question, body)
+    most = _largest_elastic_slope(result.question, body)
     if most is None or not isinstance(body, Line):
         return []
     said = (

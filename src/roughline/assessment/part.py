@@ -81,14 +81,8 @@ class PartAnswer:
     ) -> PartAnswer:
         """Average the answers of one or more maps, within the limits of each of them.
 
-        Parameters
-        ----------
-        of_maps : sequence of Answer
-            One or more.
-        missed : Missed, optional
-            What all maps miss alike; without it, their own intervals.
-        is_told : bool, optional
-            Whether the maps tell of the part, so that there is an interval.
+        Without what all maps miss alike, their own intervals are that. There is no interval where
+        the maps do not tell of the part.
         """
         values = np.stack([each.values for each in of_maps])
         unknown = np.full(values.shape[1], np.nan)
@@ -103,18 +97,7 @@ class PartAnswer:
         return cls(of_maps, found.mean, found.scatter, low, high, found.count)
 
     def ends_of_maps(self, load: int) -> tuple[Real, Real]:
-        """Both ends of each map's own interval at one load; its value where it has none.
-
-        Parameters
-        ----------
-        load : int
-            Number of the load, from 0.
-
-        Returns
-        -------
-        low, high : ndarray, shape (maps,)
-            [unit]
-        """
+        """Both ends of each map's own interval at one load, (maps,); its value if it has none."""
         ends = [each.ends or (each.values, each.values) for each in self.of_maps]
         low, high = (np.array([each[load] for each in side]) for side in zip(*ends, strict=True))
         return low, high

@@ -12,7 +12,7 @@ from roughline.spectra.scan_bins import ScanBins
 from roughline.topography.body import Line
 from roughline.units import decimal
 
-LEAST_HEIGHTS = 100
+_LEAST_HEIGHTS = 100
 """Independent heights from which on a scan shows whether its surface has Gaussian ones.
 
 The skewness of so many scatters by sqrt(6 / 100) = 0.25. A skewness of 1, which moves the stiffness
@@ -34,28 +34,18 @@ def doubts_of(
 ) -> list[str]:
     """Say why a surface with Gaussian heights may not stand for that of a scan; empty if it may.
 
-    Parameters
-    ----------
-    scan : Line
-        Of kind "profile".
-    bins : ScanBins
-        Its own.
-    forces : ndarray, shape (loads,)
-        Total forces, over E* times the rms height and the length of the scan.
-    is_known_gaussian : bool
-        Whether the surface is known to be Gaussian, so that a short scan need not show it.
-    rng : SeedSequence
-        Of the Gaussian cuts.
+    Forces are over E* times the rms height and the length of the scan. A short scan need not show
+    that it is Gaussian if that is known.
     """
     levelled = scan.detrended()
     found = [each.text for each in broken("line scan", levelled)]
     if not found:
         found = _of_stiffness(levelled.heights, bins, forces, rng)
     heights = independent_heights(levelled)
-    if not found and not is_known_gaussian and heights < LEAST_HEIGHTS:
+    if not found and not is_known_gaussian and heights < _LEAST_HEIGHTS:
         found = [
             f"the scan has about {decimal(heights, 2)} independent heights, too few to show "
-            f"whether those of its surface are Gaussian: {LEAST_HEIGHTS} are needed, "
+            f"whether those of its surface are Gaussian: {_LEAST_HEIGHTS} are needed, "
             "or rl.press_scan(..., gaussian=True) where that is known"
         ]
     return found

@@ -80,19 +80,7 @@ def solution_of_scan(case: Case, body: Line) -> Solution:
 
 
 def larger_behind(case: Case, curves: Curves, name: str, loads: LoadCase) -> LargerSurface | None:
-    """The larger surface behind the body of a variant, over the loads of its curve.
-
-    Parameters
-    ----------
-    case : Case
-        With the body.
-    curves : Curves
-        Of all variants.
-    name : str
-        The variant.
-    loads : LoadCase
-        Under which it was pressed.
-    """
+    """The larger surface behind the body of a variant, over the loads that it was pressed under."""
     body, curve = case.map, curves.by_name[name]
     if body is None:
         return None

@@ -138,14 +138,7 @@ class Tiles:
 
         Where the map is above its quarters by more than it scatters, as a map of a plateau is that
         its own plane tilts, the map is not large yet under this load, and its roll-off does not
-        count.
-
-        Parameters
-        ----------
-        beyond : Beyond
-            The larger surface.
-        mean : bool, optional
-            Whether the map stands for the mean of many, in which chance cancels.
+        count. `mean` says that the map stands for the mean of many, in which chance cancels.
         """
         low, high = self._beyond(beyond, mean=mean)
         if beyond.roll_offs is not None:
@@ -184,14 +177,8 @@ def tiles_from(
 ) -> tuple[Tiles, Tiles]:
     """Logarithms of the stiffness of a map and its tiles, and logits of their contact.
 
-    Parameters
-    ----------
-    whole : Curve
-        Of the map in the periodic half-space.
-    halves, quarters : sequence of Curve
-        Of its 4 and 16 tiles under the same mean pressures, row by row.
-    points : int
-        Of the map.
+    The whole map has so many points; its 4 halves and 16 quarters, row by row, are under the same
+    mean pressures, and all are periodic.
     """
 
     def tiles(of: Callable[[Curve, int], Real]) -> Tiles:

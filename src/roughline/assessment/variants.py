@@ -38,7 +38,7 @@ AS_HARD = "as hard on half as many points a side"
 COARSE = "coarse map"
 """Of which the tiles are, where the map has many points."""
 
-UNLOADING_LOADS = 16
+_UNLOADING_LOADS = 16
 """Loads on the way back from the largest one, which partial slip follows where bodies yield."""
 
 _LIGHTEST = 1e-3  # of them, over the largest
@@ -146,17 +146,10 @@ class Stopped(KeyboardInterrupt):
 
 
 def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | None) -> Curves:
-    """Press all variants that are needed.
+    """Press all variants that are needed, in their order, under so many loads.
 
-    Parameters
-    ----------
-    variants : sequence of Variant
-        In the order in which they are pressed.
-    loads : int
-        Under how many loads.
-    progress : callable, optional
-        Called with (loads done, loads in all), over all variants, those that take a part of the
-        time counted as that part.
+    Progress is told as (loads done, loads in all), over all variants; those that take a part of the
+    time count as that part.
 
     Raises
     ------
@@ -202,7 +195,7 @@ def variants_of(case: Case) -> list[Variant]:
     listed += _of_the_larger_surface(case, listed[0], with_tiles=True)
     listed += _of_other_hardness(case)
     if case.question.friction is not None and case.hardness is not None:
-        share = UNLOADING_LOADS / case.loads.count
+        share = _UNLOADING_LOADS / case.loads.count
         pressing = partial(_unloaded, case)
         listed.append(Variant(UNLOADED, "slip", pressing, body.shape, case.loads.periodic, share))
     return listed
@@ -213,7 +206,7 @@ def _unloaded(case: Case, curves: Curves) -> Pressing | None:
     curve, largest = curves.as_asked, case.loads.largest
     if not curve.converged[largest]:
         return None
-    forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST, 1.0, UNLOADING_LOADS)
+    forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST, 1.0, _UNLOADING_LOADS)
     loads = LoadCase(curve.E_star, forces.tolist(), [], (), None, case.loads.periodic)
     return Pressing(curve.surface_after(largest), loads)
 

@@ -22,7 +22,7 @@ _UNITS = {
     "conductivity": "W/m/K",
     "density": "kg/m**3",
 }
-TABLE_FACTOR = 1.5
+_TABLE_FACTOR = 1.5
 """Uncertainty of hardnesses of the table, a factor; published ones scatter by two in all."""
 
 _SETTING = re.compile(r"(\w+)\s*=\s*([^=;]+?)\s*(?=;|\s\w+\s*=|$)")
@@ -204,7 +204,7 @@ def _table() -> dict[str, Material]:
         row["name"]: Material(
             name=row["name"],
             source=row["source"],
-            hardness_factor=TABLE_FACTOR,
+            hardness_factor=_TABLE_FACTOR,
             **{key: float(row[key]) if row[key] else None for key in numbers},  # type: ignore[arg-type]
         )
         for row in rows

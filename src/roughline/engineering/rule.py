@@ -316,12 +316,7 @@ class Rules:
     def left_out(self, pair: MaterialPair, frequency: float | None) -> list[str]:
         """Say which answers there are not, as a property of a material is missing.
 
-        Parameters
-        ----------
-        pair : MaterialPair
-            The materials.
-        frequency : float or None
-            Of an ultrasonic wave, if its reflection is asked for. [Hz]
+        The frequency [Hz] is that of an ultrasonic wave, if its reflection is asked for.
         """
         return list(dict.fromkeys(filter(None, (each.lacking(pair, frequency) for each in self))))
 

@@ -11,7 +11,7 @@ from roughline.engineering.pair import MaterialPair
 
 
 @dataclass(frozen=True)
-class Symbol:
+class _Symbol:
     """A symbol of a formula that is no answer.
 
     Attributes
@@ -38,48 +38,36 @@ def symbols_of(
     hardness: float | None,
     area: float,
     rms_height: float,
-) -> list[Symbol]:
-    """Return the symbols of formulas that are no answers, with their values.
+) -> list[_Symbol]:
+    """The symbols of formulas that are no answers, with their values.
 
-    Parameters
-    ----------
-    formulas : sequence of str
-        Of the answers on one page.
-    pair : MaterialPair
-        The materials.
-    E_star : float
-        Contact modulus. [Pa]
-    hardness : float or None
-        Of the softer body. [Pa]
-    area : float
-        Nominal area, of the joint if there is one. [m²]
-    rms_height : float
-        Of the sum of both surfaces. [m]
+    The area is that of the joint if there is one [m²], the rms height that of the sum of both
+    surfaces [m].
     """
     known = [
-        Symbol("E*", "contact modulus", "Pa", E_star),
-        Symbol("A_0", "nominal area", "m²", area),
-        Symbol("H", "hardness of the softer body", "Pa", hardness),
+        _Symbol("E*", "contact modulus", "Pa", E_star),
+        _Symbol("A_0", "nominal area", "m²", area),
+        _Symbol("H", "hardness of the softer body", "Pa", hardness),
         *_of_bodies("rho", "electrical resistivity", "Ω m", pair.both("resistivity")),
         *_of_bodies("kappa", "thermal conductivity", "W/(m K)", pair.both("conductivity")),
-        Symbol("kappa_s", "their harmonic mean", "W/(m K)", _harmonic(pair)),
-        Symbol("sigma", "rms height", "m", rms_height),
-        Symbol("m", "mean slope of a profile, the rms slope over sqrt(pi)"),
-        Symbol("G*", "tangential contact modulus", "Pa", pair.G_star),
+        _Symbol("kappa_s", "their harmonic mean", "W/(m K)", _harmonic(pair)),
+        _Symbol("sigma", "rms height", "m", rms_height),
+        _Symbol("m", "mean slope of a profile, the rms slope over sqrt(pi)"),
+        _Symbol("G*", "tangential contact modulus", "Pa", pair.G_star),
         *_of_bodies("G", "shear modulus", "Pa", _moduli(pair)),
         *_of_bodies("nu", "Poisson's ratio", "1", (pair.first.nu, pair.second.nu)),
-        Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m"),
-        Symbol("a_H", "radius of Holm's single spot", "m"),
+        _Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m"),
+        _Symbol("a_H", "radius of Holm's single spot", "m"),
         *_of_bodies("z", "acoustic impedance", "Pa s/m", pair.both("impedance")),
-        Symbol("omega", "angular frequency of the wave", "1/s"),
-        Symbol("K", "stiffness per area of the interface", "N/m³"),
-        Symbol("i", "imaginary unit"),
+        _Symbol("omega", "angular frequency of the wave", "1/s"),
+        _Symbol("K", "stiffness per area of the interface", "N/m³"),
+        _Symbol("i", "imaginary unit"),
     ]
-    used = {name for each in formulas for name in names_in(each)}
+    used = {name for each in formulas for name in _names_in(each)}
     return [each for each in known if each.symbol in used]
 
 
-def names_in(formula: str) -> set[str]:
+def _names_in(formula: str) -> set[str]:
     """Return the symbols that a formula names, words of the language left out."""
     names = re.findall(r"[A-Za-z]+(?:_[A-Za-z0]+)?\d?\*?", formula)
     return {name for name in names if not name.isalpha() or name in _LETTERS or name in _GREEK}
@@ -91,11 +79,11 @@ _LETTERS = {*"AEFGHKRdikmpwz"}
 
 def _of_bodies(
     letter: str, meaning: str, unit: str, values: tuple[float, float] | None
-) -> list[Symbol]:
+) -> list[_Symbol]:
     """The symbols of a property of both bodies."""
     which = ("first", "second")
     return [
-        Symbol(f"{letter}{i + 1}", f"{meaning} of the {which[i]} body", unit, values and values[i])
+        _Symbol(f"{letter}{i + 1}", f"{meaning} of the {which[i]} body", unit, values and values[i])
         for i in range(2)
     ]
 

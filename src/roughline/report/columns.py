@@ -50,17 +50,9 @@ class _Column:
 def blocks(header: Sequence[str], rows: Sequence[Sequence[str]], width: int) -> Iterator[Block]:
     """Lay out a table of names and values in blocks below each other, each with the names.
 
-    Where a table is too wide, intervals stand below their values; what is then still too wide goes
-    on in further blocks. Names are broken between words, or stand above their values.
-
-    Parameters
-    ----------
-    header : sequence of str
-        Of all columns, the first of which holds names.
-    rows : sequence of sequence of str
-        Cells.
-    width : int
-        Columns of the screen.
+    Where a table is too wide for so many columns of the screen, intervals stand below their values;
+    what is then still too wide goes on in further blocks. Names are broken between words, or stand
+    above their values.
     """
     names, *values = (
         _Column(head, [[cell] for cell in cells])

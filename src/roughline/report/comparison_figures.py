@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from roughline.contact.comparison.models import Comparison
 
 
-def comparison_figure(result: Comparison, tolerance: float) -> Figure:
+def _comparison_figure(result: Comparison, tolerance: float) -> Figure:
     """Both curves, and their relative difference with its interval."""
     figure = new_figure(PAGE, 3.0)
     left, right = figure.subplots(1, 2)
@@ -53,7 +53,7 @@ def write_comparison(compared: ModelComparison, out: Path) -> list[Path]:
     try:
         frame.to_csv(out / "comparison.csv", index=False)
         with styled():
-            files = save(comparison_figure(result, compared.tolerance), out, "comparison")
+            files = save(_comparison_figure(result, compared.tolerance), out, "comparison")
     except OSError as error:
         raise StoreError(f"cannot write to {out} ({error}): choose another folder") from error
     return [out / "comparison.csv", *files]

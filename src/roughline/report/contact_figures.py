@@ -33,19 +33,9 @@ _DASHES = ("--", ":", "-.")
 
 
 def write_contact(assessment: Assessment, out: Path) -> list[Path]:
-    """Write ``curve.nc``, and figures of the curve and of the contact.
+    """Write ``curve.nc``, and figures of the curve and of the contact; returns the files.
 
-    Parameters
-    ----------
-    assessment : Assessment
-        With the fields of the load to be shown, if it is of a surface.
-    out : Path
-        Folder; made if it does not exist.
-
-    Returns
-    -------
-    list of Path
-        The files.
+    The folder is made if it does not exist.
 
     Raises
     ------
@@ -58,7 +48,7 @@ def write_contact(assessment: Assessment, out: Path) -> list[Path]:
     with styled():
         written += save(curve_figure(assessment), out, "curve")
         if isinstance(assessment.body, Surface):
-            written += save(contact_figure(assessment.body, assessment), out, "contact")
+            written += save(_contact_figure(assessment.body, assessment), out, "contact")
     return written
 
 
@@ -71,7 +61,7 @@ def curve_figure(assessment: Assessment) -> Figure:
     return figure
 
 
-def contact_figure(surface: Surface, assessment: Assessment) -> Figure:
+def _contact_figure(surface: Surface, assessment: Assessment) -> Figure:
     """Topography, and the real contact area at the last load with stored fields."""
     figure = new_figure(PAGE, 3.2)
     left, right = figure.subplots(1, 2)

@@ -60,7 +60,7 @@ OF_REPEATING = "what gives the same numbers again"
 _ABREAST = 3  # loads that fit beside each other on a page
 _PANEL, _PANELS = 2.6, 8.2  # heights of a row of panels, and of all at most [inch]
 
-ASSUMPTIONS = (
+_ASSUMPTIONS = (
     "Both bodies are half-spaces, linear elastic up to the hardness of the softer body, if that is "
     "known, and perfectly plastic there; small slopes, no friction in the normal problem, no "
     "adhesion, static loads.",
@@ -71,8 +71,8 @@ ASSUMPTIONS = (
     "map does not show of the larger surface as well. They do not hold the scatter of other "
     "material data, nor, for all other answers, the scatter between places on the part.",
 )
-ASSUMPTIONS_OF_JOINT = (
-    *ASSUMPTIONS[:2],
+_ASSUMPTIONS_OF_JOINT = (
+    *_ASSUMPTIONS[:2],
     "The joint is alike everywhere, and evenly loaded: each place carries the mean pressure and "
     "has the roughness of the map. The map is pressed at that pressure in a periodic half-space, "
     "and quantities per area are multiplied by the joint's area. Answers are those of the "
@@ -196,7 +196,7 @@ def assumptions_of(assessment: Assessment) -> list[str]:
     """Assumptions of the answers."""
     of_theories = [f"{theory.name}: {theory.validity}." for theory in assessment.theories]
     joint = assessment.question.joint is not None
-    return [*(ASSUMPTIONS_OF_JOINT if joint else ASSUMPTIONS), *of_theories]
+    return [*(_ASSUMPTIONS_OF_JOINT if joint else _ASSUMPTIONS), *of_theories]
 
 
 def _caption(assessment: Assessment) -> str:

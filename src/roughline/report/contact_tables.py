@@ -78,19 +78,10 @@ def answer_table(
     keys: Sequence[str] | None = None,
     with_elastic: bool = False,
 ) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of the answers at some of the loads that were asked for.
+    """Header and rows of the answers, or of some of them, at some of the loads that were asked for.
 
-    Parameters
-    ----------
-    assessment : Assessment
-        With answers.
-    loads : slice
-        Which of the loads.
-    keys : sequence of str, optional
-        Of the answers; default: all.
-    with_elastic : bool, optional
-        Whether the answer of elastic bodies stands below where yield changes it by more than its
-        interval.
+    `with_elastic` puts the answer of elastic bodies below where yield changes it by more than its
+    interval.
     """
     header = ["", *starred(assessment)[loads]]
     numbers = range(assessment.asked.size)[loads]

@@ -16,18 +16,6 @@ def write_document(
 ) -> list[Path]:
     """Write ``report.html`` and ``report.pdf``, with the date and version that made them.
 
-    Parameters
-    ----------
-    folder : Path
-        An existing folder.
-    title, lead, sections, headline
-        As for :func:`roughline.report.page.render`.
-
-    Returns
-    -------
-    list of Path
-        Both files.
-
     Raises
     ------
     StoreError

@@ -75,14 +75,8 @@ def sections_of(
 ) -> list[Section]:
     """A section for each group, folded behind its headline.
 
-    Parameters
-    ----------
-    groups : sequence of Group
-        Of the answers.
-    told : callable
-        Name and value of an answer, by its key.
-    tables : callable
-        Header and rows of the tables of some answers, by their keys.
+    `told` gives name and value of an answer by its key, `tables` header and rows of the tables of
+    some.
     """
     return [
         Section(

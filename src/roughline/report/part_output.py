@@ -40,14 +40,7 @@ _MOST_ABREAST = 2  # loads whose answers stand beside each other
 def print_part(part: PartAssessment, files: Iterable[Path] = (), *, many_answers_by: str) -> None:
     """Print the maps, their mean answers with scatter and interval, and the files written.
 
-    Parameters
-    ----------
-    part : PartAssessment
-        What is shown.
-    files : iterable of Path
-        What was written.
-    many_answers_by : str
-        Options of the caller that give the answers that are too many for a screen.
+    `many_answers_by` is the caller's option that gives answers that are too many for a screen.
     """
     console = Console(markup=False)
     print_table(console, *maps_table(part))

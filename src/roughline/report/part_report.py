@@ -49,7 +49,7 @@ from roughline.report.part_tables import (
 if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
 
-ASSUMPTION_OF_PART = (
+_ASSUMPTION_OF_PART = (
     "Intervals of the part hold the scatter between its places as well. They assume that the "
     "places were chosen at random, and that quantities scatter by factors."
 )
@@ -157,7 +157,9 @@ def _sections(
             tables=[Table(*formulas), Table(*symbol_table(first))],
             behind=OF_FORMULAS,
         ),
-        Section("Assumptions", [*assumptions_of(first), ASSUMPTION_OF_PART], behind=OF_ASSUMPTIONS),
+        Section(
+            "Assumptions", [*assumptions_of(first), _ASSUMPTION_OF_PART], behind=OF_ASSUMPTIONS
+        ),
         Section("How to repeat it", [how_to_repeat], behind=OF_REPEATING),
     ]
 

@@ -26,7 +26,7 @@ from roughline.units import decimal, engineering
 if TYPE_CHECKING:
     from roughline.assessment.part import PartAnswer, PartAssessment
 
-NO_MEAN = "-"
+_NO_MEAN = "-"
 """Written where maps have no common value."""
 
 _SAME = 1e-6  # scatter below which a quantity was given, and did not come out
@@ -53,7 +53,7 @@ def part_table(
         each = part.answers[key]
         row = [f"{each.name} {each.symbol}"]
         for i in loads:
-            row += [mean_and_interval(each, i), scatter_in_words(each, i)]
+            row += [_mean_and_interval(each, i), scatter_in_words(each, i)]
         rows.append(row)
         elastic = part.elastic.get(key) if with_elastic else None
         if elastic is not None and any(_differs(elastic, each, i) for i in loads):
@@ -77,7 +77,7 @@ def part_load_table(part: PartAssessment, keys: Sequence[str]) -> tuple[list[str
         header.append(f"{each.name} {each.symbol}")
         header += [f"scatter of {each.symbol}"] if several else []
         for i, row in enumerate(rows):
-            row.append(mean_and_interval(each, i))
+            row.append(_mean_and_interval(each, i))
             row += [scatter_in_words(each, i)] if several else []
     return header, rows
 
@@ -109,7 +109,7 @@ def each_map_table(
     rows = []
     for key, first in keys.items():
         found = [part.assessments[i].answers.get(key) for i in maps]
-        cells = [NO_MEAN if each is None else quantity(each, load) for each in found]
+        cells = [_NO_MEAN if each is None else quantity(each, load) for each in found]
         rows.append([f"{first.name} {first.symbol}", *cells])
     return header, rows
 
@@ -135,7 +135,7 @@ def leading_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
     for name, each in zip(part.names, part.assessments, strict=True):
         star = starred(each)[load].removeprefix(part.headings[load])
         cells = [
-            quantity(each.answers[key], load) if key in each.answers else NO_MEAN for key in keys
+            quantity(each.answers[key], load) if key in each.answers else _NO_MEAN for key in keys
         ]
         rows.append([f"{name}{star}", *cells])
     return header, rows
@@ -150,7 +150,7 @@ def leading_keys_of(part: PartAssessment) -> list[str]:
 def told_of_part(part: PartAssessment, key: str) -> str:
     """Name, mean and interval of an answer at the largest load."""
     answer = part.answers[key]
-    return f"{answer.name} {answer.symbol} {mean_and_interval(answer, part.largest)}"
+    return f"{answer.name} {answer.symbol} {_mean_and_interval(answer, part.largest)}"
 
 
 def count_in_words(part: PartAssessment) -> str:
@@ -189,7 +189,7 @@ def headline_of_part(part: PartAssessment) -> Headline:
         first = part.answers[leading[0]]
         below.insert(0, f"places scatter by {scatter_in_words(first, i)} in {first.name}")
     return headline_of(
-        [(each.name, mean_and_interval(each, i)) for each in shown], part.warnings, below
+        [(each.name, _mean_and_interval(each, i)) for each in shown], part.warnings, below
     )
 
 
@@ -198,11 +198,11 @@ def groups_of_part(part: PartAssessment) -> list[Group]:
     return groups_of(part.answers, leading_keys_of(part))
 
 
-def mean_and_interval(answer: PartAnswer, i: int) -> str:
+def _mean_and_interval(answer: PartAnswer, i: int) -> str:
     """Write the mean of an answer at one load, with its interval where there is one."""
     mean = float(answer.mean[i])
     if np.isnan(mean):
-        return NO_MEAN
+        return _NO_MEAN
     ends = (float(answer.low[i]), float(answer.high[i]))
     return with_interval(mean, ends, unit_shown(answer.of_maps[0]))
 
@@ -210,7 +210,7 @@ def mean_and_interval(answer: PartAnswer, i: int) -> str:
 def _mean(answer: PartAnswer, i: int) -> str:
     """Write the mean of an answer at one load alone."""
     mean = float(answer.mean[i])
-    return NO_MEAN if np.isnan(mean) else with_interval(mean, None, unit_shown(answer.of_maps[0]))
+    return _NO_MEAN if np.isnan(mean) else with_interval(mean, None, unit_shown(answer.of_maps[0]))
 
 
 def _differs(elastic: PartAnswer, yielding: PartAnswer, i: int) -> bool:
@@ -223,7 +223,7 @@ def scatter_in_words(answer: PartAnswer, i: int) -> str:
     """Write the scatter of an answer between maps: per cent where small, a factor where large."""
     factor = float(answer.scatter[i])
     if np.isnan(factor) or answer.count[i] < 2:
-        return NO_MEAN
+        return _NO_MEAN
     if factor < 1 + _SAME:
         return "none"
     return f"{100 * (factor - 1):.2g}%" if factor < 1.5 else f"factor {decimal(factor, 3)}"

@@ -45,13 +45,6 @@ def write_pdf(
     Tables that are too wide go on below, with their first column; headers are repeated on every
     sheet.
 
-    Parameters
-    ----------
-    path : Path
-        Replaced if it exists.
-    title, lead, sections, made, headline
-        As for :func:`roughline.report.page.render`.
-
     Raises
     ------
     StoreError

@@ -58,14 +58,8 @@ def print_assessment(
 ) -> None:
     """Print what was pressed, its curve or its answers, and the files written.
 
-    Parameters
-    ----------
-    assessment : Assessment
-        What is shown.
-    files : iterable of Path
-        What was written.
-    long_curves_by, many_answers_by : str
-        Options of the caller that give the curve, or the answers, that are too long for a screen.
+    The caller's options `long_curves_by` and `many_answers_by` give the curve, or the answers, that
+    are too long for a screen.
     """
     console = Console(markup=False)
     console.print(_described(assessment.body), highlight=False, soft_wrap=True)

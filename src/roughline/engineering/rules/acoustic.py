@@ -33,8 +33,8 @@ def _of_wave(pressed: Pressed) -> Mapping[str, str]:
     if pressed.frequency is None:
         return {}
     return {
-        "name": f"{REFLECTION.name} at {pressed.frequency / 1e6:g} MHz",
-        "validity": REFLECTION.validity + pressed.of_interface,
+        "name": f"{_REFLECTION.name} at {pressed.frequency / 1e6:g} MHz",
+        "validity": _REFLECTION.validity + pressed.of_interface,
     }
 
 
@@ -47,7 +47,7 @@ def _limits(pressed: Pressed) -> Limits:
     return abs(first - second) / (first + second), 1.0
 
 
-REFLECTION = Rule(
+_REFLECTION = Rule(
     key="reflection",
     name="reflection",
     symbol="|r|",
@@ -66,5 +66,5 @@ REFLECTION = Rule(
 )
 """Share of an ultrasonic wave that the interface reflects."""
 
-ACOUSTIC = (REFLECTION,)
+ACOUSTIC = (_REFLECTION,)
 """Answers about sound."""
