@@ -55,10 +55,10 @@ memory: $(VENV)/installed
 	$(BIN)/python benchmarks/memory.py
 
 grid-error: $(VENV)/installed
-	$(BIN)/python benchmarks/grid_error.py
+	$(BIN)/python benchmarks/measured_coverage.py finer --seed 1000
 
 coverage: $(VENV)/installed
-	$(BIN)/python benchmarks/interval_coverage.py
+	$(BIN)/python benchmarks/measured_coverage.py pieces
 
 contact-area: $(VENV)/installed
 	$(BIN)/python benchmarks/contact_area.py
@@ -70,14 +70,14 @@ bootstrap-coverage: $(VENV)/installed
 	$(BIN)/python benchmarks/bootstrap_coverage.py
 
 interface-stiffness: $(VENV)/installed
-	$(BIN)/python benchmarks/interface_stiffness.py
+	$(BIN)/python benchmarks/measured_coverage.py tiled
 
 # Every interval on every kind of surface, in about an hour; resumable.
 intervals: $(VENV)/installed
 	$(BIN)/python benchmarks/measured_coverage.py
 
 part-coverage: $(VENV)/installed
-	$(BIN)/python benchmarks/part_coverage.py
+	$(BIN)/python benchmarks/measured_coverage.py mine
 
 robustness: $(VENV)/installed
 	$(BIN)/python benchmarks/robustness.py

@@ -18,7 +18,7 @@ from roughline.topography.body import Surface, with_heights
 from roughline.topography.preparation import resampled
 
 # Half widths over what is measured, so that they hold 95 % of all surfaces on grids four times
-# finer (benchmarks/measured_coverage.py, benchmarks/grid_error.py):
+# finer (benchmarks/measured_coverage.py):
 _OF_YIELD = 1.1  # of what a softer body shows
 _OF_AREA = 1.3  # of differences of the area's logarithm
 _OF_STEEPENING = 1.4  # of the logarithm of the steepening that opens the area
