@@ -75,6 +75,8 @@ _HISTORY = [0.1, 0.3, 1.0, 0.4, 0.1, 0.7, 1.3]
 _NEARLY = [2.3, 2.5, 2.558]
 _STEEL = {"E_star": 1.1e11}
 
+PERIODIC = {"forces": LOADS, "periodic": True}
+
 PRESSED = {
     # name: (how the body is made, its arguments, settings of the body, options of rl.press)
     "free 16": (rough, (16, 1), {}, {"n_loads": 8}),
@@ -107,25 +109,19 @@ PRESSED = {
     "free grid error, odd": (rough, (51, 21), {}, {"forces": LOADS, "grid_error": True}),
     "periodic 16": (rough, (16, 31), {}, {"n_loads": 8, "periodic": True}),
     "periodic 32": (rough, (32, 32), {}, {"n_loads": 12, "periodic": True, "fields": True}),
-    "periodic 63, odd": (rough, (63, 33), {"hurst": 0.4}, {"forces": LOADS, "periodic": True}),
+    "periodic 63, odd": (rough, (63, 33), {"hurst": 0.4}, PERIODIC),
     "periodic 64": (
         *(rough, (64, 34), {"hurst": 0.7, "roll": 4}),
         {"n_loads": 10, "grid_error": True, "periodic": True, "E_star": 2.5},
     ),
     "periodic 128": (rough, (128, 35), {"cut": 16}, {"forces": _MANY, "periodic": True}),
-    "periodic 256": (rough, (256, 36), {"roll": 8}, {"forces": LOADS, "periodic": True}),
+    "periodic 256": (rough, (256, 36), {"roll": 8}, PERIODIC),
     "periodic depths": (rough, (64, 37), {}, {"depths": _DEEP, "periodic": True, "fields": [3]}),
     "periodic too deep": (rough, (32, 37), {}, {"depths": [0.1, 50.0], "periodic": True}),
-    "periodic double": (
-        *(rough, (64, 38), {}),
-        {"forces": LOADS, "periodic": True, "precision": "float64"},
-    ),
-    "periodic single": (
-        *(rough, (64, 38), {}),
-        {"forces": LOADS, "periodic": True, "precision": "float32", "rtol": 1e-3},
-    ),
+    "periodic double": (rough, (64, 38), {}, PERIODIC | {"precision": "float64"}),
+    "periodic single": (rough, (64, 38), {}, PERIODIC | {"precision": "float32", "rtol": 1e-3}),
     "periodic full": (rough, (32, 39), {}, {"forces": [5.0, 20.0, 100.0], "periodic": True}),
-    "periodic 512": (rough, (512, 88), {}, {"forces": LOADS, "periodic": True}),
+    "periodic 512": (rough, (512, 88), {}, PERIODIC),
     "periodic nearly full": (rough, (64, 40), {"cut": 8}, {"depths": _NEARLY, "periodic": True}),
     "yielding": (rough, (64, 121), {}, {"forces": _MANY, "hardness": 8.0, "fields": [8]}),
     "yielding 256": (rough, (256, 122), {}, {"forces": LOADS, "hardness": 4.0}),
@@ -149,14 +145,8 @@ PRESSED = {
     "strip 1 x 64": (strip, ((1, 64), (0.1, 1.0), 44), {}, {"forces": LOADS, "fields": True}),
     "strip 64 x 1": (strip, ((64, 1), (1.0, 0.1), 45), {}, {"n_loads": 6}),
     "strip 1 x 2": (strip, ((1, 2), (1.0, 1.0), 46), {}, {"forces": [0.1, 1.0]}),
-    "strip periodic 64 x 16": (
-        *(strip, ((64, 16), (2.0, 1.0), 47), {}),
-        {"forces": LOADS, "periodic": True, "fields": True},
-    ),
-    "strip periodic 1 x 32": (
-        *(strip, ((1, 32), (0.2, 1.0), 48), {}),
-        {"forces": LOADS, "periodic": True},
-    ),
+    "strip periodic 64 x 16": (strip, ((64, 16), (2.0, 1.0), 47), {}, PERIODIC | {"fields": True}),
+    "strip periodic 1 x 32": (strip, ((1, 32), (0.2, 1.0), 48), {}, PERIODIC),
     "parabola": (shape, ("parabola", 64), {}, {"depths": [0.003, 0.02], "fields": True}),
     "parabola aside": (shape, ("parabola beside the middle", 48), {}, {"n_loads": 8}),
     "parabola grid error": (
@@ -176,7 +166,7 @@ PRESSED = {
     "noise": (shape, ("noise", 32), {}, {"n_loads": 6, "grid_error": True}),
     "noise periodic": (shape, ("noise", 32), {}, {"n_loads": 6, "periodic": True}),
     "tilted piece": (tilted, (32, 51), {}, {"forces": LOADS}),
-    "tilted piece periodic": (tilted, (32, 52), {}, {"forces": LOADS, "periodic": True}),
+    "tilted piece periodic": (tilted, (32, 52), {}, PERIODIC),
     "line 1024": (line, (1024, 61), {}, {"n_loads": 12}),
     "line 65536": (line, (65536, 62), {"hurst": 0.5}, {"forces": np.geomspace(1e-5, 10, 25)}),
     "line depths": (line, (4096, 63, "gaussian"), {}, {"depths": _DEEP, "E_star": 0.7}),
