@@ -96,7 +96,7 @@ start-up: $(VENV)/installed
 	$(BIN)/python benchmarks/start_up.py
 
 lab-benchmark: $(VENV)/installed
-	$(BIN)/python benchmarks/lab.py
+	$(BIN)/python benchmarks/lab_moves.py
 
 lab-sessions: $(VENV)/installed
 	$(BIN)/python benchmarks/lab_sessions.py

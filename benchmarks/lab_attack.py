@@ -20,7 +20,6 @@ import statistics
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
 from http.client import HTTPException
 from pathlib import Path
 
@@ -44,41 +43,17 @@ LONGEST_ANSWER = 120.0  # for the honest page [s]
 ALONE = 30.0  # that the honest page is measured without an attack [s]
 
 
-@dataclass(frozen=True)
-class Sample:
-    """What the lab holds at a time; the names are those of the table's rows."""
-
-    descriptors: int
-    resident: float
-    own: float
-    own_of_all: float
-    processes: int
-    files: int
-    folder: float
-    log: int
-
-
-NAMES = {
-    "descriptors": "descriptors of the server",
-    "resident": "resident memory of the server [MB]",
-    "own": "memory of the server alone [MB]",
-    "own_of_all": "memory of all its processes alone [MB]",
-    "processes": "processes",
-    "files": "files in its folder",
-    "folder": "size of its folder [kB]",
-    "log": "what it wrote to the terminal [bytes]",
+HELD = {
+    "descriptors": ("descriptors of the server", 5),
+    "resident": ("resident memory of the server [MB]", 40),
+    "own": ("memory of the server alone [MB]", 40),
+    "own_of_all": ("memory of all its processes alone [MB]", 100),
+    "processes": ("processes", 0),
+    "files": ("files in its folder", 0),
+    "folder": ("size of its folder [kB]", 0),
+    "log": ("what it wrote to the terminal [bytes]", 2000),
 }
-ALLOWED = {
-    "descriptors": 5,
-    "resident": 40,
-    "own": 40,
-    "own_of_all": 100,
-    "processes": 0,
-    "files": 0,
-    "folder": 0,
-    "log": 2000,
-}
-"""By how much each may be more at the end than at the start."""
+"""What the lab holds, as the table calls it, and by how much it may be more at the end."""
 DRIFT = 15  # memory of the server alone, from the second quarter of the attack to the last [MB]
 IDLE = 0.02  # of a core that the lab may take when nobody is there
 
@@ -98,27 +73,20 @@ class Watch:
 
     def look(self):
         """What it holds now."""
-        own, count = [], 0
+        own = []
         for each in self.server.children(recursive=True):
             with contextlib.suppress(psutil.Error):  # it has ended meanwhile
                 own.append(each.memory_full_info().uss)
-                count += 1
         files = [each for each in self.lab.folder.rglob("*") if each.is_file()]
         sizes = []
         for each in files:
             with contextlib.suppress(OSError):
                 sizes.append(each.stat().st_size)
         held = self.server.memory_full_info()
-        return Sample(
-            descriptors=self.server.num_fds(),
-            resident=held.rss / 1e6,
-            own=held.uss / 1e6,
-            own_of_all=(held.uss + sum(own)) / 1e6,
-            processes=1 + count,
-            files=len(files),
-            folder=sum(sizes) / 1e3,
-            log=self.lab.log.stat().st_size,
-        )
+        memory = (held.rss / 1e6, held.uss / 1e6, (held.uss + sum(own)) / 1e6)
+        on_disk = (len(files), sum(sizes) / 1e3, self.lab.log.stat().st_size)
+        found = (self.server.num_fds(), *memory, 1 + len(own), *on_disk)
+        return dict(zip(HELD, found, strict=True))
 
     async def run(self, counts):
         """Look every few seconds."""
@@ -136,9 +104,8 @@ class Watch:
         while time.monotonic() - since < LONGEST_QUIET:
             await asyncio.sleep(EVERY)
             now = await asyncio.to_thread(self.look)
-            is_calm = last is not None and (now.files, now.processes, now.descriptors) == (
-                *(last.files, last.processes, last.descriptors),
-            )
+            calm = ("files", "processes", "descriptors")
+            is_calm = last is not None and all(now[name] == last[name] for name in calm)
             if is_calm and (before is None or not exceeded(before, now)):
                 break
             last = now
@@ -160,8 +127,8 @@ class Watch:
 
 def exceeded(before, after):
     """What is more than before by more than is allowed."""
-    grown = {name: getattr(after, name) - getattr(before, name) for name in NAMES}
-    return {name: by for name, by in grown.items() if by > ALLOWED[name]}
+    grown = {name: after[name] - before[name] for name in HELD}
+    return {name: by for name, by in grown.items() if by > HELD[name][1]}
 
 
 def honest(address, cookie, seed, is_over, told):
@@ -269,13 +236,14 @@ def drift_of(samples):
     """By how much the server's own memory grew from the second quarter of them to the last."""
     quarter = max(1, len(samples) // 4)
     second, last = samples[quarter : 2 * quarter + 1], samples[-quarter:]
-    return statistics.mean(each.own for each in last) - statistics.mean(each.own for each in second)
+    early, late = (statistics.mean(each["own"] for each in some) for some in (second, last))
+    return late - early
 
 
 def faults_of(told, refused, log):
     """In which the lab failed."""
     exceeding = exceeded(told["before"], told["after"])
-    faults = [f"{NAMES[name]}: {by:.4g} more than before" for name, by in exceeding.items()]
+    faults = [f"{HELD[name][0]}: {by:.4g} more than before" for name, by in exceeding.items()]
     faults += [f"the honest page was refused: {each}" for each in refused]
     if told["counts"]["pages that waited in vain"]:
         faults.append(f"{told['counts']['pages that waited in vain']} pages were not answered")
@@ -321,10 +289,10 @@ def _write_holdings(written, told):
         f"{told['idle']:.1%} of a core.\n"
     )
     written.table("what the lab holds", "before", "most meanwhile", "afterwards", "may be more by")
-    for name, shown in NAMES.items():
-        most = max(getattr(each, name) for each in told["samples"])
-        values = getattr(told["before"], name), most, getattr(told["after"], name)
-        written.row(shown, *(f"{value:.0f}" for value in values), ALLOWED[name])
+    for name, (shown, allowed) in HELD.items():
+        most = max(each[name] for each in told["samples"])
+        values = told["before"][name], most, told["after"][name]
+        written.row(shown, *(f"{value:.0f}" for value in values), allowed)
 
 
 def main(share, seed):

@@ -9,8 +9,8 @@ The time of an answer ends when the page has it all; that of the browser comes o
 import asyncio
 import json
 import statistics
-import subprocess
 import sys
+import tempfile
 import time
 from collections import defaultdict
 from contextlib import suppress
@@ -22,7 +22,7 @@ from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from lab.server.serving import entered
+from lab.server.serving import entered, running_lab
 
 SESSIONS, LONELY_ROUNDS, MOVES, PAUSE = 20, 7, 20, 0.1
 ASKED = {
@@ -168,14 +168,9 @@ async def measure(address, cookie, pid):
 
 def main():
     """Start a lab, measure it and close it."""
-    command = [sys.executable, "-m", "roughline", "lab", "--no-browser", "--port", "0"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
-        try:
-            address = server.stdout.readline().split(" at ")[1].split(" ")[0]
-            time.sleep(3)  # what is prepared in the background
-            asyncio.run(measure(*entered(address), server.pid))
-        finally:
-            server.terminate()
+    with tempfile.TemporaryDirectory() as folder, running_lab(temporary=folder) as lab:
+        time.sleep(3)  # what is prepared in the background
+        asyncio.run(measure(*entered(lab.opened), lab.process.pid))
 
 
 if __name__ == "__main__":

@@ -73,7 +73,7 @@ def test_kills_add_up():
 
 
 def test_the_lab_is_measured_as_its_benchmark_does():
-    program = (ROOT / "benchmarks" / "lab.py").read_text("utf-8")
+    program = (ROOT / "benchmarks" / "lab_moves.py").read_text("utf-8")
     for row in rows_of("lab"):
         assert f'"{row["from, to"]}"' in program
 
