@@ -30,17 +30,7 @@ _MESSAGES = (
 
 
 class Lab:
-    """The lab that is attacked.
-
-    Attributes
-    ----------
-    port : int
-        Where it listens.
-    head : str
-        Headers of requests that come from its own pages.
-    counts : Counter
-        What was done, and what came of it.
-    """
+    """The lab that is attacked, with headers of its own pages, and counts of what was done."""
 
     def __init__(self, address, cookie, counts):
         self.host = address.removeprefix("http://")
@@ -65,15 +55,7 @@ class Lab:
 
 
 class Crowd:
-    """Sockets that are held open, each by the next one as soon as the lab closes it.
-
-    Parameters
-    ----------
-    lab : Lab
-        What they hold on to.
-    share : float
-        Of 1,000 sockets.
-    """
+    """A share of 1,000 sockets, each held open by the next one as soon as the lab closes it."""
 
     def __init__(self, lab, share):
         self.lab, self.share, self.is_over = lab, share, asyncio.Event()
@@ -128,15 +110,7 @@ class Crowd:
 
 
 class Page:
-    """A page that asks mutated questions, brings files, and comes to one of several ends.
-
-    Parameters
-    ----------
-    lab : Lab
-        What it asks.
-    chance : random.Random
-        Draws all that it does.
-    """
+    """A page that asks mutated questions and brings files; chance draws them and how it ends."""
 
     def __init__(self, lab, chance):
         self.lab, self.chance, self.token, self.file = lab, chance, "", "key"
@@ -281,15 +255,7 @@ class Page:
 
 
 class Requests:
-    """Requests of which path, method, headers and body are mutated.
-
-    Parameters
-    ----------
-    lab : Lab
-        What is asked.
-    chance : random.Random
-        Draws.
-    """
+    """Requests of which path, method, headers and body are mutated."""
 
     def __init__(self, lab, chance):
         self.lab, self.chance = lab, chance

@@ -59,13 +59,7 @@ IDLE = 0.02  # of a core that the lab may take when nobody is there
 
 
 class Watch:
-    """Looks at a lab.
-
-    Parameters
-    ----------
-    lab : lab.server.serving.Lab
-        It.
-    """
+    """Looks at a lab."""
 
     def __init__(self, lab):
         self.lab, self.server = lab, psutil.Process(lab.process.pid)

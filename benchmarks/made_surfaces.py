@@ -25,29 +25,13 @@ RMS = 1e-6
 
 @dataclass(frozen=True)
 class Make:
-    """How a parent is made.
+    """How a parent is made; lengths are in units of the side of a map."""
 
-    Lengths are in units of the side of a map.
-
-    Attributes
-    ----------
-    points : int
-        Points along the side of a map.
-    maps : int
-        Sides of a map along the parent's side.
-    hurst : float
-        Hurst exponent of what is random in it.
-    waves : float
-        Roll-off wavelengths along the side of a map; 0 for none.
-    cells : float
-        Points to the shortest wave; 0 if it is rough down to the grid.
-    """
-
-    points: int = 128
-    maps: int = 4
-    hurst: float = 0.8
-    waves: float = 6.0
-    cells: float = 4.0
+    points: int = 128  # along the side of a map
+    maps: int = 4  # sides of a map along the parent's side
+    hurst: float = 0.8  # of what is random in it
+    waves: float = 6.0  # roll-off wavelengths along the side of a map; 0 for none
+    cells: float = 4.0  # points to the shortest wave; 0 if it is rough down to the grid
 
     @property
     def n(self) -> int:
