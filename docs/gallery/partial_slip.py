@@ -15,7 +15,7 @@ surface = rl.Surface(made.heights, made.sizes, unit="m")
 figure, axes = pyplot.subplots(figsize=(4.8, 3.6), layout="constrained")
 
 for load in ("5 N", "10 N", "20 N"):
-    question = rl.Question(surface, materials="steel,steel", loads=load, friction=0.3)
+    question = rl.Question(surface, materials="steel,steel", loads=load, ask=rl.Friction(0.3))
     slip = rl.assess(question).partial_slip
     axes.plot(slip.displacement * 1e9, slip.force, label=f"normal force {load}")
 

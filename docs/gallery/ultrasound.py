@@ -17,7 +17,7 @@ figure, axes = pyplot.subplots(figsize=(4.8, 3.6), layout="constrained")
 
 for frequency in ("2 MHz", "5 MHz", "10 MHz"):
     question = rl.Question(
-        surface, materials="steel,steel", loads=loads, frequency=frequency, periodic=True
+        surface, materials="steel,steel", loads=loads, ask=rl.Ultrasound(frequency), periodic=True
     )
     reflection = rl.assess(question).answers["reflection"]
     pressure = [float(load.split()[0]) for load in loads]

@@ -2,6 +2,13 @@
 
 from roughline import plot as plot
 from roughline._version import __version__ as __version__
+from roughline.assessment.asked import Friction as Friction
+from roughline.assessment.asked import History as History
+from roughline.assessment.asked import Joint as Joint
+from roughline.assessment.asked import Theories as Theories
+from roughline.assessment.asked import Ultrasound as Ultrasound
+from roughline.assessment.asked import Unloading as Unloading
+from roughline.assessment.asked import WholeCurve as WholeCurve
 from roughline.assessment.assess import assess_body as assess_body
 from roughline.assessment.assess_part import assess as assess
 from roughline.assessment.assess_part import assess_part as assess_part

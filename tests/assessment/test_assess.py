@@ -15,8 +15,8 @@ PAIR = ("steel", "copper")
 def test_messages_are_of_the_loads_that_are_shown(rough):
     """The lighter loads of a report's curve have other contact pressures."""
     alone, whole = (
-        rl.assess(rl.Question(rough, PAIR, loads="10 N", whole_curve=whole, elastic=True))
-        for whole in (False, True)
+        rl.assess(rl.Question(rough, PAIR, loads="10 N", ask=ask, elastic=True))
+        for ask in ((), rl.WholeCurve())
     )
     warnings = [
         [note for note in pressed.warnings if "times the softer body's hardness" in note]
@@ -50,7 +50,7 @@ def test_python_and_the_command_line_give_the_same_numbers(topographies, invoke,
         topographies / name,
         materials="steel,copper",
         loads=["1 mN", "10 kPa"],
-        frequency="5 MHz",
+        ask=rl.Ultrasound("5 MHz"),
         reading=rl.Reading(**reading),
         preparation=rl.Preparation(points=128),
         fields=False,
@@ -141,7 +141,7 @@ def test_an_assessment_has_the_fields_of_the_largest_load(rough):
 
 
 def test_partial_slip_is_an_answer(rough, invoke):
-    question = rl.Question(rough, PAIR, loads="10 N", friction=0.3, whole_curve=True)
+    question = rl.Question(rough, PAIR, loads="10 N", ask=[rl.Friction(0.3), rl.WholeCurve()])
     slip = rl.assess(question).partial_slip
     assert slip.force[-1] == pytest.approx(3.0)  # all of it slides: Q = mu F
     assert (np.diff(slip.displacement) > 0).all()
@@ -156,6 +156,8 @@ def test_partial_slip_is_an_answer(rough, invoke):
 
 
 def test_theories_stand_beside_the_loads_that_were_solved(rough):
-    result = rl.assess(rl.Question(rough, E_star=1e9, loads=[1e-3, 1e-2], theories="persson"))
+    result = rl.assess(
+        rl.Question(rough, E_star=1e9, loads=[1e-3, 1e-2], ask=rl.Theories("persson"))
+    )
     (persson,) = result.theories
     assert persson.pressure.tolist() == (result.curve.force / result.area).tolist()

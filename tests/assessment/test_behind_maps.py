@@ -34,7 +34,7 @@ def part_of(kind, *, maps, points=32, waves=4, grid_error=False, joint=True, **n
         bodies,
         MATERIALS,
         loads=f"{pressure} Pa",
-        joint_area=parent.area if joint else None,
+        ask=rl.Joint(parent.area) if joint else (),
         grid_error=grid_error,
         elastic=True,
         fields=False,
@@ -129,7 +129,7 @@ def test_a_joint_much_longer_than_maps_without_a_roll_off_is_not_told():
     _, part, _ = part_of("no roll-off", maps=2, points=32, joint=False)
     bodies = [each.body for each in part.assessments]
     question = rl.Question(
-        bodies, MATERIALS, loads="1 MPa", joint_area=1e4 * SIDE**2, elastic=True, fields=False
+        bodies, MATERIALS, loads="1 MPa", ask=rl.Joint(1e4 * SIDE**2), elastic=True, fields=False
     )
     found = rl.assess(question)
     assert found.warnings[0].startswith("the maps show no roll-off together, and the joint is 100 ")

@@ -87,7 +87,7 @@ def test_the_scatter_of_the_hardness_widens_it_up_to_its_limits(resonance, surfa
 
 def test_it_is_that_of_a_joint(resonance, surface):
     piece = surface.cropped((0, 64), (0, 64))
-    result = asked(piece, joint_area="4 mm^2", elastic=True)
+    result = asked(piece, ask=rl.Joint("4 mm^2"), elastic=True)
     found, k_i = result.answers["resonance"], result.answers["interface_stiffness"]
     assert found.values == pytest.approx(np.sqrt(k_i.values) / (2 * np.pi), rel=1e-12)
     assert found.formula == "sqrt(k_i / m) / (2 pi), m = 1 kg"

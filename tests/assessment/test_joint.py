@@ -30,9 +30,12 @@ def test_a_joint_of_four_maps_is_the_map_laid_four_times(materials):
     """Every answer, for every one grows with the area as is declared."""
     tile = rl.SelfAffine(hurst=0.7, length=1e-4, rms_height=1e-7).surface(32, 5)
     four = rl.Surface(np.tile(tile.heights, (2, 2)), (2e-4, 2e-4))
-    asked = {"materials": materials, "frequency": "5 MHz", "grid_error": False, "fields": False}
-    joint = rl.assess(rl.Question(tile, loads="4 N", joint_area=four.area, **asked)).answers
-    whole = rl.assess(rl.Question(four, loads="4 N", periodic=True, **asked)).answers
+    asked = {"materials": materials, "grid_error": False, "fields": False}
+    wave = rl.Ultrasound("5 MHz")
+    joint = rl.assess(
+        rl.Question(tile, loads="4 N", ask=[rl.Joint(four.area), wave], **asked)
+    ).answers
+    whole = rl.assess(rl.Question(four, loads="4 N", periodic=True, ask=wave, **asked)).answers
     k_u = whole["unloading_stiffness"].values  # of what is repeated, that of the interface
     expectations = {key: each.values for key, each in whole.items()} | {
         "interface_stiffness": k_u,
@@ -50,7 +53,7 @@ def test_a_joint_of_four_maps_is_the_map_laid_four_times(materials):
 def test_forces_act_on_the_joint_and_pressures_are_the_same_everywhere(part):
     _, piece = part
     by_force, by_pressure = (
-        rl.assess(rl.Question(piece, PAIR, loads=load, joint_area="2 cm^2", fields=False))
+        rl.assess(rl.Question(piece, PAIR, loads=load, ask=rl.Joint("2 cm^2"), fields=False))
         for load in ("1 kN", "5 MPa")
     )
     assert by_force.curve.force == pytest.approx(1e3 * piece.area / 2e-4, rel=1e-12)
@@ -66,7 +69,7 @@ def test_forces_act_on_the_joint_and_pressures_are_the_same_everywhere(part):
 def test_what_is_per_area_does_not_know_how_large_the_joint_is(part):
     _, piece = part
     small, large = (
-        rl.assess(rl.Question(piece, PAIR, loads="5 MPa", joint_area=area)).answers
+        rl.assess(rl.Question(piece, PAIR, loads="5 MPa", ask=rl.Joint(area))).answers
         for area in ("1 mm^2", "100 mm^2")
     )
     for key in ("specific_contact_resistance", "stiffness_per_area", "contact_area_fraction"):
@@ -84,7 +87,9 @@ def test_the_joint_is_within_the_interval_of_its_map(part, materials):
     truth = rl.press(
         surface, E_star=pair.E_star, hardness=pair.hardness, forces=[force], periodic=True
     )
-    question = rl.Question(piece, materials, loads=force, joint_area=surface.area, grid_error=True)
+    question = rl.Question(
+        piece, materials, loads=force, ask=rl.Joint(surface.area), grid_error=True
+    )
     found, k_u = rl.assess(question).answers, truth.unloading_stiffness
     expected = {
         "contact_stiffness": truth.stiffness,
@@ -103,7 +108,10 @@ def test_the_joint_is_within_the_interval_of_its_map(part, materials):
 def test_the_joint_slides_under_its_own_load(part):
     _, piece = part
     question = rl.Question(
-        piece, PAIR, loads="100 N", joint_area="1 mm^2", friction=0.3, whole_curve=True
+        piece,
+        PAIR,
+        loads="100 N",
+        ask=[rl.Joint("1 mm^2"), rl.Friction(0.3), rl.WholeCurve()],
     )
     assert rl.assess(question).partial_slip.force[-1] == pytest.approx(30.0)
 
@@ -111,7 +119,7 @@ def test_the_joint_slides_under_its_own_load(part):
 def test_what_is_left_out_of_a_joint_is_told_with_its_size(part):
     _, piece = part
     light, heavy = (
-        rl.assess(rl.Question(piece, PAIR, loads=load, joint_area=2e-8))
+        rl.assess(rl.Question(piece, PAIR, loads=load, ask=rl.Joint(2e-8)))
         for load in ("1 mN", "10 N")
     )
     disc = constriction_of_disc(2e-8, light.curve.E_star)
@@ -145,8 +153,8 @@ def test_without_a_joint_forces_act_on_the_map_and_the_notes_say_so(part):
         ({"joint_area": "2 cm"}, 'joint_area is "2 cm", which is no quantity in m^2'),
         ({"joint_area": "2"}, 'joint_area is "2", without a unit; give one, such as "2 cm^2"'),
         ({"joint_area": "1,5 cm^2"}, "numbers take a decimal point"),
-        ({"joint_area": 1.0, "materials": None, "E_star": 1e9}, "need two materials"),
-        ({"joint_area": 1.0, "loads": (), "depths": "1 um"}, "is pressed by loads (loads=)"),
+        ({"ask": rl.Joint(1.0), "materials": None, "E_star": 1e9}, "need two materials"),
+        ({"ask": rl.Joint(1.0), "loads": (), "depths": "1 um"}, "is pressed by loads (loads=)"),
     ],
 )
 def test_joints_that_cannot_be_are_refused(asked, message):
@@ -158,16 +166,16 @@ def test_joints_that_cannot_be_are_refused(asked, message):
 def test_bodies_that_stand_for_no_joint_are_refused(part):
     _, piece = part
     with pytest.raises(rl.InputError, match="less than the map, which has .*: crop the map"):
-        rl.Question(piece, PAIR, loads="1 N", joint_area="100 µm²")
-    assert rl.Question(piece, PAIR, loads="1 N", joint_area=piece.area).joint == piece.area
+        rl.Question(piece, PAIR, loads="1 N", ask=rl.Joint("100 µm²"))
+    assert rl.Question(piece, PAIR, loads="1 N", ask=rl.Joint(piece.area)).joint == piece.area
     scan = rl.Line(piece.heights[0], 1e-4, kind="profile")
-    with pytest.raises(rl.InputError, match="joint_area= belongs to a surface"):
-        rl.Question(scan, PAIR, loads="1 N", joint_area="2 cm^2")
+    with pytest.raises(rl.InputError, match="rl.Joint belongs to a surface"):
+        rl.Question(scan, PAIR, loads="1 N", ask=rl.Joint("2 cm^2"))
 
 
 @pytest.mark.parametrize("area", ["2 cm^2", "2 cm²", "2cm2", "200 mm^2", 2e-4])
 def test_areas_are_read_as_they_are_written(area):
-    assert rl.Question("nowhere.x3p", PAIR, loads="1 N", joint_area=area).joint == 2e-4
+    assert rl.Question("nowhere.x3p", PAIR, loads="1 N", ask=rl.Joint(area)).joint == 2e-4
 
 
 def test_a_repeated_map_tells_of_the_jump_at_its_borders(part):
@@ -184,5 +192,5 @@ def test_a_repeated_map_tells_of_the_jump_at_its_borders(part):
     assert re.search(r"jumps by .*, \S+ times an ordinary step .*; \d\d% of its mean-sq", warned)
     assert not any("jumps by" in text for text in said(piece))
     assert not any("jumps by" in text for text in said(surface, periodic=True))
-    joint = {"joint_area": "1 mm^2"}  # whose map is pressed without its tilt
+    joint = {"ask": rl.Joint("1 mm^2")}  # whose map is pressed without its tilt
     assert "jumps by" in said(tilted, **joint)[1]

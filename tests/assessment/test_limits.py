@@ -30,25 +30,26 @@ def no_higher(low, high):
 
 
 @pytest.mark.parametrize(
-    "more", [{}, {"hardness": H}, {"joint_area": "1 mm^2"}, {"joint_area": "1 mm^2", "hardness": H}]
+    "more",
+    [{}, {"hardness": H}, {"ask": rl.Joint("1 mm^2")}, {"ask": rl.Joint("1 mm^2"), "hardness": H}],
 )
 def test_points_at_the_hardness_bear_no_more_on_loading(maps, more):
     """So the stiffness on loading is at most that on unloading, at both ends."""
     result = asked(maps[0], **more)
     k = result.answers["contact_stiffness"]
-    k_u = result.answers["interface_stiffness" if "joint_area" in more else "unloading_stiffness"]
+    k_u = result.answers["interface_stiffness" if "ask" in more else "unloading_stiffness"]
     assert k.values < 0.5 * k_u.values
     assert no_higher(k.high, k_u.high)
     assert 0 <= k.low < k.values < k.high
     assert no_higher(result.stiffness_interval[1], result.unloading_interval[1])
-    if "joint_area" not in more:
+    if "ask" not in more:
         per_area = result.answers["stiffness_per_area"]
         assert no_higher(per_area.high * result.area, k_u.high)
 
 
 def test_the_grid_of_the_stiffness_on_loading_counts_in_a_joint_too(maps):
     """It decides single points at the edges, which the surface behind the map does not mend."""
-    result = asked(maps[0], hardness=H, joint_area="1 mm^2")
+    result = asked(maps[0], hardness=H, ask=rl.Joint("1 mm^2"))
     k, k_i = (result.answers[key] for key in ("contact_stiffness", "interface_stiffness"))
     error = result.curve.stiffness_error
     assert k.low < k.values / (1 + error / (k.values / result.scale)) * (1 + 1e-9)
@@ -69,7 +70,7 @@ def test_loading_lies_between_none_and_unloading_where_its_own_ends_are_not_know
 @pytest.mark.parametrize("more", [{}, {"hardness": H}])
 def test_no_place_of_a_joint_bears_more_than_the_hardness(maps, more):
     """Not of the larger surface behind the map either."""
-    result = asked(maps[0], joint_area="1 mm^2", **more)
+    result = asked(maps[0], ask=rl.Joint("1 mm^2"), **more)
     hardest = H if more else HARDEST
     answers = result.answers
     assert no_higher(answers["contact_pressure"].high, np.array([hardest]))
@@ -79,7 +80,7 @@ def test_no_place_of_a_joint_bears_more_than_the_hardness(maps, more):
 
 @pytest.mark.parametrize("more", [{}, {"hardness": H}, {"elastic": True}])
 def test_a_reflection_is_at_least_that_of_welded_bodies_and_at_most_all(maps, more):
-    result = asked(maps[0], frequency="0.5 MHz", **more)
+    result = asked(maps[0], ask=rl.Ultrasound("0.5 MHz"), **more)
     first, second = (rl.material(name).impedance for name in PAIR.split(","))
     reflected = result.answers["reflection"]
     assert no_higher(abs(first - second) / (first + second), reflected.low)
@@ -87,19 +88,19 @@ def test_a_reflection_is_at_least_that_of_welded_bodies_and_at_most_all(maps, mo
     assert no_higher(reflected.high, np.ones(1))
 
 
-@pytest.mark.parametrize("joint_area", [None, "1 mm^2"])
-def test_the_interval_of_a_part_keeps_to_it(maps, joint_area):
-    part = asked(maps[:2], joint_area=joint_area, frequency="0.5 MHz")  # two places leave much open
+@pytest.mark.parametrize("joint", [(), (rl.Joint("1 mm^2"),)])
+def test_the_interval_of_a_part_keeps_to_it(maps, joint):
+    part = asked(maps[:2], ask=[*joint, rl.Ultrasound("0.5 MHz")])  # two places leave much open
     answers = part.answers
     for key in ("contact_area_fraction", "contact_pressure_over_hardness", "reflection"):
         assert no_higher(answers[key].high, np.ones(1)), key
     assert no_higher(answers["plastic_fraction"].high, np.ones(1))
     assert no_higher(answers["contact_pressure"].high, np.array([HARDEST]))
-    stiffest = answers["interface_stiffness" if joint_area else "unloading_stiffness"]
+    stiffest = answers["interface_stiffness" if joint else "unloading_stiffness"]
     k = answers["contact_stiffness"]
     assert no_higher(k.high, stiffest.high)
     assert k.low < k.mean < k.high
-    if joint_area is None:
+    if not joint:
         per_area = answers["stiffness_per_area"]
         assert per_area.high / per_area.mean == pytest.approx(k.high / k.mean)
 
@@ -110,7 +111,7 @@ def test_of_elastic_bodies_the_pressure_may_be_more(maps):
     assert over.high > over.mean > 1
 
 
-@pytest.mark.parametrize("more", [{"periodic": True}, {"joint_area": "1 mm^2"}, {}])
+@pytest.mark.parametrize("more", [{"periodic": True}, {"ask": rl.Joint("1 mm^2")}, {}])
 def test_a_load_that_only_the_softest_body_does_not_bear_is_answered(maps, more):
     """In any half-space; how far the answers move is not known then."""
     result = asked(maps[0], loads=f"{0.8 * H:g} Pa", **more)

@@ -30,7 +30,7 @@ def said(body, pair=PAIR, **asked):
         {"depths": "3 um"},
         {"depths": "1 nm", "grid_error": True},
         {"loads": "300 MPa", "periodic": True},
-        {"loads": ["1 N", "3 N"], "joint_area": "1 cm^2"},
+        {"loads": ["1 N", "3 N"], "ask": rl.Joint("1 cm^2")},
     ],
 )
 def test_what_yields_and_what_the_intervals_hold_is_said_once(surface, asked):
@@ -43,7 +43,7 @@ def test_what_yields_and_what_the_intervals_hold_is_said_once(surface, asked):
     without = "values come without intervals" in text
     assert without == (
         result.answers["unloading_stiffness"].low is None
-        if "joint_area" not in asked
+        if "ask" not in asked
         else result.answers["contact_stiffness"].low is None
     )
     assert not (without and "the intervals include that" in text)
@@ -56,8 +56,14 @@ def test_the_effect_of_filling_is_that_on_the_loads_that_were_asked_for(holed):
     file, *_ = holed
     reading = rl.Reading(unit="m", sizes=(1e-3,))
     changes = []
-    for whole in (False, True):
-        result = said(file, loads="10 N", reading=reading, whole_curve=whole, grid_error=False)
+    for ask in ((), rl.WholeCurve()):
+        result = said(
+            file,
+            loads="10 N",
+            reading=reading,
+            ask=ask,
+            grid_error=False,
+        )
         changes += [note for note in result.notes if "filled by nearest instead" in note]
     assert changes[0] == changes[1]
 
@@ -115,7 +121,7 @@ def test_full_contact_is_said(surface):
 def test_a_wide_interval_names_its_largest_cause_first(surface):
     """Few points in contact leave more open than the hardness; many of a metal do not."""
     cropped = rl.Surface(surface.heights, surface.sizes, "m", is_cut_out=True)
-    few = said(cropped, loads="1 N", joint_area="1 cm^2", grid_error=True)
+    few = said(cropped, loads="1 N", ask=rl.Joint("1 cm^2"), grid_error=True)
     (note,) = [text for text in few.warnings if "is left open by" in text]
     cells = round(few.curve.area_fraction[0] * 64**2)
     assert f"with {cells} of 4096 points in contact" in note

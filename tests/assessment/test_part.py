@@ -137,7 +137,7 @@ def test_maps_of_different_size_share_what_is_per_area(maps):
     assert "contact_stiffness" not in by_pressure.answers
     assert by_force.answers == {}
     assert any("give mean pressures" in text for text in by_force.warnings)
-    joint = pressed([small, *maps[1:]], loads="1 N", joint_area="2 cm^2").answers
+    joint = pressed([small, *maps[1:]], loads="1 N", ask=rl.Joint("2 cm^2")).answers
     assert joint["normal_force"].mean == pytest.approx([1.0])
     assert "constriction_resistance" in joint
 

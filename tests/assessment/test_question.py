@@ -28,8 +28,14 @@ NOWHERE = "no/such/file.x3p"
         ({"E_star": 1.0, "loads": ["1,5 N"]}, "numbers take a decimal point"),
         ({"E_star": 1.0, "depths": ["5 N"]}, 'depths is "5 N"'),
         ({"E_star": 1.0, "theories": ["hertz"]}, 'theories is "hertz"; allowed are'),
-        ({"E_star": 1.0, "frequency": "5 MHz"}, "reflection and partial slip need two materials"),
-        ({"E_star": 1.0, "friction": 0.1}, "reflection and partial slip need two materials"),
+        (
+            {"E_star": 1.0, "ask": rl.Ultrasound("5 MHz")},
+            "reflection and partial slip need two materials",
+        ),
+        (
+            {"E_star": 1.0, "ask": rl.Friction(0.1)},
+            "reflection and partial slip need two materials",
+        ),
         (
             {"materials": "steel,copper", "frequency": "-5 MHz"},
             'frequency is "-5 MHz"; a positive, finite one is needed',
@@ -39,7 +45,10 @@ NOWHERE = "no/such/file.x3p"
             "friction is 0.0; a number above 0 and up to 5",
         ),
         *(
-            ({"materials": "steel,copper", "friction": given}, "above 0 and up to 5 is needed")
+            (
+                {"materials": "steel,copper", "friction": given},
+                "above 0 and up to 5 is needed",
+            )
             for given in (30, -1, 5.1, float("nan"), float("inf"))
         ),
         *(

@@ -116,7 +116,7 @@ def test_intervals_hold_parents_of_several_kinds(kind, waves, bar):
         hardness=hardness,
         periodic=True,
     )
-    asked = {"joint_area": part.area, "hardness": hardness, "elastic": bar is None}
+    asked = {"ask": rl.Joint(part.area), "hardness": hardness, "elastic": bar is None}
     loads = (pressures * part.area).tolist()
     held = []
     for _ in range(3):
@@ -145,7 +145,7 @@ def test_waves_longer_than_the_map_take_down_what_rests_on_the_map_alone(made):
     for key in ("contact_stiffness", "contact_area"):
         assert found.answers[key].ends is not None
     assert "waves longer" in found.warnings[0]
-    joint = rl.assess(rl.Question(bowed, MATERIALS, joint_area=part.area, **asked))
+    joint = rl.assess(rl.Question(bowed, MATERIALS, ask=rl.Joint(part.area), **asked))
     assert joint.answers["contact_area"].ends is None
     assert joint.intervals is None
 
@@ -174,8 +174,8 @@ def test_the_answer_says_for_which_surface_it_is():
         ]
 
     assert k_i().validity.startswith("of a surface 4 times as long as the map, which shows no")
-    assert "joint_area=" in k_i().validity
-    assert k_i(joint_area=part.area).ends is not None
-    far = k_i(joint_area=1000 * part.area)
+    assert "rl.Joint" in k_i().validity
+    assert k_i(ask=rl.Joint(part.area)).ends is not None
+    far = k_i(ask=rl.Joint(1000 * part.area))
     assert far.ends is None
     assert "measure a map at least 1/16 as long" in far.validity

@@ -178,7 +178,7 @@ def test_loads_that_the_softest_body_does_not_bear_have_no_interval(surface):
     assert any("does not bear the largest load" in note for note in result.notes)
 
 
-@pytest.mark.parametrize("asked", [{}, {"joint_area": "1 cm^2"}])
+@pytest.mark.parametrize("asked", [{}, {"ask": rl.Joint("1 cm^2")}])
 def test_loads_that_no_body_bears_are_refused_where_they_act(surface, asked):
     on = "the joint" if asked else "the map"
     most = "37 kN" if asked else "370 N"
@@ -189,7 +189,7 @@ def test_loads_that_no_body_bears_are_refused_where_they_act(surface, asked):
 
 def test_a_history_is_that_of_the_surface_as_each_load_left_it(surface):
     forces = [2.0, 8.0, 4.0, 4.0, 0.0, 8.0, 12.0]
-    result = rl.assess(rl.Question(surface, PAIR, loads=forces, history=True, fields=False))
+    result = rl.assess(rl.Question(surface, PAIR, loads=forces, ask=rl.History(), fields=False))
     curve = rl.press(surface, E_star=result.curve.E_star, hardness=H, forces=forces)
     for name in ("force", "depth", "stiffness", "unloading_stiffness"):
         assert getattr(result.curve_as_asked, name).tolist() == getattr(curve, name).tolist()
@@ -207,7 +207,7 @@ def test_a_history_is_that_of_the_surface_as_each_load_left_it(surface):
 
 
 def test_unloading_takes_the_largest_load_off_in_steps(surface):
-    result = rl.assess(rl.Question(surface, PAIR, loads=["8 N", "2 N"], unload=True))
+    result = rl.assess(rl.Question(surface, PAIR, loads=["8 N", "2 N"], ask=rl.Unloading()))
     falling = [6.0, 4.0, 2.0, 0.8, 0.0]
     assert result.curve_as_asked.force == pytest.approx([8.0, 2.0, *falling])
     assert result.headings[2:] == [
@@ -225,7 +225,9 @@ def test_unloading_takes_the_largest_load_off_in_steps(surface):
 def test_theories_stand_beside_an_unloading(surface):
     """At each load once, rising, so that the last is the largest; none where nothing touches."""
     result = rl.assess(
-        rl.Question(surface, PAIR, loads=["8 N", "2 N"], unload=True, theories="persson")
+        rl.Question(
+            surface, PAIR, loads=["8 N", "2 N"], ask=[rl.Unloading(), rl.Theories("persson")]
+        )
     )
     (persson,) = result.theories
     assert persson.pressure * result.area == pytest.approx([0.8, 2.0, 4.0, 6.0, 8.0])
@@ -234,7 +236,7 @@ def test_theories_stand_beside_an_unloading(surface):
 
 def test_depths_rise_and_fall_too(surface):
     depths = ["0.5 um", "1 um", "0.9 um", "0.1 um"]
-    result = rl.assess(rl.Question(surface, PAIR, depths=depths, history=True))
+    result = rl.assess(rl.Question(surface, PAIR, depths=depths, ask=rl.History()))
     assert result.largest == 1
     force = result.answers["normal_force"].values
     assert force[2] < force[1]
@@ -244,8 +246,9 @@ def test_depths_rise_and_fall_too(surface):
 
 
 def test_the_curve_of_a_report_leads_up_to_the_history(surface):
-    question = rl.Question(surface, PAIR, loads=["4 N", "8 N", "1 N"], history=True)
-    alone, whole = (rl.assess(replace(question, whole_curve=each)) for each in (False, True))
+    question = rl.Question(surface, PAIR, loads=["4 N", "8 N", "1 N"], ask=rl.History())
+    alone = rl.assess(question)
+    whole = rl.assess(replace(question, ask=[rl.History(), rl.WholeCurve()]))
     assert whole.curve.force.size > 3 + 10
     assert whole.curve.force[-3:].tolist() == [4.0, 8.0, 1.0]
     for key in ("unloading_stiffness", "contact_area"):
@@ -255,7 +258,7 @@ def test_the_curve_of_a_report_leads_up_to_the_history(surface):
 
 def test_a_contact_slides_back_as_it_unloads(surface):
     """Against the unloading branch itself, pressed as a dense history."""
-    question = rl.Question(surface, PAIR, loads="10 N", friction=0.3, whole_curve=True)
+    question = rl.Question(surface, PAIR, loads="10 N", ask=[rl.Friction(0.3), rl.WholeCurve()])
     slip = rl.assess(question).partial_slip
     pair = question.pair
     back = 10.0 * np.append(np.geomspace(1, 1e-3, 40), 0.0)
@@ -340,7 +343,7 @@ def test_the_interface_of_a_map_springs_back_with_the_surface_around_it(surface)
 def test_a_part_of_several_maps_is_unloaded(surface):
     rough = rl.SelfAffine(hurst=0.7, length=2e-3, rms_height=1e-6).surface(64, 3)
     maps = [rough.cropped((0, 32), (i, i + 32)).detrended() for i in (0, 32)]
-    asked = {"loads": ["2 MPa", f"{0.8 * H:g} Pa"], "unload": True, "grid_error": True}
+    asked = {"loads": ["2 MPa", f"{0.8 * H:g} Pa"], "ask": rl.Unloading(), "grid_error": True}
     part = rl.assess(rl.Question(maps, PAIR, fields=False, **asked))
     assert part.headings[-1] == "unloaded"
     assert part.largest == 1
@@ -425,13 +428,13 @@ def test_a_line_scan_has_no_yield_and_says_how_far_it_serves(surface):
     result = rl.assess(rl.Question(smooth, PAIR, loads="1 N"))
     (said,) = (each for each in result.notes if "the reduced model has no yield" in each)
     assert said.endswith(f"the rms slope of the scan is {0.5 * most:.2g}")
-    for asked in ({"hardness": "1 GPa"}, {"history": True}, {"unload": True}):
+    for asked in ({"hardness": "1 GPa"}, {"ask": rl.History()}, {"ask": rl.Unloading()}):
         with pytest.raises(
             rl.InputError, match="belong to a surface; the reduced model"
         ) as refusal:
             rl.Question(scan, PAIR, loads="1 N", **asked)
-        (name,) = asked
-        assert f"leave {name}=" in str(refusal.value)
+        name = f"rl.{type(asked['ask']).__name__}" if "ask" in asked else "hardness="
+        assert f"leave {name} out" in str(refusal.value)
 
 
 @pytest.mark.parametrize(
@@ -444,11 +447,11 @@ def test_a_line_scan_has_no_yield_and_says_how_far_it_serves(surface):
         ({"hardness": "5"}, 'hardness is "5", without a unit'),
         ({"hardness": "1,5 GPa"}, "numbers take a decimal point"),
         ({"hardness": 1e9, "elastic": True}, "hardness= and elastic=True contradict each other"),
-        ({"loads": (), "history": True}, "history=True needs loads= or depths="),
-        ({"loads": [0, 1.0], "history": True}, "and zero only to unload after others"),
+        ({"loads": (), "ask": rl.History()}, "rl.History needs loads= or depths="),
+        ({"loads": [0, 1.0], "ask": rl.History()}, "and zero only to unload after others"),
         ({"loads": [1.0, 0]}, "loads is 0; give positive ones"),
-        ({"unload": True, "history": True}, "write the falling values yourself"),
-        ({"unload": True, "loads": (), "depths": "1 um"}, "write the falling values yourself"),
+        ({"ask": [rl.Unloading(), rl.History()]}, "write the falling values yourself"),
+        ({"ask": rl.Unloading(), "loads": (), "depths": "1 um"}, "the falling values yourself"),
     ],
 )
 def test_hardness_and_histories_that_cannot_be_are_refused(asked, message):

@@ -222,7 +222,7 @@ def test_measured_files_are_answered_for_as_by_the_library(measured_page, topogr
             topographies / name,
             materials=("steel", "copper"),
             loads=["10 uN"],
-            whole_curve=True,
+            ask=rl.WholeCurve(),
             preparation=rl.Preparation(points=96),
         )
     )
@@ -273,7 +273,7 @@ def test_an_array_needs_unit_and_size(page, tmp_path):
             tmp_path / "map.npy",
             materials=("steel", "copper"),
             loads=["2 MPa"],
-            whole_curve=True,
+            ask=rl.WholeCurve(),
             reading=rl.Reading(unit="um", sizes="1 mm"),
         )
     )
@@ -320,7 +320,7 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ({"low_pass": "1 km"}, "prepare", "low_pass", "longer than the topography"),
         ({"blur": "1 km"}, "prepare", "blur", "a shorter one is needed"),
         ({"blur": "-1 um"}, "look", "blur", "a length from 0 on is needed"),
-        ({"tip_radius": "0 um"}, "look", "tip_radius", "a positive, finite number is needed"),
+        ({"tip_radius": "0 um"}, "look", "tip_radius", "a positive, finite length is needed"),
         ({"pixels": "nonsense"}, "look", "pixels", "allowed are"),
         ({"friction": "-1"}, "bodies", "friction", "above 0 and up to 5"),
         ({"friction": "30"}, "bodies", "friction", "above 0 and up to 5"),
@@ -359,7 +359,7 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ({"theories": "hertz"}, "answer", "theories", "there is no theory"),
         ({"crop": "1, 2"}, "prepare", "crop", "without a unit"),
         ({"crop": "0 um, 1 um"}, "prepare", "crop", "give 4"),
-        ({"low_pass": "-1 um"}, "prepare", "low_pass", "a positive wavelength"),
+        ({"low_pass": "-1 um"}, "prepare", "low_pass", "a positive, finite length"),
         ({"resample": "1.5"}, "prepare", "resample", "give a whole number"),
         ({"trend": "cubic"}, "prepare", "trend", "allowed are"),
         ({"most_missing": "120%"}, "look", "most_missing", "below 100 %"),
@@ -549,7 +549,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
             paths,
             materials=("steel", "copper"),
             loads=["2 MPa", "20 MPa"],
-            whole_curve=True,
+            ask=rl.WholeCurve(),
             grid_error=False,
         )
     )

@@ -13,7 +13,7 @@ from roughline.report.contact_tables import quantity
 
 def test_one_area_is_told_everywhere(rough):
     pressed = rl.assess(
-        rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"], whole_curve=True)
+        rl.Question(rough, ("steel", "copper"), loads=["1 N", "10 N"], ask=rl.WholeCurve())
     )
     axes = Figure().subplots()
     draw_last_contact(axes, pressed.body, pressed)
@@ -48,7 +48,9 @@ def test_filled_points_are_marked_where_they_were(holed):
 def test_theories_are_drawn_in_the_units_of_the_curve():
     spectrum = rl.SelfAffine(hurst=0.7, length=3e-3, rms_height=1e-6)
     surface = replace(spectrum.surface(32, 3), unit="m")
-    pressed = rl.assess(rl.Question(surface, E_star=1e9, loads=[0.1, 1.0], theories="persson"))
+    pressed = rl.assess(
+        rl.Question(surface, E_star=1e9, loads=[0.1, 1.0], ask=rl.Theories("persson"))
+    )
     axes = Figure().subplots()
     draw_stiffness(axes, pressed)
     (persson,) = pressed.theories

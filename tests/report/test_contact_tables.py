@@ -14,7 +14,7 @@ PAIR = ("steel", "copper")
 
 
 def test_no_star_is_explained_that_is_not_shown(rough, capsys):
-    pressed = rl.assess(rl.Question(rough, PAIR, loads="10 N", whole_curve=True))
+    pressed = rl.assess(rl.Question(rough, PAIR, loads="10 N", ask=rl.WholeCurve()))
     assert not pressed.curve.resolved.all()  # lighter loads of a report's figure
     print_assessment(pressed, long_curves_by="", many_answers_by="")
     assert "fewer than ten points in contact" not in capsys.readouterr().out
@@ -38,11 +38,14 @@ def body(request):
     return rl.Line(surface.heights[0], 1e-3, "m", kind=kind)
 
 
-@pytest.mark.parametrize("asked", [{}, {"elastic": True}, {"periodic": True}, {"joint_area": 1e-4}])
+@pytest.mark.parametrize(
+    "asked", [{}, {"elastic": True}, {"periodic": True}, {"ask": [rl.Joint(1e-4)]}]
+)
 def test_every_symbol_of_a_formula_stands_in_a_table_and_means_one_thing(body, asked):
     if isinstance(body, rl.Line) and asked:
         pytest.skip("a line has no yield, no borders and no joint")
-    pressed = rl.assess(rl.Question(body, PAIR, loads="10 N", frequency="5 MHz", **asked))
+    asked = {**asked, "ask": [rl.Ultrasound("5 MHz"), *asked.get("ask", ())]}
+    pressed = rl.assess(rl.Question(body, PAIR, loads="10 N", **asked))
     answers = [each.symbol for each in pressed.answers.values()]
     assert len({*answers}) == len(answers)
     _, rows = symbol_table(pressed)
@@ -70,7 +73,7 @@ def formulas_of(pressed):
 
 
 def test_of_a_joint_the_interface_comes_first_and_says_which_stiffness_it_is(rough):
-    pressed = rl.assess(rl.Question(rough, PAIR, loads="1 kN", joint_area="2 cm^2"))
+    pressed = rl.assess(rl.Question(rough, PAIR, loads="1 kN", ask=rl.Joint("2 cm^2")))
     _, rows = answer_table(pressed, slice(None))
     names = [row[0] for row in rows]
     stiffnesses = [name for name in names if "stiffness" in name]
@@ -85,14 +88,16 @@ def test_of_a_joint_the_interface_comes_first_and_says_which_stiffness_it_is(rou
     assert k_i > k_load
     assert answers["stiffness_per_area"].values == pytest.approx(k_i / 2e-4)
     assert answers["constriction_resistance"].formula.endswith("(2 k_i)")
-    elastic = rl.assess(rl.Question(rough, PAIR, loads="1 kN", joint_area="2 cm^2", elastic=True))
+    elastic = rl.assess(
+        rl.Question(rough, PAIR, loads="1 kN", ask=rl.Joint("2 cm^2"), elastic=True)
+    )
     assert "contact_stiffness" not in elastic.answers  # equal to that on unloading
     assert elastic.answers["interface_stiffness"].name == "interface stiffness"
 
 
 @pytest.mark.parametrize("joint", [None, "2 cm^2"])
 def test_json_and_the_curve_say_of_what_they_are(rough, joint):
-    pressed = rl.assess(rl.Question(rough, PAIR, loads="5 MPa", joint_area=joint))
+    pressed = rl.assess(rl.Question(rough, PAIR, loads="5 MPa", ask=rl.Joint(joint)))
     told = of_assessment(pressed)
     whose = "body" if joint is None else "map"
     assert (told["curve"]["of"], told["intervals_of"]) == (whose, whose)

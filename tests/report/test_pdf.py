@@ -118,11 +118,11 @@ def test_tables_of_any_width_fit_the_sheet_and_no_number_is_broken(tmp_path, loa
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("asked", [{"joint_area": "2 cm^2"}, {"unload": True, "friction": 0.3}])
+@pytest.mark.parametrize("asked", [[rl.Joint("2 cm^2")], [rl.Unloading(), rl.Friction(0.3)]])
 def test_a_report_can_be_printed(rough, tmp_path, asked):
     loads = ["1 N", "2 N", "5 N", "10 N"]
     question = rl.Question(
-        rough, "steel,copper", loads=loads, whole_curve=True, grid_error=False, **asked
+        rough, "steel,copper", loads=loads, ask=[rl.WholeCurve(), *asked], grid_error=False
     )
     pressed = rl.assess(question)
     write_contact_report(pressed, tmp_path, "roughline press " + LONG)

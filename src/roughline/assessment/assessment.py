@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from roughline.assessment.kinds import nominal_area
 from roughline.assessment.larger_surface import LargerSurface
-from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.assessment.slip import PartialSlip
 from roughline.assessment.source import Topography

@@ -8,11 +8,9 @@ from functools import cached_property
 
 from roughline.assessment.grid import grid_error_is_estimated
 from roughline.assessment.hardness import Hardness, hardness_of
-from roughline.assessment.kinds import has_spectrum, is_map
+from roughline.assessment.kinds import has_spectrum, is_map, nominal_area
 from roughline.assessment.larger_surface import roll_offs_along_a_side
 from roughline.assessment.loads import LoadCase
-from roughline.assessment.misfit import refuse_misfit
-from roughline.assessment.nominal import nominal_area
 from roughline.assessment.question import Question
 from roughline.assessment.source import Topography, pressed_body, topographies
 from roughline.assessment.tiles import Beyond
@@ -56,7 +54,7 @@ class Case:
         """
         parts = topographies(question)
         body = pressed_body([each.body for each in parts])
-        refuse_misfit(question, body)
+        question.refuse_misfit(body)
         loads = LoadCase.of(question, body)
         grid_error = grid_error_is_estimated(question, body, loads)
         return cls(question, parts, body, replace(loads, grid_error=grid_error))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
@@ -18,6 +19,46 @@ from roughline.units import example_of, in_si, load_in_newtons, refuse_decimal_c
 
 MOST_FRICTION = 5.0
 """Largest coefficient of friction; that of rubber on dry glass is about 4."""
+
+
+_Value = TypeVar("_Value")
+
+
+class Parsed(Generic[_Value]):
+    """An attribute of a frozen dataclass that is read, and checked, when it is given.
+
+    Parameters
+    ----------
+    read : callable
+        Reads what was given.
+    default : optional
+        What holds where nothing is given; without it something has to be.
+    """
+
+    def __init__(self, read: Callable[[Any], _Value], **default: Any) -> None:
+        self.read = read
+        self._default = default
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        """Learn under which name the attribute is kept."""
+        self._name = name
+
+    def __get__(self, instance: object | None, owner: type) -> _Value:
+        """Return the value; of the class, what the dataclass takes as the default."""
+        if instance is not None:
+            return instance.__dict__[self._name]
+        if not self._default:
+            raise AttributeError(self._name)
+        return self._default["default"]
+
+    def __set__(self, instance: object, given: Any) -> None:
+        """Read what was given."""
+        instance.__dict__[self._name] = self.read(given)
+
+
+def optional(read: Callable[[Any], _Value]) -> Callable[[Any], _Value | None]:
+    """A reader that leaves None as it is."""
+    return lambda given: None if given is None else read(given)
 
 
 def several(given: Any) -> tuple[Any, ...]:
@@ -34,6 +75,18 @@ def as_si(given: float | str, unit: str, name: str) -> float:
     example = example_of(unit, name)
     needed = f'a number in {unit}, or a text such as "{example}", is needed'
     return number(name, given, needed)
+
+
+def quantity(unit: str, name: str, needed: str) -> Callable[[Any], float]:
+    """A reader of a positive, finite quantity in an SI unit."""
+
+    def read(given: Any) -> float:
+        value = as_si(given, unit, name)
+        if not 0 < value < math.inf:
+            refuse(name, given, needed)
+        return value
+
+    return read
 
 
 def checked_friction(given: Any) -> float:

@@ -3,23 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from roughline.assessment.given import as_si
-from roughline.engineering.formulas import ELASTIC_UP_TO
+from roughline.assessment.question import Question
 from roughline.errors import InputError
-from roughline.errors.checks import refuse
 from roughline.errors.words import called
 from roughline.units import engineering
-
-if TYPE_CHECKING:
-    from roughline.assessment.question import Question
-
-WITHOUT_YIELD = (
-    "has no yield: it can be used while mean contact pressures stay below about "
-    f"{ELASTIC_UP_TO:g} of the hardness"
-)
-"""Said of the reduced model."""
 
 
 @dataclass(frozen=True)
@@ -43,37 +31,11 @@ class Hardness:
         return self.value / self.factor, self.value * self.factor
 
 
-def checked_hardness(given: float | str | None, *, elastic: bool) -> float | None:
-    """Read a hardness; None if none was given. [Pa]
-
-    Raises
-    ------
-    InputError
-        If it is no positive pressure, or given of bodies that are to be elastic.
-    """
-    if given is None:
-        return None
-    hardness = as_si(given, "Pa", "hardness")
-    if not hardness > 0:
-        refuse(
-            "hardness",
-            given,
-            f"a positive pressure is needed, or {called('elastic', True)} for no yield",
-        )
-    if elastic:
-        raise InputError(
-            f"{called('hardness')} and {called('elastic', True)} contradict each other; give "
-            "one of them"
-        )
-    return hardness
-
-
 def hardness_of(question: Question) -> Hardness | None:
     """Return the hardness that a question is answered with; None if the bodies are elastic."""
     if question.elastic:
         return None
     if question.hardness is not None:
-        assert not isinstance(question.hardness, str)
         return Hardness(question.hardness, 1.0) if question.hardness < float("inf") else None
     pair = question.pair
     if pair is None or pair.hardness is None:
@@ -100,7 +62,7 @@ def refuse_beyond_hardness(question: Question, area: float) -> None:
             if question.joint is None:
                 on, joint = (
                     "the map",
-                    f"the area of the joint that carries them ({called('joint_area')}), ",
+                    f"the area of the joint that carries them ({called('rl.Joint')}), ",
                 )
             raise InputError(
                 f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and "

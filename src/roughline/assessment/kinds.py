@@ -1,10 +1,17 @@
-"""Of which kind a body is, where answers depend on that."""
+"""Of which kind a body is, and how large, where answers depend on that."""
 
 from __future__ import annotations
 
 from typing import TypeGuard
 
+from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.topography.body import Body, Surface
+
+WITHOUT_YIELD = (
+    "has no yield: it can be used while mean contact pressures stay below about "
+    f"{ELASTIC_UP_TO:g} of the hardness"
+)
+"""Said of the reduced model, which a line is pressed with."""
 
 
 def is_map(body: Body) -> TypeGuard[Surface]:
@@ -15,3 +22,8 @@ def is_map(body: Body) -> TypeGuard[Surface]:
 def has_spectrum(body: Body) -> TypeGuard[Surface]:
     """Whether it is a surface with enough points and some roughness."""
     return isinstance(body, Surface) and min(body.shape) >= 8 and body.rms_height > 0
+
+
+def nominal_area(body: Body) -> float:
+    """Nominal area of a body; of a line, the square of its length. [m²]"""
+    return body.area if isinstance(body, Surface) else body.length**2

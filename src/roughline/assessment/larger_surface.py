@@ -215,7 +215,7 @@ def _which(beyond: Beyond) -> str:
     if not beyond.is_joint:
         return (
             f"of a surface {times}: on a larger one longer waves lower the stiffness further; give "
-            f"the joint's area ({called('joint_area')}), or measure a larger map"
+            f"the joint's area ({called('rl.Joint')}), or measure a larger map"
         )
     if beyond.is_told:
         return f"of a joint {times}: the interval allows for waves as long as the joint"

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughline.assessment.hardness import hardness_of, refuse_beyond_hardness
-from roughline.assessment.kinds import is_map
-from roughline.assessment.nominal import nominal_area
+from roughline.assessment.kinds import is_map, nominal_area
 from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.curve import Curve

@@ -10,10 +10,8 @@ import numpy as np
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.assumptions import Prediction, takes_down
 from roughline.assessment.given import has_forces, several
-from roughline.assessment.hardness import WITHOUT_YIELD, hardness_of
-from roughline.assessment.kinds import is_map
-from roughline.assessment.misfit import strains
-from roughline.assessment.nominal import nominal_area
+from roughline.assessment.hardness import hardness_of
+from roughline.assessment.kinds import WITHOUT_YIELD, is_map, nominal_area
 from roughline.assessment.question import Question
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.engineering.formulas import ELASTIC_UP_TO, plasticity_index
@@ -104,7 +102,7 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
     if has_forces(question.loads) and question.joint is None and is_map(body):
         notes.append(
             "forces act on the map alone, not on the part that it was cut out of; if the area of "
-            f"the joint is given ({called('joint_area')}), they act on the joint, and the "
+            f"the joint is given ({called('rl.Joint')}), they act on the joint, and the "
             "answers are those of "
             "the joint"
         )
@@ -120,7 +118,7 @@ def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str
             f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
             f"no interval includes the effect of slopes over {_STEEP:g}"
         )
-    ratio, text = max(strains(question, body), default=(0.0, ""))
+    ratio, text = max(question.strains(body), default=(0.0, ""))
     if ratio > _STRAINED:
         broken.append(
             f"{text}: bodies that are strained so far are not linear elastic, and no interval "

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.behind_maps import BehindMaps
-from roughline.assessment.nominal import nominal_area
+from roughline.assessment.kinds import nominal_area
 from roughline.assessment.notes import listed
 from roughline.assessment.part import PartAnswer
 from roughline.errors.words import called
@@ -59,7 +59,7 @@ def differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
         found.append(
             "the maps differ in size, so quantities of a whole map have no common mean; give mean "
             "pressures as loads to compare quantities per area"
-            + (f", or the area of the joint ({called('joint_area')})" if kinds == {True} else "")
+            + (f", or the area of the joint ({called('rl.Joint')})" if kinds == {True} else "")
         )
     return found
 

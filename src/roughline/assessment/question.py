@@ -2,44 +2,92 @@
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar, get_args
 
-from roughline.assessment.consistency import (
-    refuse_inconsistent_joint,
-    refuse_inconsistent_loads,
-    refuse_inconsistent_maps,
+from roughline.assessment.asked import (
+    Asked,
+    Friction,
+    History,
+    Joint,
+    Theories,
+    Ultrasound,
+    Unloading,
+    WholeCurve,
+    without_earlier_keywords,
 )
 from roughline.assessment.given import (
+    Parsed,
     as_si,
     bodies_or_paths,
     body_or_path,
-    checked_friction,
+    optional,
     pair_of,
+    quantity,
     several,
 )
-from roughline.assessment.hardness import checked_hardness
-from roughline.assessment.misfit import refuse_misfit
-from roughline.assessment.nominal import area_of_joint
+from roughline.assessment.kinds import WITHOUT_YIELD, has_spectrum, nominal_area
 from roughline.assessment.reading import Reading
+from roughline.engineering.materials import Material
 from roughline.engineering.pair import MaterialPair, contact_modulus
 from roughline.errors import InputError
-from roughline.errors.checks import number, refuse
+from roughline.errors.checks import number, refuse, whole
 from roughline.errors.public import public
 from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.preparation import Preparation
-from roughline.units import engineering, load_in_newtons
+from roughline.units import decimal, engineering, load_in_newtons
 
 DEFAULT_LOADS = 20
 
 UNLOADING = (0.75, 0.5, 0.25, 0.1, 0.0)
 """Loads over the largest one, on the way back to none."""
 
+_A = TypeVar("_A")
+_Class = TypeVar("_Class", bound=type)
 
+
+def _with_earlier_keywords(question: _Class) -> _Class:
+    """A class that takes the keywords of version 0.2 too, for one release."""
+    made: Callable[..., None] = question.__init__  # type: ignore[misc]
+
+    @functools.wraps(made)
+    def make(self: Any, *given: Any, **named: Any) -> None:
+        made(self, *given, **without_earlier_keywords(named))
+
+    question.__init__ = make  # type: ignore[misc]
+    return question
+
+
+def _checked(asked: Any) -> tuple[Asked, ...]:
+    """Return what is asked, each of a kind of its own."""
+    found = several(asked)
+    for each in found:
+        if not isinstance(each, get_args(Asked)):
+            refuse(
+                "ask", each, 'give what is asked, such as rl.Friction(0.3) or rl.Joint("2 cm^2")'
+            )
+    kinds = [type(each).__name__ for each in found]
+    for kind in kinds:
+        if kinds.count(kind) > 1:
+            raise InputError(f"holds several rl.{kind}; give one", "ask")
+    return found
+
+
+def _hardness(given: Any) -> float:
+    """Return a hardness; without end, it stands for no yield. [Pa]"""
+    hardness = as_si(given, "Pa", "hardness")
+    if not hardness > 0:
+        elastic = called("elastic", True)
+        refuse("hardness", given, f"a positive pressure is needed, or {elastic} for no yield")
+    return hardness
+
+
+@_with_earlier_keywords
 @public
 @dataclass(frozen=True)
 class Question:
@@ -60,10 +108,8 @@ class Question:
         Contact modulus instead of materials; the result is then the curve without answers. [Pa]
     loads : float or str, or sequence of them, optional
         Total forces [N], or texts: forces, "10 N", or mean pressures over the nominal area,
-        "2 MPa". Forces act on the body, or on the joint whose area is given.
-    joint_area : float or str, optional
-        Nominal area of the joint that a surface is a map of, such as "2 cm^2", not below that of
-        the map. The map is pressed at the joint's mean pressure, and answers are the joint's. [m²]
+        "2 MPa". Forces act on the body, or on the :class:`roughline.Joint`
+        that is asked for.
     depths : float or str, or sequence of them, optional
         Depths since first touch instead of loads. [m]
     hardness : float or str, optional
@@ -71,32 +117,23 @@ class Question:
         scatter, where it is known. Points that reach it yield and are indented permanently. [Pa]
     elastic : bool, optional
         Whether both bodies are elastic, whatever their hardness.
-    history : bool, optional
-        Whether loads or depths are applied in the order given, each to the surface as the last one
-        left it; default: in rising order.
-    unload : bool, optional
-        Whether the largest load is taken off again, in steps down to zero.
     n_loads : int, optional
         Number of forces from first touch to saturation; 20 if no loads and no depths are given.
+    ask : what is asked beside the contact, or sequence of it, optional
+        Any of :class:`roughline.Friction`, :class:`roughline.Ultrasound`, :class:`roughline.Joint`,
+        :class:`roughline.Theories`, :class:`roughline.History`, :class:`roughline.Unloading` and
+        :class:`roughline.WholeCurve`.
     against : Surface, Line, str or Path, optional
         Topography of the second body, read and prepared like the first; without it, it is smooth.
     periodic : bool, optional
         As for :func:`roughline.press`.
-    friction : float, optional
-        Coefficient of friction, above 0 and up to 5; adds partial slip at the largest load. [1]
-    frequency : float or str, optional
-        Of an ultrasonic wave; adds its reflection. [Hz]
-    theories : str or sequence of str, optional
-        As for :func:`roughline.theory`.
     grid_error : bool, optional
-        Whether the grid's error is estimated; default: where that is cheap, and with `whole_curve`,
-        on 64 points a side or more. Without it no interval is given.
+        Whether the grid's error is estimated; default: where that is cheap, and with a
+        whole curve, on 64 points a side or more. Without it no interval is given.
     reading : Reading, optional
         How files are read.
     preparation : Preparation, optional
         Of each topography; default: the tilt of measured ones is removed.
-    whole_curve : bool, optional
-        Whether further loads, from a thousandth of the largest one up, are solved too, for figures.
     fields : bool, optional
         Whether the fields of one load are kept: of the largest, or, with `n_loads`, of the load at
         three quarters of their number.
@@ -116,65 +153,101 @@ class Question:
     >>> question = rl.Question(surface, E_star="100 GPa", loads=["1 MPa", "2 MPa"])
     >>> print(rl.assess(question).curve.stiffness.round(-5))
     [ 6900000. 10900000.]
+
+    >>> pair, asked = ("steel", "copper"), [rl.Friction(0.3), rl.Ultrasound("5 MHz")]
+    >>> question = rl.Question(surface, pair, loads="10 N", ask=asked)
     """
 
-    body: Body | str | Path | Iterable[Body | str | Path]
-    materials: Any = None
-    E_star: float | str | None = None
-    loads: float | str | Sequence[float | str] = ()
-    depths: float | str | Sequence[float | str] = ()
+    body: Parsed[Body | Path | tuple[Body | Path, ...]] = Parsed(
+        functools.partial(bodies_or_paths, name="body")
+    )
+    materials: Parsed[tuple[Material, Material] | None] = Parsed(optional(pair_of), default=None)
+    E_star: Parsed[float | None] = Parsed(
+        optional(quantity("Pa", "E_star", "a positive, finite contact modulus is needed")),
+        default=None,
+    )
+    loads: Parsed[tuple[float | str, ...]] = Parsed(several, default=())
+    depths: Parsed[tuple[float | str, ...]] = Parsed(several, default=())
     n_loads: int | None = None
-    against: Body | str | Path | None = None
+    ask: Parsed[tuple[Asked, ...]] = Parsed(_checked, default=())
+    against: Parsed[Body | Path | None] = Parsed(
+        optional(functools.partial(body_or_path, name="against")), default=None
+    )
     periodic: bool = False
-    friction: float | None = None
-    frequency: float | str | None = None
-    theories: str | Sequence[str] = ()
+    hardness: Parsed[float | None] = Parsed(optional(_hardness), default=None)
+    elastic: bool = False
     grid_error: bool | None = None
     reading: Reading = field(default_factory=Reading)
     preparation: Preparation | None = None
-    whole_curve: bool = False
     fields: bool = True
-    joint_area: float | str | None = None
-    hardness: float | str | None = None
-    elastic: bool = False
-    history: bool = False
-    unload: bool = False
 
     def __post_init__(self) -> None:
-        checked = {
-            "body": bodies_or_paths(self.body, "body"),
-            "against": None if self.against is None else body_or_path(self.against, "against"),
-            "loads": several(self.loads),
-            "depths": several(self.depths),
-            "theories": several(self.theories),
-            "hardness": checked_hardness(self.hardness, elastic=self.elastic),
-        }
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+        if self.hardness is not None and self.elastic:
+            raise InputError(
+                f"{called('hardness')} and {called('elastic', True)} contradict each other; give "
+                "one of them",
+                None,
+                *("hardness", "elastic"),
+            )
         if self.reading != Reading() and not any(
             isinstance(each, Path) for each in (*self.bodies, self.against)
         ):
             raise InputError(
                 f"{called('reading')} says how files are read, but no file is given: leave it out"
             )
-        if self.joint_area is not None:
-            object.__setattr__(self, "joint_area", area_of_joint(self.joint_area))
         if self.n_loads is None and not self.loads and not self.depths:
             object.__setattr__(self, "n_loads", DEFAULT_LOADS)
-        refuse_inconsistent_joint(self)
-        refuse_inconsistent_loads(self)
-        self.forces(1.0)  # reads and checks them; a pressure waits for its area
-        self.heights()
+        self._check_joint()
+        self._check_loads()
         self._check_materials()
-        refuse_inconsistent_maps(self)
-        if self.theories:
-            from roughline.theories.theory import refuse_unknown  # here because it loads slowly
-
-            for theory in self.theories:
-                refuse_unknown(theory, "theories")
+        if self.is_of_several:
+            self._check_maps()
         for body in (*self.bodies, self.against):
             if isinstance(body, Surface | Line):
-                refuse_misfit(self, body)
+                self.refuse_misfit(body)
+
+    def _asked(self, kind: type[_A]) -> _A | None:
+        """What is asked of a kind, if it is."""
+        return next((each for each in self.ask if isinstance(each, kind)), None)
+
+    @property
+    def friction(self) -> float | None:
+        """Coefficient of friction that partial slip is asked for. [1]"""
+        asked = self._asked(Friction)
+        return None if asked is None else asked.coefficient
+
+    @property
+    def frequency_in_hertz(self) -> float | None:
+        """Frequency that a reflection is asked for. [Hz]"""
+        asked = self._asked(Ultrasound)
+        return None if asked is None else asked.frequency
+
+    @property
+    def joint(self) -> float | None:
+        """Nominal area of the joint; None if loads act on the body. [m²]"""
+        asked = self._asked(Joint)
+        return None if asked is None else asked.area
+
+    @property
+    def theories(self) -> tuple[str, ...]:
+        """Names of the theories that are asked."""
+        asked = self._asked(Theories)
+        return () if asked is None else asked.names
+
+    @property
+    def history(self) -> bool:
+        """Whether loads or depths follow each other as they are given."""
+        return self._asked(History) is not None
+
+    @property
+    def unload(self) -> bool:
+        """Whether the largest load is taken off again."""
+        return self._asked(Unloading) is not None
+
+    @property
+    def whole_curve(self) -> bool:
+        """Whether further loads are solved too."""
+        return self._asked(WholeCurve) is not None
 
     @property
     def is_of_several(self) -> bool:
@@ -198,23 +271,13 @@ class Question:
         pair = MaterialPair(*self.materials)
         if self.hardness is None or self.hardness == math.inf:
             return pair
-        assert not isinstance(self.hardness, str)
         return pair.with_hardness(self.hardness)
 
     @property
     def modulus(self) -> float:
         """Contact modulus, given or of the materials. [Pa]"""
         pair = self.pair
-        if pair is not None:
-            return pair.E_star
-        assert isinstance(self.E_star, float)
-        return self.E_star
-
-    @property
-    def frequency_in_hertz(self) -> float | None:
-        """The frequency as a number. [Hz]"""
-        assert not isinstance(self.frequency, str)
-        return self.frequency
+        return self.E_star or math.nan if pair is None else pair.E_star
 
     @property
     def name(self) -> str:
@@ -229,8 +292,8 @@ class Question:
     @property
     def headings(self) -> list[str]:
         """What each load or depth is called, in its order: as it was typed, or with its unit."""
-        named = [(each, "N") for each in several(self.loads)]
-        named += [(each, "m") for each in several(self.depths)]
+        named = [(each, "N") for each in self.loads]
+        named += [(each, "m") for each in self.depths]
         headings = [
             each if isinstance(each, str) else engineering(each, unit) for each, unit in named
         ]
@@ -244,15 +307,9 @@ class Question:
         return UNLOADING if self.unload else ()
 
     @property
-    def joint(self) -> float | None:
-        """Nominal area of the joint as a number; None if loads act on the body. [m²]"""
-        assert not isinstance(self.joint_area, str)
-        return self.joint_area
-
-    @property
     def is_repeated(self) -> bool:
         """Whether what is pressed is repeated: as asked, and because a joint goes on beyond it."""
-        return self.periodic or self.joint_area is not None
+        return self.periodic or self.joint is not None
 
     def scale(self, area: float) -> float:
         """How many times larger the joint is than a body of a nominal area [m²]; 1 without one."""
@@ -268,9 +325,9 @@ class Question:
             load_in_newtons(load, area * scale)
             if isinstance(load, str)
             else number("loads", load, 'a force in N, or a text such as "2 MPa", is needed')
-            for load in several(self.loads)
+            for load in self.loads
         ]
-        for i, (load, force) in enumerate(zip(several(self.loads), forces, strict=True)):
+        for i, (load, force) in enumerate(zip(self.loads, forces, strict=True)):
             if not (0 < force < math.inf or (force == 0 and self.history and i)):
                 to_unload = ", and zero only to unload after others" if self.history else ""
                 refuse("loads", load, f"give positive ones{to_unload}")
@@ -279,30 +336,140 @@ class Question:
 
     def heights(self) -> list[float]:
         """Depths, in their order. [m]"""
-        return [as_si(depth, "m", "depths") for depth in several(self.depths)]
+        return [as_si(depth, "m", "depths") for depth in self.depths]
+
+    def strains(self, body: Body) -> list[tuple[float, str]]:
+        """Return how far each load strains a body: as a ratio, and in words."""
+        area = nominal_area(body)
+        side = min(body.sizes) if isinstance(body, Surface) else body.length
+        if depths := self.heights():
+            what = "depth {} is {} times the shorter side of the body"
+            ratios = [depth / side for depth in depths]
+        else:
+            what = "the mean pressure of load {} is {} times the contact modulus"
+            ratios = [force / area / self.modulus for force in self.forces(area)]
+        return [
+            (ratio, what.format(heading, decimal(ratio, 2)))
+            for heading, ratio in zip(self.headings, ratios, strict=False)
+        ]
+
+    def refuse_misfit(self, body: Body) -> None:
+        """Refuse what does not suit the kind of a body, or its size.
+
+        Raises
+        ------
+        InputError
+            If something that belongs to a surface is asked of a line scan, theories of a body that
+            has no spectrum, or a joint that is smaller than its map; or if a mean pressure is above
+            the contact modulus, or a depth above the shorter side.
+        """
+        if isinstance(body, Line):
+            self._refuse_of_line(body)
+        elif self.joint is not None and body.area > self.joint * (1 + 1e-9):  # sides are rounded
+            raise InputError(
+                f"the joint has an area of {engineering(self.joint, 'm²')}, less than the map, "
+                f"which has {engineering(body.area, 'm²')}: crop the map, or leave "
+                f"{called('rl.Joint')} out"
+            )
+        for ratio, text in self.strains(body):
+            if ratio > 1:
+                raise InputError(
+                    f"{text}, and half-spaces are linear elastic far below that only: give a "
+                    "smaller one, and check its unit"
+                )
+        if self.theories and not has_spectrum(body):
+            raise InputError("theories are evaluated for a rough surface of 8 x 8 points or more")
+
+    def _refuse_of_line(self, line: Line) -> None:
+        """Refuse what belongs to a surface."""
+        if line.kind == "profile" and (self.periodic or self.grid_error or self.depths):
+            raise InputError(
+                "periodic, grid_error and depths belong to a surface; a line scan is pressed by "
+                "loads, through its spectrum: leave them out, or press a map"
+            )
+        given = {
+            called("hardness"): self.hardness is not None,
+            called("rl.History"): self.history,
+            called("rl.Unloading"): self.unload,
+        }
+        if any(given.values()):
+            came = " and ".join(name for name, is_given in given.items() if is_given)
+            raise InputError(
+                "hardness, history and unload belong to a surface; the reduced model of a line "
+                f"{WITHOUT_YIELD} (rms slopes below 0.8 H / E*): leave {came} out, or press a map"
+            )
+        if self.joint is not None:
+            joint = called("rl.Joint")
+            raise InputError(
+                f"{joint} belongs to a surface: a line stands for the square of its length alone, "
+                f"and what lies beyond is not known; leave {joint} out"
+            )
+
+    def _check_joint(self) -> None:
+        """Refuse a joint that is asked for what only a body has."""
+        if self.joint is None:
+            return
+        joint, materials = called("rl.Joint"), called("materials")
+        if self.materials is None:
+            raise InputError(f"answers of a joint ({joint}) need two materials ({materials})")
+        if self.depths:
+            raise InputError(
+                f"a joint ({joint}) is pressed by loads ({called('loads')}): its depth counts from "
+                "the touch of its highest point, which a map does not show"
+            )
+
+    def _check_loads(self) -> None:
+        """Refuse loads, depths and numbers of loads that do not go together."""
+        loads, depths = called("loads"), called("depths")
+        given = (self.n_loads, self.loads or None, self.depths or None)
+        if sum(each is not None for each in given) > 1:
+            raise InputError(f"give one of {loads}, {depths} and {called('n_loads')}")
+        if self.n_loads is not None:
+            whole("n_loads", self.n_loads, 2, "a whole number of at least 2 is needed")
+        if self.unload and (not self.loads or self.history):
+            raise InputError(
+                f"{called('rl.Unloading')} takes off the largest of the loads ({loads}); in a "
+                "history, and for depths, write the falling values yourself"
+            )
+        if self.history and not (self.loads or self.depths):
+            raise InputError(
+                f"{called('rl.History')} needs {loads} or {depths} in the order of the history"
+            )
+        self.forces(1.0)  # reads and checks them; a pressure waits for its area
+        self.heights()
 
     def _check_materials(self) -> None:
+        """Refuse two rigid bodies, and answers that need materials without them."""
+        materials = called("materials")
         if self.materials is not None:
-            object.__setattr__(self, "materials", pair_of(self.materials))
-            contact_modulus(*self.materials)  # refuses two rigid bodies
-        elif self.frequency is not None or self.friction is not None:
-            raise InputError(
-                f"reflection and partial slip need two materials ({called('materials')})"
-            )
+            contact_modulus(*self.materials)
+        elif self.frequency_in_hertz is not None or self.friction is not None:
+            raise InputError(f"reflection and partial slip need two materials ({materials})")
         if (self.E_star is None) == (self.materials is None):
             raise InputError(
-                f"give either a contact modulus ({called('E_star')}) or two materials "
+                f"give either a contact modulus ({called('E_star')}) or two materials ({materials})"
+            )
+
+    def _check_maps(self) -> None:
+        """Refuse several maps without what they are compared by."""
+        if self.materials is None:
+            raise InputError(
+                "several maps are compared by their answers, which need two materials "
                 f"({called('materials')})"
             )
-        if self.E_star is not None:
-            modulus = as_si(self.E_star, "Pa", "E_star")
-            if not 0 < modulus < math.inf:
-                refuse("E_star", self.E_star, "a positive, finite contact modulus is needed")
-            object.__setattr__(self, "E_star", modulus)
-        if self.frequency is not None:
-            hertz = as_si(self.frequency, "Hz", "frequency")
-            if not 0 < hertz < math.inf:
-                refuse("frequency", self.frequency, "a positive, finite one is needed")
-            object.__setattr__(self, "frequency", hertz)
-        if self.friction is not None:
-            object.__setattr__(self, "friction", checked_friction(self.friction))
+        if not self.loads and not self.depths:
+            raise InputError(
+                f"several maps are pressed under the same loads: give them ({called('loads')})"
+            )
+        if self.against is not None:
+            against = called("against")
+            raise InputError(
+                f"several maps are pressed into a smooth body: the one second topography "
+                f"({against}) would be the same for all maps, and its own scatter between places "
+                f"would not show; press each map against it alone, or leave {against} out"
+            )
+        if self.reading.name is not None:
+            raise InputError(
+                f"the name in {called('reading')} is that of one file, and there are several maps: "
+                "leave it out"
+            )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.assessment.case import Case
-from roughline.assessment.nominal import nominal_area
+from roughline.assessment.kinds import nominal_area
 from roughline.assessment.variants import UNLOADED, Curves
 from roughline.computing.arrays import Real
 from roughline.engineering.formulas import partial_slip

@@ -17,8 +17,8 @@ import numpy as np
 from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
 from roughline.assessment.hardness import Hardness
+from roughline.assessment.kinds import nominal_area
 from roughline.assessment.loads import LoadCase, LoadProgress, load_with_fields
-from roughline.assessment.nominal import nominal_area
 from roughline.assessment.source import pressed_body
 from roughline.assessment.tiles import coarse_shape, coarsened, has_tiles, tiles_of
 from roughline.computing.arrays import Mask

@@ -9,15 +9,19 @@ from typing import Annotated, Any
 import typer
 
 import roughline as rl
+from roughline.assessment.fields import FILE
 from roughline.cli import options
 from roughline.cli.options import interruptible, print_json, writable
 from roughline.errors.checks import refuse
 
 
+@options.with_fields(FILE)
 def compare_command(
     file: Annotated[
         Path | None, typer.Argument(help="File with a surface, instead of a spectrum.")
     ] = None,
+    *,
+    told: options.Told,
     hurst: options.Hurst = None,
     fractal_dimension: options.FractalDimension = None,
     length: Annotated[
@@ -38,15 +42,6 @@ def compare_command(
         float, typer.Option(help="Relative difference that counts as agreement.")
     ] = 0.1,
     seed: options.SeedOption = 0,
-    unit: options.Unit = None,
-    channel: options.Channel = None,
-    size: options.Size = None,
-    fill: options.Fill = options.FillingChoice.harmonic,
-    max_missing: options.MaxMissing = 0.1,
-    tilt: options.Tilt = options.TiltChoice.unknown,
-    pixels: options.Pixels = None,
-    blur: options.Blur = None,
-    tip_radius: options.TipRadius = None,
     out: Annotated[Path | None, typer.Option(help="Folder for a table (CSV) and a figure.")] = None,
     json: options.Json = False,
 ) -> None:
@@ -57,13 +52,12 @@ def compare_command(
     spectrum are pressed.
     """
     from roughline.assessment.comparison import compare_models
+    from roughline.assessment.told import reading_of
     from roughline.report.json_output import of_comparison
     from roughline.report.progress import load_progress
     from roughline.report.terminal import print_comparison
 
-    reading = options.reading_of(
-        unit, channel, size, fill, max_missing, tilt, pixels, blur, tip_radius
-    )
+    reading = reading_of(told)
     if file is None:
         said, usual = vars(reading), vars(rl.Reading())
         of_file = {name: value for name, value in said.items() if value != usual[name]}

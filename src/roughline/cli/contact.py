@@ -10,17 +10,15 @@ from typing import Annotated
 
 import typer
 
+from roughline.assessment.fields import ANSWERS, BODIES, FILE, LOADS, PREPARATION
 from roughline.cli import options
 from roughline.cli.body import press_body
 from roughline.cli.part import press_part
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 
-LOADS = "Loads"
-BODIES = "Bodies"
-ANSWERS = "Answers"
 
-
+@options.with_fields(BODIES, LOADS, ANSWERS, FILE, PREPARATION)
 def press_command(
     file: Annotated[
         list[Path],
@@ -29,131 +27,7 @@ def press_command(
             "several maps of one part, each of a different place."
         ),
     ],
-    materials: Annotated[
-        str | None,
-        typer.Option(
-            help='Both materials, such as "steel,copper" or "E=70 GPa nu=0.33, rigid".',
-            rich_help_panel=BODIES,
-        ),
-    ] = None,
-    modulus: Annotated[
-        str | None,
-        typer.Option(
-            help='Contact modulus E* instead of the materials, such as "110 GPa".',
-            rich_help_panel=BODIES,
-        ),
-    ] = None,
-    against: Annotated[
-        Path | None,
-        typer.Option(
-            help="Topography of the second body, read and prepared like the first "
-            "[default: a smooth body].",
-            rich_help_panel=BODIES,
-        ),
-    ] = None,
-    hardness: Annotated[
-        str | None,
-        typer.Option(
-            help='Hardness of the softer body, such as "2 GPa", taken as exact [default: that of '
-            "the materials, with its scatter].",
-            rich_help_panel=BODIES,
-        ),
-    ] = None,
-    elastic: Annotated[
-        bool,
-        typer.Option(
-            "--elastic",
-            help="Take both bodies as elastic, whatever their hardness.",
-            rich_help_panel=BODIES,
-        ),
-    ] = False,
-    load: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--load",
-            "--force",
-            help='A total force, such as "10 N", or a mean pressure, such as "2 MPa"; may be '
-            "repeated.",
-            rich_help_panel=LOADS,
-        ),
-    ] = None,
-    depth: Annotated[
-        list[str] | None,
-        typer.Option(help='A depth, such as "200 nm"; may be repeated.', rich_help_panel=LOADS),
-    ] = None,
-    joint_area: Annotated[
-        str | None,
-        typer.Option(
-            help='Area of the joint that the map is a part of, such as "2 cm^2": forces then act '
-            "on the joint, and the answers are those of the joint.",
-            rich_help_panel=LOADS,
-        ),
-    ] = None,
-    loads: Annotated[
-        int | None,
-        typer.Option(
-            help="Number of loads from first touch to saturation [default: 20].",
-            rich_help_panel=LOADS,
-        ),
-    ] = None,
-    history: Annotated[
-        bool,
-        typer.Option(
-            "--history",
-            help="Apply several --load in the order given, rising and falling, each to the surface "
-            "as the load before it left it.",
-            rich_help_panel=LOADS,
-        ),
-    ] = False,
-    unload: Annotated[
-        bool,
-        typer.Option(
-            "--unload",
-            help="Remove the largest --load again, in steps down to zero.",
-            rich_help_panel=LOADS,
-        ),
-    ] = False,
-    periodic: Annotated[
-        bool,
-        typer.Option(
-            "--periodic",
-            help="Repeat the surface periodically: it has no borders, and the stiffness is that of "
-            "the interface.",
-            rich_help_panel=BODIES,
-        ),
-    ] = False,
-    friction: Annotated[
-        float | None,
-        typer.Option(
-            help="Coefficient of friction, above 0 and up to 5: adds partial slip to the report "
-            "and to JSON.",
-            rich_help_panel=ANSWERS,
-        ),
-    ] = None,
-    frequency: Annotated[
-        str | None,
-        typer.Option(
-            help='Frequency of ultrasound, such as "5 MHz": adds its reflection by the interface.',
-            rich_help_panel=ANSWERS,
-        ),
-    ] = None,
-    theory: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Theory to compare with: {theories}; may be repeated.",
-            rich_help_panel=ANSWERS,
-        ),
-    ] = None,
-    grid_error: Annotated[
-        bool | None,
-        typer.Option(
-            "--grid-error/--no-grid-error",
-            help="Estimate discretisation errors from coarser grids [default: where that takes "
-            "only a few seconds, and for a report].",
-            show_default=False,
-            rich_help_panel=ANSWERS,
-        ),
-    ] = None,
+    told: options.Told,
     report: Annotated[
         Path | None,
         typer.Option(
@@ -166,20 +40,6 @@ def press_command(
         Path | None,
         typer.Option(help="Folder for the curve (NetCDF) and figures.", rich_help_panel=ANSWERS),
     ] = None,
-    unit: options.Unit = None,
-    channel: options.Channel = None,
-    size: options.Size = None,
-    fill: options.Fill = options.FillingChoice.harmonic,
-    max_missing: options.MaxMissing = 0.1,
-    tilt: options.Tilt = options.TiltChoice.unknown,
-    pixels: options.Pixels = None,
-    blur: options.Blur = None,
-    tip_radius: options.TipRadius = None,
-    trend: options.TrendOption = None,
-    crop: options.Crop = None,
-    low_pass: options.LowPass = None,
-    resample: options.Resample = None,
-    remove_outliers: options.RemoveOutliers = False,
     threads: Annotated[
         int | None, typer.Option(help="Number of threads [default: one for each core].")
     ] = None,
@@ -231,45 +91,27 @@ def press_command(
     roughline press map.npy --unit um --size "1 mm" --trend curvature --materials
     "steel hardness=6 GPa, gold" --load "10 N" --load "1 N" --theory persson --grid-error
     """
-    from roughline.assessment.question import Question
+    from roughline.assessment.told import question_of
     from roughline.computing.fft import set_threads
 
     if threads is not None:
         set_threads(threads)
-    if materials is None and (report or frequency or friction is not None):
+    asks = report or told.get("frequency") or told.get("friction") is not None
+    if told.get("materials") is None and asks:
         raise InputError("a report, reflection and partial slip need two --materials")
-    if report is not None and not load:
+    if report is not None and not told.get("loads"):
         raise InputError('a report needs a --load, such as "10 N"')
-    if friction is not None and report is None and not json:
+    if told.get("friction") is not None and report is None and not json:
         raise InputError(
             "partial slip (--friction) is written to the report and to JSON only: give --report or "
             "--json"
         )
+    against = told.get("against")
     if against is not None and not os.path.isfile(against):  # noqa: PTH113 - of a name too long, too
-        refuse("against", str(against), "no such file: give a file with a topography")
-    question = Question(
+        refuse("against", against, "no such file: give a file with a topography")
+    question = question_of(
         file[0] if len(file) == 1 else file,
-        materials=materials,
-        E_star=modulus,
-        loads=load or (),
-        joint_area=joint_area,
-        depths=depth or (),
-        hardness=hardness,
-        elastic=elastic,
-        history=history,
-        unload=unload,
-        n_loads=loads,
-        against=against,
-        periodic=periodic,
-        friction=friction,
-        frequency=frequency,
-        theories=theory or (),
-        grid_error=grid_error,
-        reading=options.reading_of(
-            unit, channel, size, fill, max_missing, tilt, pixels, blur, tip_radius
-        ),
-        preparation=options.preparation_of(trend, crop, low_pass, resample, remove_outliers),
-        whole_curve=report is not None,
+        {**told, "whole_curve": report is not None},
         fields=report is not None or out is not None,
     )
     if question.is_of_several:

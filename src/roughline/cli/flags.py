@@ -4,62 +4,29 @@ from __future__ import annotations
 
 import shlex
 
+from roughline.assessment.fields import names_by
 from roughline.errors.words import Words
 
+_SPELLED = (
+    *("hurst", "fractal_dimension", "length", "rms_height", "surfaces", "tolerance", "threads"),
+    *("workers", "scheduler", "host", "port", "password_file", "behind_proxy", "max_upload"),
+    *("max_points", "max_seconds", "max_memory", "max_disk"),
+)
+"""Arguments of other commands whose flags are spelled like them."""
+
 _OTHERS = {
-    "E_star": "--modulus",
-    "materials": "--materials",
-    "loads": "--load",
-    "depths": "--depth",
-    "n_loads": "--loads",
-    "against": "--against",
-    "hardness": "--hardness",
-    "elastic": "--elastic",
-    "periodic": "--periodic",
-    "friction": "--friction",
-    "frequency": "--frequency",
-    "theories": "--theory",
-    "history": "--history",
-    "unload": "--unload",
-    "joint_area": "--joint-area",
-    "grid_error": "--grid-error",
-    "unit": "--unit",
-    "channel": "--channel",
-    "sizes": "--size",
-    "missing": "--fill",
-    "most_missing": "--max-missing",
-    "tilt": "--tilt",
-    "pixels": "--pixels",
-    "blur": "--blur",
-    "tip_radius": "--tip-radius",
-    "trend": "--trend",
-    "crop": "--crop",
-    "low_pass": "--low-pass",
-    "points": "--resample",
-    "remove_outliers": "--remove-outliers",
-    "hurst": "--hurst",
-    "fractal_dimension": "--fractal-dimension",
-    "length": "--length",
-    "rms_height": "--rms-height",
     "q_roll": "--roll-off",
     "q_high": "--cutoff",
     "n": "--points",
     "rng": "--seed",
-    "surfaces": "--surfaces",
     "force_bars": "--force-bar",
-    "tolerance": "--tolerance",
-    "threads": "--threads",
-    "workers": "--workers",
-    "scheduler": "--scheduler",
-    "host": "--host",
-    "port": "--port",
-    "password_file": "--password-file",
-    "behind_proxy": "--behind-proxy",
-    "max_upload": "--max-upload",
-    "max_points": "--max-points",
-    "max_seconds": "--max-seconds",
-    "max_memory": "--max-memory",
-    "max_disk": "--max-disk",
 }
 
-FLAGS = Words(_OTHERS, shlex.quote)
+FLAGS = Words(
+    {
+        **{name: f"--{name.replace('_', '-')}" for name in _SPELLED},
+        **_OTHERS,
+        **names_by(lambda field: field.flag.partition(",")[0]),
+    },
+    shlex.quote,
+)

@@ -2,140 +2,70 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any, NoReturn
+from typing import Annotated, Any, Literal, NoReturn
 
 import typer
 
 import roughline as rl
+from roughline.assessment.fields import FIELDS, Field
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
 
-FILE = "A file"
-PREPARATION = "Preparation"
 SPECTRUM = "Spectrum"
+Told = Mapping[str, Any]
+"""Values of options by the names of their fields."""
 
 
-class FillingChoice(StrEnum):
-    """How missing points are filled."""
+def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Give a command the options of the fields in some groups; it is told of them as `told`."""
+    fields = [each for each in FIELDS if each.group in groups and each.flag]
 
-    harmonic = "harmonic"
-    nearest = "nearest"
+    def with_options(command: Callable[..., None]) -> Callable[..., None]:
+        given = inspect.signature(command, eval_str=True).parameters.values()
+        first, *others = [each for each in given if each.name != "told"]
 
+        @functools.wraps(command)
+        def run(**given: Any) -> None:
+            told = {each.name: each.value(given.pop(each.name)) for each in fields}
+            command(**given, told=told)
 
-class TiltChoice(StrEnum):
-    """Whose the tilt of a measured topography is."""
+        options = [
+            inspect.Parameter(each.name, first.kind, default=None, annotation=option_of(each))
+            for each in fields
+        ]
+        parameters = [first, *options, *others]
+        run.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        run.__annotations__ = {each.name: each.annotation for each in parameters}
+        return run
 
-    unknown = "unknown"
-    mounting = "mounting"
-
-
-class PixelsChoice(StrEnum):
-    """What the heights of a map are."""
-
-    means = "means"
-    points = "points"
-
-
-class TrendChoice(StrEnum):
-    """What is removed from the heights."""
-
-    none = "none"
-    mean = "mean"
-    tilt = "tilt"
-    curvature = "curvature"
+    return with_options
 
 
-Unit = Annotated[
-    str | None,
-    typer.Option(help="Unit of the lengths in a file that states none.", rich_help_panel=FILE),
-]
-Channel = Annotated[
-    str | None,
-    typer.Option(help="Channel of the file: its name, or its number from 0.", rich_help_panel=FILE),
-]
-Size = Annotated[
-    str | None,
-    typer.Option(
-        help='Sides of a file that states none, such as "1 mm, 0.5 mm".', rich_help_panel=FILE
-    ),
-]
-Fill = Annotated[
-    FillingChoice, typer.Option(help="How missing points are filled.", rich_help_panel=FILE)
-]
-MaxMissing = Annotated[
-    float,
-    typer.Option(
-        help="Largest share of missing points, 0 to below 1, that is filled; a file with more is "
-        "refused.",
-        rich_help_panel=FILE,
-    ),
-]
-Tilt = Annotated[
-    TiltChoice,
-    typer.Option(
-        help="Whose the tilt of measured heights is: the mounting's alone, or also that of waves "
-        "longer than the topography.",
-        rich_help_panel=FILE,
-    ),
-]
-Pixels = Annotated[
-    PixelsChoice | None,
-    typer.Option(
-        help="Whether heights are means over pixels or those of points [default: means for files "
-        "of optical instruments, else not known].",
-        rich_help_panel=FILE,
-    ),
-]
-Blur = Annotated[
-    str | None,
-    typer.Option(
-        help='Standard deviation of the instrument\'s blur, such as "0.3 um"; 0 for none '
-        "[default: not known].",
-        rich_help_panel=FILE,
-    ),
-]
-TipRadius = Annotated[
-    str | None,
-    typer.Option(help='Radius of the tip, such as "2 um".', rich_help_panel=FILE),
-]
-TrendOption = Annotated[
-    TrendChoice | None,
-    typer.Option(
-        help="Trend that is removed from the heights [default: the tilt of measured ones].",
-        rich_help_panel=PREPARATION,
-    ),
-]
-Crop = Annotated[
-    str | None,
-    typer.Option(
-        help='Piece to keep, from and to along x and y, such as "0 um, 50 um, 0 um, 40 um".',
-        rich_help_panel=PREPARATION,
-    ),
-]
-LowPass = Annotated[
-    str | None,
-    typer.Option(
-        help='Cutoff wavelength of a Gaussian filter, such as "2 um".',
-        rich_help_panel=PREPARATION,
-    ),
-]
-Resample = Annotated[
-    int | None,
-    typer.Option(help="Points along the longer side to resample to.", rich_help_panel=PREPARATION),
-]
-RemoveOutliers = Annotated[
-    bool,
-    typer.Option(
-        "--remove-outliers",
-        help="Remove spikes and fill their points [default: they are only counted].",
-        rich_help_panel=PREPARATION,
-    ),
-]
+def option_of(field: Field) -> Any:
+    """The option of a field, as an annotation; where it is not given, its value is None."""
+    kind: Any = field.kind
+    text, otherwise = field.help.rstrip("."), field.otherwise
+    flags = field.flag.split(",")
+    words = [value for value, _ in field.choices.values()]
+    if field.is_switch:
+        kind = bool
+        flags[0] += f"/--no-{flags[0].removeprefix('--')}" if None in words else ""
+    elif words:
+        kind = Literal[*(each for each in words if each is not None)]
+        otherwise = otherwise or words[0]
+    if field.separator:
+        kind, text = list[kind], f"{text}; may be repeated"
+    text += f" [default: {otherwise}]" if otherwise else ""
+    option = typer.Option(*flags, help=f"{text}.", rich_help_panel=field.group, show_default=False)
+    return Annotated[kind | None, option]
+
+
 Hurst = Annotated[
     float | None, typer.Option(help="Hurst exponent, 0 to 1.", rich_help_panel=SPECTRUM)
 ]
@@ -169,55 +99,6 @@ Scheduler = Annotated[
     str | None, typer.Option(help="Address of a Dask scheduler, such as tcp://10.0.0.1:8786.")
 ]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units, for other programs.")]
-
-
-def reading_of(
-    unit: str | None,
-    channel: str | None,
-    size: str | None,
-    fill: FillingChoice,
-    max_missing: float,
-    tilt: TiltChoice,
-    pixels: PixelsChoice | None,
-    blur: str | None,
-    tip_radius: str | None,
-) -> rl.Reading:
-    """How the options say that files are read."""
-    from roughline.units import in_si
-
-    return rl.Reading(
-        unit,
-        channel,
-        size,
-        fill.value,
-        max_missing,
-        tilt=tilt.value,
-        pixels=pixels.value if pixels else None,
-        blur=None if blur is None else in_si("0 m" if blur == "0" else blur, "m", "blur"),
-        tip_radius=None if tip_radius is None else _positive(tip_radius, "tip_radius"),
-    )
-
-
-def preparation_of(
-    trend: TrendChoice | None,
-    crop: str | None,
-    low_pass: str | None,
-    resample: int | None,
-    remove_outliers: bool,
-) -> rl.Preparation | None:
-    """The preparation that the options describe; None where none is given."""
-    from roughline.units import lengths
-
-    given = (trend, crop, low_pass, resample)
-    if all(each is None for each in given) and not remove_outliers:
-        return None
-    return rl.Preparation(
-        crop=tuple(lengths(crop, "crop")) if crop is not None else None,
-        remove_outliers=remove_outliers,
-        trend=trend.value if trend else None,
-        low_pass=_positive(low_pass, "low_pass") if low_pass is not None else None,
-        points=resample,
-    )
 
 
 def spectrum_of(

@@ -8,10 +8,12 @@ from typing import Annotated
 
 import typer
 
+from roughline.assessment.fields import FILE, PREPARATION
 from roughline.cli import options
 from roughline.cli.options import print_json, writable
 
 
+@options.with_fields(FILE, PREPARATION)
 def info(
     file: Annotated[
         Path,
@@ -20,20 +22,7 @@ def info(
             "it wrote."
         ),
     ],
-    unit: options.Unit = None,
-    channel: options.Channel = None,
-    size: options.Size = None,
-    fill: options.Fill = options.FillingChoice.harmonic,
-    max_missing: options.MaxMissing = 0.1,
-    tilt: options.Tilt = options.TiltChoice.unknown,
-    pixels: options.Pixels = None,
-    blur: options.Blur = None,
-    tip_radius: options.TipRadius = None,
-    trend: options.TrendOption = None,
-    crop: options.Crop = None,
-    low_pass: options.LowPass = None,
-    resample: options.Resample = None,
-    remove_outliers: options.RemoveOutliers = False,
+    told: options.Told,
     out: Annotated[
         Path | None, typer.Option(help="Folder for a figure and the prepared topography.")
     ] = None,
@@ -48,6 +37,7 @@ def info(
     the spectrum.
     """
     from roughline.assessment.description import describe
+    from roughline.assessment.told import preparation_of, reading_of
     from roughline.report.curve_file import as_json
     from roughline.report.json_output import of_description
     from roughline.report.terminal import print_curve_file, print_description
@@ -55,12 +45,8 @@ def info(
 
     if curve := curve_in(file):
         return print_json(as_json(curve)) if json else print_curve_file(curve)
-    reading = options.reading_of(
-        unit, channel, size, fill, max_missing, tilt, pixels, blur, tip_radius
-    )
-    steps = options.preparation_of(trend, crop, low_pass, resample, remove_outliers)
     with writable(out):
-        result = describe(file, reading, steps)
+        result = describe(file, reading_of(told), preparation_of(told))
     files: list[Path] = []
     if out is not None:
         from roughline.report.description_figures import write_description

@@ -22,17 +22,22 @@ class InputError(RoughlineError, ValueError):
     argument : str, optional
         Name of the argument that cannot be used; the message begins with what the caller calls it.
 
+    *others : str
+        Names of arguments that do not go together, where none of them is wrong alone.
+
     Attributes
     ----------
     argument : str or None
         That name.
+    others : tuple of str
+        Those names.
     statement : str
         The message without that name.
     """
 
-    def __init__(self, message: str, argument: str | None = None) -> None:
+    def __init__(self, message: str, argument: str | None = None, *others: str) -> None:
         super().__init__(message if argument is None else f"{named(argument)} {message}")
-        self.argument = argument
+        self.argument, self.others = argument, others
         self.statement = message
 
 

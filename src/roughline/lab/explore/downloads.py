@@ -42,11 +42,13 @@ def download(arguments: Mapping[str, Any], progress: Progress) -> bytes:
             E_star=state.E_star,
             loads=force,
             hardness=hardness(state),
-            unload=state.hardness_bar is not None,
+            ask=[
+                rl.WholeCurve(),
+                *([rl.Theories(*state.theories)] if state.theories else []),
+                *([rl.Unloading()] if state.hardness_bar is not None else []),
+            ],
             periodic=state.periodic,
-            theories=state.theories,
             grid_error=False,
-            whole_curve=True,
         ),
         progress=progress,
     )

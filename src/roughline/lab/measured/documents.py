@@ -6,28 +6,29 @@ import re
 import shlex
 import shutil
 from collections.abc import Sequence
-from dataclasses import fields
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from roughline.assessment.assessment import Assessment
+from roughline.assessment.fields import Field, asked_fields
 from roughline.assessment.part import PartAssessment
 from roughline.assessment.reading import Reading
+from roughline.assessment.told import told_of
 from roughline.errors.words import speaking
 from roughline.lab.frames import frame
+from roughline.lab.measured import controls as c
 from roughline.lab.measured.answers import assessed
 from roughline.lab.measured.kept import digest
 from roughline.lab.measured.state import (
     Arguments,
     Said,
     loads_of,
-    preparation_of,
     question_of,
-    reading_of,
     said_of,
     source_of,
     sources_of,
-    theories_of,
+    told_in,
 )
 from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
@@ -36,22 +37,6 @@ from roughline.report.contact_report import write_contact_report
 from roughline.report.part_report import write_part_report
 from roughline.topography.preparation import Preparation
 
-_FLAGS = {
-    "unit": "--unit",
-    "channel": "--channel",
-    "size": "--size",
-    "fill": "--fill",
-    "tilt": "--tilt",
-    "blur": "--blur",
-    "tip_radius": "--tip-radius",
-    "crop": "--crop",
-    "low_pass": "--low-pass",
-    "resample": "--resample",
-    "friction": "--friction",
-    "frequency": "--frequency",
-    "hardness": "--hardness",
-    "joint_area": "--joint-area",
-}
 _WRITTEN = (
     *("report.html", "report.pdf", "curve.nc", "curve.pdf", "contact.pdf"),
     *("answers.pdf", "maps.pdf", "all-maps.zip"),
@@ -112,26 +97,17 @@ def as_command(said: Said, names: Sequence[str]) -> str:
         words += ["--modulus", said["E"]]
     else:
         words += ["--materials", f"{said['first']}, {said['second']}"]
-    for load in loads_of(said):
-        words += ["--load", load]
-    if said.get("boundary") == "periodic":
-        words.append("--periodic")
-    for key, flag in _FLAGS.items():
-        if key in said:
-            words += [flag, said[key]]
-    for theory in theories_of(said):
-        words += ["--theory", theory]
-    if (wanted := said.get("grid_error")) in ("yes", "no"):
-        words.append("--grid-error" if wanted == "yes" else "--no-grid-error")
-    for key in ("pixels", "trend"):
-        if said.get(key, "default") != "default":
-            words += [f"--{key}", said[key]]
-    if said.get("outliers") == "remove":
-        words.append("--remove-outliers")
-    if said.get("elastic") == "yes":
-        words.append("--elastic")
-    if "most_missing" in said:
-        words += ["--max-missing", f"{reading_of(said, None).most_missing:g}"]
+    told = told_in(said)
+    for key, field in c.BY_CONTROL.items():
+        value, flag = told.get(field.name), field.flag.partition(",")[0]
+        if key not in said or value is None:
+            continue
+        if field.is_switch:
+            words += [flag] if value else [flag.replace("--", "--no-")] * (None in _values(field))
+        elif field.separator:
+            words += [word for each in value for word in (flag, each)]
+        else:
+            words += [flag, f"{value:g}" if field.kind is float else said[key]]
     has_report = said.get("bodies") != "modulus" and loads_of(said)
     words += ["--report", "report"] if has_report else ["--out", "curve"]
     return shlex.join(words)
@@ -145,23 +121,20 @@ def as_python(said: Said, names: Sequence[str]) -> str:
         question.append(f"E_star={said['E']!r}")
     else:
         question.append(f"materials=({said['first']!r}, {said['second']!r})")
-    if loads := loads_of(said):
-        question += [f"loads=[{', '.join(map(repr, loads))}]", "whole_curve=True"]
-    question += ["periodic=True"] if said.get("boundary") == "periodic" else []
-    question += [f"friction={float(said['friction'])!r}"] if "friction" in said else []
-    question += ["elastic=True"] if said.get("elastic") == "yes" else []
-    for key in ("hardness", "joint_area"):
-        question += [f"{key}={said[key]!r}"] if key in said else []
-    question += [f"frequency={said['frequency']!r}"] if "frequency" in said else []
-    if theories := theories_of(said):
-        question.append(f"theories=[{', '.join(map(repr, theories))}]")
-    if (wanted := said.get("grid_error")) in ("yes", "no"):
-        question.append(f"grid_error={wanted == 'yes'}")
-    reading, preparation = reading_of(said, None), preparation_of(said)
-    if reading != Reading():
-        question.append(f"reading=rl.Reading({_fields(reading)})")
-    if preparation is not None:
-        question.append(f"preparation=rl.Preparation({_fields(preparation)})")
+    told = told_in(said) | {"whole_curve": bool(loads_of(said))}
+    written = {
+        name: value
+        for name, value in told.items()
+        if value is not None and value != [] and (value is not False or name == "grid_error")
+    }
+    question += [f"{name}={value!r}" for name, value in told_of("Question", written).items()]
+    if asked := [each.in_python(written[each.name]) for each in asked_fields(written)]:
+        question.append(f"ask=[{', '.join(asked)}]")
+    for kind in (Reading, Preparation):
+        usual = vars(kind())
+        of_kind = told_of(kind.__name__, written).items()
+        if given := [f"{name}={value!r}" for name, value in of_kind if value != usual[name]]:
+            question.append(f"{kind.__name__.lower()}=rl.{kind.__name__}({', '.join(given)})")
     values = "answer.mean, answer.scatter" if is_part else "answer.values"
     end = "" if is_part else 'result.curve.write("curve.nc")\n'
     arguments = "".join(f"        {each},\n" for each in question)
@@ -178,11 +151,6 @@ for answer in result.answers.values():
 {end}"""
 
 
-def _fields(value: Reading | Preparation) -> str:
-    """What differs from the default, as arguments."""
-    default = type(value)()
-    return ", ".join(
-        f"{each.name}={getattr(value, each.name)!r}"
-        for each in fields(value)
-        if getattr(value, each.name) != getattr(default, each.name)
-    )
+def _values(field: Field) -> list[Any]:
+    """Values that may be chosen."""
+    return [value for value, _ in field.choices.values()]

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import roughline as rl
-from roughline.assessment.given import checked_friction
-from roughline.assessment.hardness import checked_hardness
-from roughline.assessment.nominal import area_of_joint
+from roughline.assessment import told
+from roughline.assessment.fields import FILE, PREPARATION
 from roughline.assessment.question import Question
 from roughline.assessment.reading import Reading
+from roughline.assessment.told import refuse_alone
 from roughline.engineering.materials import Material, material
 from roughline.errors.checks import shown
 from roughline.lab.controls import (
@@ -33,8 +33,8 @@ from roughline.units import in_si, lengths, load_in_newtons, refuse_decimal_comm
 _FILES = ("file", "example")
 _KNOWN = (*_FILES, *c.KEYS)
 _NEEDING = ("joint_area", "friction", "frequency")  # controls that need two materials
-_OF_ARGUMENTS = {"E_star": "E", "missing": "fill", "points": "resample", "sizes": "size"}
-"""Controls of arguments that have other names; most have the same."""
+_OF_ARGUMENTS = {"E_star": "E"} | {each.name: key for key, each in c.BY_CONTROL.items()}
+"""Controls by the names of arguments."""
 
 _Read = TypeVar("_Read")
 Arguments = Mapping[str, Any]
@@ -128,54 +128,37 @@ def sources_of(said: Said, session: Mapping[str, Any]) -> list[Source]:
     ]
 
 
+def told_in(said: Said, *groups: str) -> dict[str, Any]:
+    """What the controls of the fields in some groups tell, by the names of the fields.
+
+    Raises
+    ------
+    ControlError
+        If a text cannot be used, at its control.
+    """
+    given = {}
+    for key, field in c.BY_CONTROL.items():
+        text = said.get(key)
+        if groups and field.group not in groups:
+            continue
+        if field.choices:
+            given[field.name] = field.choices[c.CHOICES[key].read(text or c.DEFAULTS[key])][0]
+        elif text is not None:
+            with at(key):
+                read: Callable[[str], Any] = _READ.get(key) or field.value
+                given[field.name] = read(text)
+                refuse_alone(field, given[field.name])
+    return given
+
+
 def reading_of(said: Said, name: str | None) -> Reading:
     """How the file is read."""
-    with at("unit"):
-        unit = said.get("unit")
-        Reading(unit=unit)
-    with at("blur"):
-        blur = (
-            in_si("0 m" if said["blur"] == "0" else said["blur"], "m", "blur")
-            if "blur" in said
-            else None
-        )
-        Reading(blur=blur)
-    with at("tip_radius"):
-        radius = in_si(said["tip_radius"], "m", "tip radius") if "tip_radius" in said else None
-        Reading(tip_radius=radius)
-    pixels = c.PIXELS.read(said.get("pixels", c.PIXELS.default))
-    return Reading(
-        unit=unit,
-        channel=said.get("channel"),
-        sizes=_sizes(said.get("size")),
-        missing=c.FILLING.read(said.get("fill", c.FILLING.default)),  # type: ignore[arg-type]
-        most_missing=_share(said.get("most_missing")),
-        name=name,
-        tilt=c.TILT.read(said.get("tilt", c.TILT.default)),  # type: ignore[arg-type]
-        pixels=None if pixels == c.PIXELS.default else pixels,  # type: ignore[arg-type]
-        blur=blur,
-        tip_radius=radius,
-    )
+    return told.reading_of(told_in(said, FILE), name)
 
 
 def preparation_of(said: Said) -> Preparation | None:
     """What is done to the topography; None where nothing is set, as on the command line."""
-    trend = c.TREND.read(said.get("trend", c.TREND.default))
-    with at("crop"):
-        crop = _crop(said["crop"]) if "crop" in said else None
-    with at("low_pass"):
-        low_pass = in_si(said["low_pass"], "m", "low pass") if "low_pass" in said else None
-        Preparation(low_pass=low_pass)
-    points = _whole(said.get("resample"), "resample", "points to resample to", 2, c.MOST_POINTS)
-    spikes = c.OUTLIERS.read(said.get("outliers", c.OUTLIERS.default)) == "remove"
-    found = Preparation(
-        crop=crop,
-        remove_outliers=spikes,
-        trend=None if trend == c.TREND.default else trend,  # type: ignore[arg-type]
-        low_pass=low_pass,
-        points=points,
-    )
-    return None if found == Preparation() else found
+    return told.preparation_of(told_in(said, PREPARATION))
 
 
 def question_of(said: Said, source: Source) -> Question:
@@ -186,26 +169,9 @@ def question_of(said: Said, source: Source) -> Question:
     ControlError
         If a text cannot be used; it says at which control.
     """
-    given = bodies_of(said) | yield_and_joint_of(said)
-    loads = loads_of(said)
-    friction = friction_of(said)
-    with at("frequency"):
-        frequency = in_si(said["frequency"], "Hz", "frequency") if "frequency" in said else None
-    reading, preparation = reading_of(said, source.name), preparation_of(said)
+    given = told_in(said) | bodies_of(said) | {"whole_curve": bool(loads_of(said))}
     with at(next((key for key in _NEEDING if key in said), "")):
-        return Question(
-            source.path,
-            **given,
-            loads=loads,
-            periodic=c.BOUNDARY.read(said.get("boundary", c.BOUNDARY.default)) == "periodic",
-            friction=friction,
-            frequency=frequency,
-            theories=theories_of(said),
-            grid_error=c.GRID_ERRORS[c.GRID.read(said.get("grid_error", c.GRID.default))],
-            reading=reading,
-            preparation=preparation,
-            whole_curve=bool(loads),
-        )
+        return told.question_of(source.path, given, source.name)
 
 
 def bodies_of(said: Said) -> dict[str, Any]:
@@ -233,41 +199,32 @@ def bodies_of(said: Said) -> dict[str, Any]:
     return {"materials": tuple(pair)}
 
 
-def yield_and_joint_of(said: Said) -> dict[str, Any]:
-    """Hardness and area of the joint, as a question takes them."""
-    elastic = c.ELASTIC.read(said.get("elastic", c.ELASTIC.default)) == "yes"
-    with at("hardness"):
-        hardness = checked_hardness(said.get("hardness"), elastic=elastic)
-    with at("joint_area"):
-        joint_area = area_of_joint(said["joint_area"]) if "joint_area" in said else None
-    return {"elastic": elastic, "hardness": hardness, "joint_area": joint_area}
-
-
-def loads_of(said: Said) -> tuple[str, ...]:
+def loads_of(said: Said) -> list[str]:
     """The loads, as they were typed."""
-    loads = tuple(part.strip() for part in said.get("loads", "").split(";") if part.strip())
     with at("loads"):
-        for load in loads:
-            if not 0 < load_in_newtons(load, 1.0) < math.inf:
-                raise ControlError(f'load is "{load[:40]}"; give positive ones', "loads")
-        if len(loads) > c.MOST_LOADS:
-            raise ControlError(f"{len(loads)} loads; give up to {c.MOST_LOADS}", "loads")
+        return _loads(said.get("loads", ""))
+
+
+def _loads(text: str) -> list[str]:
+    """Loads with semicolons between."""
+    loads = [part.strip() for part in text.split(";") if part.strip()]
+    for load in loads:
+        if not 0 < load_in_newtons(load, 1.0) < math.inf:
+            raise ControlError(f'load is "{load[:40]}"; give positive ones', "loads")
+    if len(loads) > c.MOST_LOADS:
+        raise ControlError(f"{len(loads)} loads; give up to {c.MOST_LOADS}", "loads")
     return loads
 
 
-def friction_of(said: Said) -> float | None:
-    """The coefficient of friction; None if none is given."""
-    text = said.get("friction")
-    if text is None:
-        return None
-    with at("friction"):
-        refuse_decimal_comma(text, "the coefficient of friction")
-        return checked_friction(float(text) if is_number(text) else text)
+def _friction(text: str) -> float | str:
+    """A number; a text that is none is refused by what it is of."""
+    refuse_decimal_comma(text, "the coefficient of friction")
+    return float(text) if is_number(text) else text
 
 
-def theories_of(said: Said) -> tuple[str, ...]:
-    """Theories that are drawn beside the curve."""
-    names = tuple(name for name in said.get("theories", "").split(",") if name)
+def _theories(text: str) -> list[str]:
+    """Names of theories with commas between."""
+    names = [name for name in text.split(",") if name]
     for name in names:
         if name not in THEORIES:
             allowed = ", ".join(THEORIES)
@@ -281,38 +238,34 @@ def at(key: str) -> Iterator[None]:
     try:
         yield
     except rl.RoughlineError as error:
-        argument = getattr(error, "argument", None) or ""
-        named = _OF_ARGUMENTS.get(argument, argument)
-        among = getattr(error, "among", (named if named in c.KEYS else key,))
+        about = [getattr(error, "argument", None), *getattr(error, "others", ())]
+        keys = [_OF_ARGUMENTS.get(name or "", name) for name in about]
+        among = getattr(error, "among", [key for key in keys if key in c.KEYS] or [key])
         raise ControlError(str(error), *among) from None
 
 
-def _share(text: str | None) -> float:
+def _share(text: str) -> float:
     """A share, in per cent or as a number."""
-    with at("most_missing"):
-        if text is None:
-            return Reading().most_missing
-        number = text.removesuffix("%")
-        refuse_decimal_comma(number, "most missing")
-        share = float(number) if is_number(number) else math.nan
-        share = share / 100 if text.endswith("%") else share
-        if not 0 <= share < 1:
-            raise ControlError(
-                f'most missing is "{text[:40]}"; give a share such as 20 %, below 100 %',
-                "most_missing",
-            )
-        return share
+    number = text.removesuffix("%")
+    refuse_decimal_comma(number, "most missing")
+    share = float(number) if is_number(number) else math.nan
+    share = share / 100 if text.endswith("%") else share
+    if not 0 <= share < 1:
+        raise ControlError(
+            f'most missing is "{text[:40]}"; give a share such as 20 %, below 100 %',
+            "most_missing",
+        )
+    return share
 
 
-def _sizes(text: str | None) -> str | None:
+def _sizes(text: str) -> str:
     """Sides of a file that states none, as they were typed."""
-    with at("size"):
-        sides = lengths(text, "size") if text is not None else []
-        if len(sides) > 2 or not all(0 < side < math.inf for side in sides):
-            raise ControlError(
-                f"size is {shown(text)}; give one or two positive lengths, such as 1 mm, 0.5 mm",
-                "size",
-            )
+    sides = lengths(text, "size")
+    if len(sides) > 2 or not all(0 < side < math.inf for side in sides):
+        raise ControlError(
+            f"size is {shown(text)}; give one or two positive lengths, such as 1 mm, 0.5 mm",
+            "size",
+        )
     return text
 
 
@@ -328,11 +281,24 @@ def _crop(text: str) -> tuple[float, ...]:
     return ends
 
 
-def _whole(text: str | None, key: str, name: str, least: int, most: int) -> int | None:
-    if text is None:
-        return None
-    if not (text.isascii() and text.isdecimal()) or not least <= int(text[:20]) <= most:
+def _points(text: str) -> int:
+    """Points along the longer side."""
+    if not (text.isascii() and text.isdecimal()) or not 2 <= int(text[:20]) <= c.MOST_POINTS:
         raise ControlError(
-            f'{name} is "{text[:40]}"; give a whole number from {least} to {most}', key
+            f'points to resample to is "{text[:40]}"; give a whole number from 2 to '
+            f"{c.MOST_POINTS}",
+            "resample",
         )
     return int(text)
+
+
+_READ: dict[str, Callable[[str], Any]] = {
+    "loads": _loads,
+    "friction": _friction,
+    "theories": _theories,
+    "most_missing": _share,
+    "size": _sizes,
+    "crop": _crop,
+    "resample": _points,
+}
+"""Readers of controls whose texts are not those of the command line, or have limits of the lab."""

@@ -2,33 +2,12 @@
 
 from __future__ import annotations
 
+from roughline.assessment.fields import Field, names_by
 from roughline.errors.words import Words
 
-_CONTROLS = {
-    "E_star": "the contact modulus",
-    "materials": "two materials",
-    "loads": "loads",
-    "grid_error": 'grid error "estimate"',
-    "unit": "unit",
-    "channel": "channel",
-    "sizes": "size",
-    "missing": "filling",
-    "most_missing": "most missing",
-    "tilt": "tilt is of",
-    "pixels": "heights are",
-    "blur": "blur",
-    "tip_radius": "tip radius",
-    "trend": "trend",
-    "crop": "crop",
-    "hardness": "hardness",
-    "elastic": '"elastic"',
-    "joint_area": "joint area",
-    "low_pass": "low pass",
-    "points": "points",
-    "frequency": "frequency",
-    "theories": "theories",
-    "depths": "depths",
-    "friction": "friction",
-}
 
-CONTROLS = Words(_CONTROLS, lambda text: f'"{text}"')
+def _word_of(field: Field) -> str:
+    return field.word or field.label or field.control
+
+
+CONTROLS = Words(names_by(_word_of), lambda text: f'"{text}"')

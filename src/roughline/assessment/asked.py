@@ -1,0 +1,137 @@
+"""What may be asked of pressed bodies beside the contact itself: each a value of its own."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, get_args
+
+from roughline.assessment.fields import FIELDS, asked_fields
+from roughline.assessment.given import Parsed, checked_friction, quantity, several
+from roughline.errors.checks import refuse
+from roughline.errors.public import public
+
+
+@public
+@dataclass(frozen=True)
+class Friction:
+    """Coulomb friction between the bodies, asked for partial slip at the largest load.
+
+    Parameters
+    ----------
+    coefficient : float
+        Coefficient of friction, above 0 and up to 5. [1]
+    """
+
+    coefficient: Parsed[float] = Parsed(checked_friction)
+
+
+@public
+@dataclass(frozen=True)
+class Ultrasound:
+    """An ultrasonic wave, asked for its reflection by the interface.
+
+    Parameters
+    ----------
+    frequency : float or str
+        Such as "5 MHz". [Hz]
+    """
+
+    frequency: Parsed[float] = Parsed(
+        quantity("Hz", "frequency", "a positive, finite one is needed")
+    )
+
+
+@public
+@dataclass(frozen=True)
+class Joint:
+    """The joint that a surface is a map of, asked for its answers instead of the map's.
+
+    The map is pressed at the joint's mean pressure, and forces act on the joint.
+
+    Parameters
+    ----------
+    area : float or str
+        Nominal area, such as "2 cm^2", not below that of the map. [m²]
+    """
+
+    area: Parsed[float] = Parsed(quantity("m^2", "joint_area", "a positive, finite area is needed"))
+
+
+@public
+@dataclass(frozen=True, init=False)
+class Theories:
+    """Theories of rough contact, asked beside the curve.
+
+    Parameters
+    ----------
+    *names : str
+        As for :func:`roughline.theory`.
+    """
+
+    names: tuple[str, ...]
+
+    def __init__(self, *names: str) -> None:
+        from roughline.theories.theory import refuse_unknown  # here because it loads slowly
+
+        for name in names:
+            refuse_unknown(name, "theories")
+        object.__setattr__(self, "names", names)
+
+
+@public
+@dataclass(frozen=True)
+class History:
+    """Loads or depths applied in the order given, each to the surface as the last one left it."""
+
+
+@public
+@dataclass(frozen=True)
+class Unloading:
+    """The largest load taken off again, in steps down to zero."""
+
+
+@public
+@dataclass(frozen=True)
+class WholeCurve:
+    """Further loads, from a thousandth of the largest one up, solved too for figures."""
+
+
+Asked = Friction | Ultrasound | Joint | Theories | History | Unloading | WholeCurve
+_KINDS = {each.__name__: each for each in get_args(Asked)}
+
+
+def asked_for(told: Mapping[str, Any]) -> tuple[Asked, ...]:
+    """Return what is asked, from values by the names of fields; None and False ask nothing."""
+    asked = []
+    for each in asked_fields(told):
+        value, kind = told[each.name], _KINDS[each.of]
+        if each.is_switch:
+            if not isinstance(value, bool):
+                refuse(each.name, value, "True or False is needed")
+            asked += [kind()] if value else []
+        elif each.separator:
+            asked += [kind(*several(value))] if several(value) else []
+        else:
+            asked.append(kind(value))
+    return tuple(asked)
+
+
+def without_earlier_keywords(named: Mapping[str, Any]) -> dict[str, Any]:
+    """Return arguments of a question, what keywords of version 0.2 asked for among `ask`."""
+    earlier = [each for each in FIELDS if each.is_asked and each.name in named]
+    if not earlier:
+        return dict(named)
+    asked = asked_for({each.name: named[each.name] for each in earlier})
+    instead = ", ".join(each.in_python(named[each.name]) for each in earlier if named[each.name])
+    warnings.warn(
+        f"{', '.join(f'{each.name}=' for each in earlier)} will be gone in the next release: write "
+        f"ask=[{instead}]",
+        DeprecationWarning,
+        stacklevel=3,
+    )
+    others = {
+        name: value for name, value in named.items() if name not in {each.name for each in earlier}
+    }
+    return {**others, "ask": (*several(named.get("ask")), *asked)}

@@ -1,0 +1,459 @@
+"""The fields of a question: each stands here once, for Python, the command line and the lab.
+
+Options, controls, keys of addresses, generated code and the names of arguments in messages are read
+from this table. A new field is an entry here, an attribute, and the physics that reads it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from roughline.errors.checks import refuse
+
+BODIES = "Bodies"
+LOADS = "Loads"
+ANSWERS = "Answers"
+FILE = "A file"
+PREPARATION = "Preparation"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Field:
+    """One thing that a question is told.
+
+    Attributes
+    ----------
+    name : str
+        In messages, and as the argument of what it is of.
+    of : str
+        The class whose argument it is: "Question", "Reading", "Preparation", or what is asked.
+    group : str
+        What it is about.
+    flag : str
+        On the command line; several names have commas between. Empty if it has none.
+    control : str
+        Key in the lab's form and addresses; empty if it has none there.
+    label, word : str
+        What the form calls it, and what the lab's messages call it if that differs.
+    help : str
+        One sentence with an example.
+    otherwise : str
+        What holds if it is not given, in words.
+    kind : type
+        Of one value on the command line.
+    separator : str
+        What stands between several values in the lab; empty if there is only one.
+    choices : mapping of str to (object, str)
+        Values that may be chosen and what the form calls them, by the words of addresses, the
+        default first.
+    read : callable
+        Reads one text; the value is what Python is given.
+    """
+
+    name: str
+    of: str = "Question"
+    group: str
+    flag: str = ""
+    control: str = ""
+    label: str = ""
+    word: str = ""
+    help: str = ""
+    otherwise: str = ""
+    kind: type = str
+    separator: str = ""
+    choices: Mapping[str, tuple[Any, str]] = field(default_factory=dict)
+    read: Callable[[str], Any] = str
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether a value of its own is asked for it."""
+        return self.of not in ("Question", "Reading", "Preparation")
+
+    @property
+    def is_switch(self) -> bool:
+        """Whether the command line has it as a flag without a value."""
+        return any(value is True for value, _ in self.choices.values())
+
+    def in_python(self, value: Any) -> str:
+        """Write what is asked as Python: rl.Friction(0.3)."""
+        inside = "" if self.is_switch else repr(value)
+        if self.separator and not isinstance(value, str):
+            inside = ", ".join(map(repr, value))
+        return f"rl.{self.of}({inside})"
+
+    def value(self, given: Any) -> Any:
+        """Read what was given: texts are read, and all else is the value itself."""
+        if isinstance(given, list):
+            return [self.value(each) for each in given]
+        return self.read(given) if isinstance(given, str) else given
+
+
+def _length(name: str) -> Callable[[str], float]:
+    """Read a positive length. [m]"""
+
+    def read(text: str) -> float:
+        from roughline.units import in_si  # here because it loads slowly
+
+        length = in_si(text, "m", name)
+        if not 0 < length < math.inf:
+            refuse(name, text, "a positive, finite length is needed")
+        return length
+
+    return read
+
+
+def _blur(text: str) -> float:
+    """Read a standard deviation; none has no unit. [m]"""
+    from roughline.units import in_si
+
+    return in_si("0 m" if text == "0" else text, "m", "blur")
+
+
+def _crop(text: str) -> tuple[float, ...]:
+    """Read from and to along each side. [m]"""
+    from roughline.units import lengths
+
+    return tuple(lengths(text, "crop"))
+
+
+FIELDS: tuple[Field, ...] = (
+    Field(
+        name="materials",
+        group=BODIES,
+        flag="--materials",
+        word="two materials",
+        help='Both materials, such as "steel,copper" or "E=70 GPa nu=0.33, rigid".',
+    ),
+    Field(
+        name="E_star",
+        group=BODIES,
+        flag="--modulus",
+        word="the contact modulus",
+        help='Contact modulus E* instead of the materials, such as "110 GPa".',
+    ),
+    Field(
+        name="against",
+        group=BODIES,
+        flag="--against",
+        help="Topography of the second body, read and prepared like the first.",
+        otherwise="a smooth body",
+    ),
+    Field(
+        name="hardness",
+        group=BODIES,
+        flag="--hardness",
+        control="hardness",
+        help='Hardness of the softer body, such as "2 GPa", taken as exact.',
+        otherwise="of the materials, with its scatter",
+    ),
+    Field(
+        name="elastic",
+        group=BODIES,
+        flag="--elastic",
+        control="elastic",
+        label="yield",
+        word='"elastic"',
+        help="Take both bodies as elastic, however high the pressures. Otherwise points bear at "
+        "most the hardness of the softer body; where it is reached, the surface is permanently "
+        "indented.",
+        choices={"no": (False, "where a hardness is known"), "yes": (True, "elastic")},
+    ),
+    Field(
+        name="loads",
+        group=LOADS,
+        flag="--load,--force",
+        control="loads",
+        help='A total force, such as "10 N", or a mean pressure, such as "2 MPa".',
+        otherwise="20 loads up to saturation",
+        separator=";",
+    ),
+    Field(
+        name="depths",
+        group=LOADS,
+        flag="--depth",
+        help='A depth, such as "200 nm".',
+        separator=";",
+    ),
+    Field(
+        name="joint_area",
+        of="Joint",
+        group=LOADS,
+        flag="--joint-area",
+        control="joint_area",
+        help='Area of the joint that the map is a part of, such as "2 cm^2": forces then act on '
+        "the joint, and the answers are those of the joint.",
+        otherwise="the map alone",
+    ),
+    Field(
+        name="n_loads",
+        group=LOADS,
+        flag="--loads",
+        help="Number of loads from first touch to saturation.",
+        otherwise="20",
+        kind=int,
+    ),
+    Field(
+        name="history",
+        of="History",
+        group=LOADS,
+        flag="--history",
+        help="Apply several --load in the order given, rising and falling, each to the surface as "
+        "the load before it left it.",
+        choices={"no": (False, "rising"), "yes": (True, "in the order given")},
+    ),
+    Field(
+        name="unload",
+        of="Unloading",
+        group=LOADS,
+        flag="--unload",
+        help="Remove the largest --load again, in steps down to zero.",
+        choices={"no": (False, "no"), "yes": (True, "down to zero")},
+    ),
+    Field(
+        name="periodic",
+        group=BODIES,
+        flag="--periodic",
+        control="boundary",
+        label="half-space",
+        help="Repeat the surface periodically: it has no borders, and the stiffness is that of "
+        "the interface. Otherwise the half-space continues, unloaded, around the surface.",
+        choices={"free": (False, "free"), "periodic": (True, "periodic")},
+    ),
+    Field(
+        name="friction",
+        of="Friction",
+        group=ANSWERS,
+        flag="--friction",
+        control="friction",
+        help="Coefficient of friction, above 0 and up to 5, such as 0.3: adds partial slip at the "
+        "largest load to the report and to JSON.",
+        otherwise="none",
+        kind=float,
+    ),
+    Field(
+        name="frequency",
+        of="Ultrasound",
+        group=ANSWERS,
+        flag="--frequency",
+        control="frequency",
+        label="ultrasound",
+        word="frequency",
+        help='Frequency of ultrasound, such as "5 MHz": adds its reflection by the interface.',
+        otherwise="none",
+    ),
+    Field(
+        name="theories",
+        of="Theories",
+        group=ANSWERS,
+        flag="--theory",
+        control="theories",
+        help="Theory to compare with, of the same waves and of periodic surfaces: {theories}.",
+        separator=",",
+    ),
+    Field(
+        name="grid_error",
+        group=ANSWERS,
+        flag="--grid-error",
+        control="grid_error",
+        label="grid error",
+        word='grid error "estimate"',
+        help="Estimate discretisation errors from coarser grids, without which there are no "
+        "intervals; it takes about twice as long.",
+        otherwise="where that takes only a few seconds, and for a report",
+        choices={
+            "default": (None, "where it is quick"),
+            "yes": (True, "estimate"),
+            "no": (False, "leave out"),
+        },
+    ),
+    Field(
+        name="whole_curve",
+        of="WholeCurve",
+        group=ANSWERS,
+        choices={"no": (False, "no"), "yes": (True, "yes")},
+    ),
+    Field(
+        name="unit",
+        of="Reading",
+        group=FILE,
+        flag="--unit",
+        control="unit",
+        label="unit of lengths",
+        word="unit",
+        help="Unit of the lengths and heights in a file that states none, such as um.",
+    ),
+    Field(
+        name="channel",
+        of="Reading",
+        group=FILE,
+        flag="--channel",
+        control="channel",
+        help="Channel of the file: its name, or its number from 0; only heights can be pressed.",
+    ),
+    Field(
+        name="sizes",
+        of="Reading",
+        group=FILE,
+        flag="--size",
+        control="size",
+        label="size",
+        help='Sides of a file that states none, such as "1 mm, 0.5 mm"; one for a square.',
+    ),
+    Field(
+        name="missing",
+        of="Reading",
+        group=FILE,
+        flag="--fill",
+        control="fill",
+        label="filling",
+        help="How missing points are filled: by the smoothest surface through their neighbours, or "
+        "by the nearest known height. The answers try both.",
+        choices={
+            "harmonic": ("harmonic", "smoothest surface"),
+            "nearest": ("nearest", "nearest height"),
+        },
+    ),
+    Field(
+        name="most_missing",
+        of="Reading",
+        group=FILE,
+        flag="--max-missing",
+        control="most_missing",
+        label="most missing",
+        help="Largest share of missing points, 0 to below 1, that is filled; a file with more is "
+        "refused.",
+        otherwise="10 %",
+        kind=float,
+    ),
+    Field(
+        name="tilt",
+        of="Reading",
+        group=FILE,
+        flag="--tilt",
+        control="tilt",
+        label="tilt is of",
+        help="Whose the tilt of measured heights is: the mounting's alone, such as the stage's, or "
+        "also that of waves longer than the topography, which change the answers for a larger "
+        "surface.",
+        choices={"unknown": ("unknown", "not known"), "mounting": ("mounting", "the mounting")},
+    ),
+    Field(
+        name="pixels",
+        of="Reading",
+        group=FILE,
+        flag="--pixels",
+        control="pixels",
+        label="heights are",
+        help="Whether heights are means over pixels or those of points, which tells the instrument "
+        "from the surface in the spectrum's tail.",
+        otherwise="means for files of optical instruments, else not known",
+        choices={
+            "default": (None, "as the file says"),
+            "means": ("means", "means over pixels"),
+            "points": ("points", "of points"),
+        },
+    ),
+    Field(
+        name="blur",
+        of="Reading",
+        group=FILE,
+        flag="--blur",
+        control="blur",
+        help="Standard deviation of the instrument's Gaussian blur beside the pixels', such as "
+        '"0.3 um"; 0 for none.',
+        otherwise="not known",
+        read=_blur,
+    ),
+    Field(
+        name="tip_radius",
+        of="Reading",
+        group=FILE,
+        flag="--tip-radius",
+        control="tip_radius",
+        label="tip radius",
+        help='Radius of the tip that traced the surface, such as "2 um": shorter waves than it '
+        "follows are left out of the self-affine law.",
+        otherwise="none",
+        read=_length("tip_radius"),
+    ),
+    Field(
+        name="trend",
+        of="Preparation",
+        group=PREPARATION,
+        flag="--trend",
+        control="trend",
+        help="Trend that is removed from the heights by least squares.",
+        otherwise="the tilt of measured ones; our own files stay as they are",
+        choices={
+            "default": (None, "tilt, as measured"),
+            "none": ("none", "none"),
+            "mean": ("mean", "mean"),
+            "tilt": ("tilt", "tilt"),
+            "curvature": ("curvature", "curvature"),
+        },
+    ),
+    Field(
+        name="crop",
+        of="Preparation",
+        group=PREPARATION,
+        flag="--crop",
+        control="crop",
+        help='Piece to keep, from and to along x and y, such as "0 um, 50 um, 0 um, 40 um".',
+        otherwise="all",
+        read=_crop,
+    ),
+    Field(
+        name="low_pass",
+        of="Preparation",
+        group=PREPARATION,
+        flag="--low-pass",
+        control="low_pass",
+        label="low pass",
+        help='Cutoff wavelength of a Gaussian filter after ISO 16610-61, such as "2 um": shorter '
+        "waves are removed.",
+        otherwise="none",
+        read=_length("low_pass"),
+    ),
+    Field(
+        name="points",
+        of="Preparation",
+        group=PREPARATION,
+        flag="--resample",
+        control="resample",
+        label="resample to",
+        word="points",
+        help="Points along the longer side to resample to; fewer are quicker to press, and lose "
+        "the finest waves.",
+        otherwise="as it is",
+        kind=int,
+    ),
+    Field(
+        name="remove_outliers",
+        of="Preparation",
+        group=PREPARATION,
+        flag="--remove-outliers",
+        control="outliers",
+        label="spikes",
+        help="Remove spikes and fill their points: dust, or errors of the instrument, that differ "
+        "from their neighbours by more than five times the scatter.",
+        otherwise="they are only counted",
+        choices={"keep": (False, "keep"), "remove": (True, "remove and fill")},
+    ),
+)
+"""All fields, in the order of their groups' panels and of the form."""
+
+
+def asked_fields(told: Mapping[str, Any]) -> list[Field]:
+    """Return the fields of what is asked, in their order."""
+    return [each for each in FIELDS if each.is_asked and told.get(each.name) is not None]
+
+
+def names_by(word_of: Callable[[Field], str]) -> dict[str, str]:
+    """Return what a caller calls the arguments, and the classes of what is asked."""
+    words = {each: word_of(each) for each in FIELDS}
+    names = {each.name: word for each, word in words.items()}
+    names |= {f"rl.{each.of}": word for each, word in words.items() if each.is_asked}
+    return {name: word for name, word in names.items() if word}

@@ -1,0 +1,63 @@
+"""Questions, readings and preparations of what was told of their fields."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from roughline.assessment.asked import asked_for
+from roughline.assessment.fields import FIELDS, Field
+from roughline.assessment.given import Parsed
+from roughline.assessment.question import Question
+from roughline.assessment.reading import Reading
+from roughline.topography.preparation import Preparation
+
+Told = Mapping[str, Any]
+"""Values by the names of fields; None where nothing is told."""
+
+
+def told_of(kind: str, told: Told) -> dict[str, Any]:
+    """Return what is told of one class, as its arguments."""
+    named = {each.name: told.get(each.name) for each in FIELDS if each.of == kind}
+    return {name: value for name, value in named.items() if value is not None}
+
+
+def reading_of(told: Told, name: str | None = None) -> Reading:
+    """Return how files are read; the first is called by a name, if one is given."""
+    return Reading(name=name, **told_of("Reading", told))
+
+
+def preparation_of(told: Told) -> Preparation | None:
+    """Return how topographies are prepared; None where nothing is told."""
+    found = Preparation(**told_of("Preparation", told))
+    return None if found == Preparation() else found
+
+
+def question_of(body: Any, told: Told, name: str | None = None, **others: Any) -> Question:
+    """Return the question of a body or a file that is told, with arguments that have no control."""
+    return Question(
+        body,
+        ask=asked_for(told),
+        reading=reading_of(told, name),
+        preparation=preparation_of(told),
+        **told_of("Question", told),
+        **others,
+    )
+
+
+def refuse_alone(field: Field, value: Any) -> None:
+    """Refuse a value of a field that could be used with no others.
+
+    Raises
+    ------
+    InputError
+        As what the field is of refuses it.
+    """
+    if field.is_asked:
+        asked_for({field.name: value})
+    elif field.of == "Question":
+        parsed = vars(Question).get(field.name)
+        if isinstance(parsed, Parsed):
+            parsed.read(value)
+    else:
+        {"Reading": Reading, "Preparation": Preparation}[field.of](**{field.name: value})

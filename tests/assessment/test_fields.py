@@ -1,0 +1,95 @@
+"""A field of a question stands once: all that is said of it is read from the table."""
+
+import warnings
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+import roughline as rl
+from roughline.assessment import fields
+from roughline.assessment.fields import FIELDS, LOADS, Field, names_by
+from roughline.cli.flags import FLAGS
+from roughline.cli.options import with_fields
+from roughline.errors.words import Words, called, speaking
+
+TEMPERATURE = Field(
+    name="temperature",
+    group=LOADS,
+    flag="--temperature",
+    control="temperature",
+    help='Temperature of both bodies, such as "300 K".',
+    otherwise="that of the room",
+)
+
+
+def test_an_entry_of_the_table_is_an_option_with_its_help(monkeypatch):
+    monkeypatch.setattr("roughline.cli.options.FIELDS", (*FIELDS, TEMPERATURE))
+    told_of = []
+
+    @with_fields(LOADS)
+    def command(file: str, told: dict):
+        told_of.append(told)
+
+    app = typer.Typer()
+    app.command()(command)
+    page = CliRunner().invoke(app, ["--help"], terminal_width=200).output
+    assert "--temperature" in page
+    assert "Temperature of both bodies" in page
+    assert CliRunner().invoke(app, ["a.nc", "--temperature", "300 K"]).exit_code == 0
+    assert told_of[0]["temperature"] == "300 K"
+
+
+def test_an_entry_of_the_table_has_a_name_in_messages(monkeypatch):
+    monkeypatch.setattr(fields, "FIELDS", (*FIELDS, TEMPERATURE))
+    flags = Words(names_by(lambda field: field.flag), str)
+    assert called("temperature") == "temperature="
+    with speaking(flags):
+        assert called("temperature") == "--temperature"
+        with pytest.raises(rl.InputError, match="^--temperature is "):
+            raise rl.InputError("is 3; a quantity is needed", "temperature")
+
+
+def test_every_flag_of_the_table_is_a_name_of_its_own():
+    flags = [flag for field in FIELDS for flag in field.flag.split(",") if flag]
+    assert len({*flags}) == len(flags)
+    assert FLAGS.names["rl.Joint"] == FLAGS.names["joint_area"] == "--joint-area"
+
+
+@pytest.mark.parametrize(
+    ("earlier", "asked"),
+    [
+        ({"friction": 0.3}, rl.Friction(0.3)),
+        ({"frequency": "5 MHz"}, rl.Ultrasound(5e6)),
+        ({"joint_area": "2 cm^2"}, rl.Joint(2e-4)),
+        ({"theories": "persson"}, rl.Theories("persson")),
+        ({"theories": ["persson"]}, rl.Theories("persson")),
+        ({"history": True}, rl.History()),
+        ({"unload": True}, rl.Unloading()),
+        ({"whole_curve": True}, rl.WholeCurve()),
+    ],
+)
+def test_earlier_keywords_ask_the_same_and_say_what_to_write(earlier, asked):
+    (name,) = earlier
+    given = {"materials": "steel,copper", "loads": ["1 N", "2 N"]}
+    with pytest.warns(DeprecationWarning, match=f"{name}= .*write ask=.*{type(asked).__name__}"):
+        before = rl.Question("scan.x3p", **given, **earlier)
+    assert before == rl.Question("scan.x3p", **given, ask=asked)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assert rl.Question("scan.x3p", **given, **dict.fromkeys(earlier, None)).ask == ()
+
+
+def test_what_is_asked_is_checked_when_it_is_made():
+    for wrong in (lambda: rl.Friction(7), lambda: rl.Ultrasound("5 m"), lambda: rl.Joint(-1)):
+        with pytest.raises(rl.InputError):
+            wrong()
+    with pytest.raises(rl.InputError, match="ask is 0.3; give what is asked"):
+        rl.Question("scan.x3p", "steel,copper", ask=0.3)
+    with pytest.raises(rl.InputError, match="ask holds several rl.Friction"):
+        rl.Question("scan.x3p", "steel,copper", ask=[rl.Friction(0.1), rl.Friction(0.2)])
+
+
+def test_an_unknown_keyword_names_the_nearest_one():
+    with pytest.raises(rl.InputError, match="Question has no argument materialz=; give materials="):
+        rl.Question("scan.x3p", materialz="steel,copper")
