@@ -41,7 +41,9 @@ def pressed(surface, pressures, **given):
 def asked(surface, pressures, joint, **given):
     """The question of a user of a map."""
     loads = [f"{each:.9g} Pa" for each in pressures]
-    return rl.Question(surface, MATERIALS, ask=rl.Joint(joint), loads=loads, fields=False, **given)
+    return rl.Question(
+        surface, MATERIALS, ask=rl.Joint(joint) if joint else (), loads=loads, fields=False, **given
+    )
 
 
 def larger_rows(kind, option, seed):
