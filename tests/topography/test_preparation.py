@@ -272,8 +272,3 @@ def test_a_surface_that_is_one_point_wide_can_be_prepared():
     thin = rl.Surface(ROUGH.heights[:, :1], (1e-3, 1e-5), "m")
     found = prepared(thin, Preparation(crop=(0, 5e-4, 0, 1e-5), trend="tilt", points=24))
     assert found.shape == (24, 1)
-
-
-def test_spikes_that_are_not_there_are_said_not_to_be_found():
-    smooth = as_measured(ROUGH.heights)
-    assert "no spikes are found, so none is removed" in notes(smooth, remove_outliers=True)
