@@ -174,7 +174,7 @@ def test_a_report_a_client_could_receive(topographies, invoke, tmp_path):
     # the grid's error, as a report estimates it
     bare = " ".join(re.sub("<[^>]*>", " ", page).split())
     interval = r"(± \S+%|\(\S+ to \S+\))"
-    assert re.search(rf"contact stiffness k \S+ MN/m {interval} stiffness per area", bare)
+    assert re.search(rf"contact stiffness k \S+ MN/m {interval} unloading stiffness", bare)
     assert "contact stiffness k dF/dd at frozen contact on further loading, exact" in bare
     assert "unloading stiffness k_u dF/dd at frozen contact on unloading, exact" in bare
     assert "red: filled points" in bare
