@@ -1,5 +1,7 @@
 """A field of a question stands once: all that is said of it is read from the table."""
 
+import subprocess
+import sys
 import warnings
 
 import pytest
@@ -48,6 +50,40 @@ def test_an_entry_of_the_table_has_a_name_in_messages(monkeypatch):
         assert called("temperature") == "--temperature"
         with pytest.raises(rl.InputError, match="^--temperature is "):
             raise rl.InputError("is 3; a quantity is needed", "temperature")
+
+
+FOREIGN = """
+from roughline.assessment import fields
+
+fields.FIELDS += (
+    fields.Field(
+        name="temperature",
+        group=fields.LOADS,
+        flag="--temperature",
+        control="temperature",
+        help="Temperature of both bodies.",
+    ),
+)
+from roughline.cli.flags import FLAGS
+from roughline.lab.measured.documents import as_command, as_python
+from roughline.lab.measured.state import said_of
+from roughline.lab.measured.words import CONTROLS
+from roughline.lab.page import page
+
+said = {"first": "steel", "second": "copper", "temperature": "300 K"}
+assert said_of({"state": said}) == said
+assert 'data-text="temperature"' in page()
+assert "Temperature of both bodies." in page()
+assert "--temperature '300 K'" in as_command(said, ["a.nc"])
+assert "temperature='300 K'," in as_python(said, ["a.nc"])
+assert FLAGS.names["temperature"] == "--temperature"
+assert CONTROLS.names["temperature"] == "temperature"
+"""
+
+
+def test_an_entry_of_the_table_is_a_control_in_the_address_and_in_the_code():
+    done = subprocess.run([sys.executable, "-c", FOREIGN], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_every_flag_of_the_table_is_a_name_of_its_own():

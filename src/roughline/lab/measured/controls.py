@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from roughline.assessment.fields import FIELDS
+from roughline.assessment.fields import ANSWERS, FIELDS, FILE, LOADS, PREPARATION
+from roughline.assessment.fields import BODIES as BODIES_GROUP
 from roughline.lab.controls import Choice
 
 MOST_POINTS = 4096
@@ -36,6 +37,25 @@ CHOICES = {"bodies": BODIES} | {
     if field.choices
 }
 """Controls of which one of several words is chosen."""
+
+OF_PREPARATION = tuple(
+    key
+    for key, field in BY_CONTROL.items()
+    if field.group in (FILE, PREPARATION) and key not in ("unit", "channel", "size")
+)
+"""Controls of the second step; what a file leaves open is asked in the first."""
+FOLDED = tuple(
+    key
+    for key, field in BY_CONTROL.items()
+    if key == "boundary" or (field.group == ANSWERS and key != "theories")
+)
+"""Controls of the third step that are folded away; theories have boxes of their own."""
+OF_BODIES = tuple(
+    key
+    for key, field in BY_CONTROL.items()
+    if field.group in (BODIES_GROUP, LOADS) and key not in ("loads", *FOLDED)
+)
+"""Other controls of the third step, beside the bodies and the loads."""
 
 KEYS = (*BY_CONTROL, "bodies", "first", "second", "E")
 """Keys of all controls, as in the address."""

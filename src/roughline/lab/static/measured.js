@@ -11,10 +11,10 @@ import {Waiting} from "./waiting.js";
 const VERSION = "1";
 const DEFAULTS = {first: "steel", second: "copper", loads: "2 MPa"};
 const OF_FILE = ["unit", "channel", "size"]; // asked anew with each file
-const OF_READING = [...OF_FILE, "fill", "most_missing", "tilt", "pixels", "blur", "tip_radius"];
-const OF_PREPARATION = ["trend", "outliers", "crop", "low_pass", "resample"];
-const OF_BODIES = ["bodies", "first", "second", "E", "loads", "friction", "frequency", "elastic", "hardness", "joint_area",
-  "boundary", "grid_error", "theories"];
+const keysOf = (what) => [...document.querySelectorAll(`#measured [data-of="${what}"] [data-error]`)].map(({dataset}) => dataset.error);
+const OF_READING = [...OF_FILE, ...keysOf("Reading")];
+const OF_PREPARATION = keysOf("Preparation");
+const OF_BODIES = keysOf("bodies");
 const TASKS = ["answers", "compare", "report"];
 
 export async function open(link, address, said) {
