@@ -97,7 +97,9 @@ def test_of_a_joint_the_interface_comes_first_and_says_which_stiffness_it_is(rou
 
 @pytest.mark.parametrize("joint", [None, "2 cm^2"])
 def test_json_and_the_curve_say_of_what_they_are(rough, joint):
-    pressed = rl.assess(rl.Question(rough, PAIR, loads="5 MPa", ask=rl.Joint(joint)))
+    pressed = rl.assess(
+        rl.Question(rough, PAIR, loads="5 MPa", ask=rl.Joint(joint) if joint else ())
+    )
     told = of_assessment(pressed)
     whose = "body" if joint is None else "map"
     assert (told["curve"]["of"], told["intervals_of"]) == (whose, whose)
