@@ -22,22 +22,13 @@ Results = dict[str, NDArray[Any]]
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """Cases of one ensemble that lie in one chunk of the store.
-
-    Attributes
-    ----------
-    ensemble : Ensemble
-        The ensemble that they belong to.
-    cells : ndarray, shape (n, 2)
-        Place of each case: index of the fractal dimension in the store, and realisation.
-    fractal_dimensions : ndarray, shape (n,)
-        The fractal dimension of each case.
-    """
+    """Cases of one ensemble that lie in one chunk of the store."""
 
     # arrays, not tuples: with thousands of tuples, garbage collection slows Dask's event loops
     ensemble: Ensemble
+    # shape (n, 2): index of the fractal dimension in the store, and realisation, of each case
     cells: NDArray[np.intp]
-    fractal_dimensions: NDArray[np.float64]
+    fractal_dimensions: NDArray[np.float64]  # shape (n,): that of each case
 
     def split(self) -> list[Batch]:
         """Return batches of one case each."""
@@ -49,21 +40,12 @@ class Batch:
 
 @dataclass(frozen=True)
 class BatchResult:
-    """Results of a batch.
+    """Results of a batch."""
 
-    Attributes
-    ----------
-    results : dict of ndarray
-        Every variable over (case, load) or (case); cases that failed hold fill values.
-    failures : dict
-        Why cases failed, by the index of the case in the batch.
-    core_seconds : float
-        Computing time of the batch, summed over its cores. [s]
-    """
-
+    # every variable over (case, load) or (case); cases that failed hold fill values
     results: Results
-    failures: dict[int, str]
-    core_seconds: float = 0.0
+    failures: dict[int, str]  # why cases failed, by the index of the case in the batch
+    core_seconds: float = 0.0  # computing time of the batch, summed over its cores [s]
 
 
 class VersionError(RoughlineError):

@@ -32,24 +32,12 @@ _WORKER_BYTES = 300_000_000  # of the interpreter and its libraries
 
 @dataclass(frozen=True)
 class Cost:
-    """Cost of computing some cases.
+    """Cost of computing some cases."""
 
-    Attributes
-    ----------
-    cases : int
-        Number of bodies.
-    core_seconds : float
-        Time on one core of this machine, to a factor of two or three. [s]
-    memory : int
-        Largest memory of one worker. [bytes]
-    disk : int
-        Size of the results, before compression. [bytes]
-    """
-
-    cases: int
-    core_seconds: float
-    memory: int
-    disk: int
+    cases: int  # number of bodies
+    core_seconds: float  # time on one core of this machine, to a factor of two or three [s]
+    memory: int  # largest memory of one worker [bytes]
+    disk: int  # size of the results, before compression [bytes]
 
     def described(self, workers: int | None) -> str:
         """Return the cost in words, shared among a number of workers, or for each if not known."""

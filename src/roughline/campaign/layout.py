@@ -25,36 +25,16 @@ GALLERY_DONE = "gallery_done"  # attribute of the root
 
 @dataclass(frozen=True)
 class Variable:
-    """An array of a store.
-
-    Attributes
-    ----------
-    name : str
-        Its name.
-    dtype : str
-        NumPy's name of the type of its values.
-    fill : float
-        Value where nothing was written; no finished case has it.
-    meaning : str
-        Description for the array's attributes. Everything in a store is dimensionless.
-    dims : tuple of str
-        Its dimensions.
-    of_lines : bool
-        Whether the reduced model gives it.
-    of_yielding : bool
-        Whether only bodies with a hardness have it.
-    averaged : bool
-        Whether tables of means over the realisations have it.
-    """
+    """An array of a store."""
 
     name: str
-    dtype: str
-    fill: float
-    meaning: str
+    dtype: str  # NumPy's name of the type of its values
+    fill: float  # value where nothing was written; no finished case has it
+    meaning: str  # for the attributes of the array; everything in a store is dimensionless
     dims: tuple[str, ...] = DIMENSIONS
-    of_lines: bool = True
-    of_yielding: bool = False
-    averaged: bool = False
+    of_lines: bool = True  # whether the reduced model gives it
+    of_yielding: bool = False  # whether only bodies with a hardness have it
+    averaged: bool = False  # whether tables of means over the realisations have it
 
     @property
     def per_body(self) -> bool:

@@ -24,18 +24,10 @@ _NAMES = {
 
 @dataclass(frozen=True)
 class _Limit:
-    """What this process may take.
+    """What this process may take."""
 
-    Attributes
-    ----------
-    memory : int
-        In addition to what it held when it was limited. [bytes]
-    most : int
-        In all, as `_held` counts. [bytes]
-    """
-
-    memory: int
-    most: int
+    memory: int  # in addition to what it held when it was limited [bytes]
+    most: int  # in all, as `_held` counts [bytes]
 
 
 _limit: _Limit | None = None

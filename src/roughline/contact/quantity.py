@@ -12,51 +12,24 @@ _SI = {"length": "m", "force": "N", "pressure": "Pa", "energy": "J", "1": "1"}
 
 @dataclass(frozen=True)
 class Quantity:
-    """One output quantity.
+    """One output quantity."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the variable in files, and of the attribute unless that is given.
-    symbol : str
-        What formulas call it, in LaTeX; empty where they do not name it.
-    dimension : str or None
-        Its unit in any coherent units: "1", "length", "force", "pressure", "energy" or a quotient
-        of two of them; None for a flag, which has no unit.
-    meaning : str
-        What it is, for the glossary.
-    long_name : str
-        What it is in a few words, for the attributes of files; empty where files have none.
-    column : int or None
-        Its place among the variables of a file; None for what files do not hold. Tables are read
-        by position too, so a new quantity takes the next number.
-    dims : tuple of str
-        What it extends over: the loads, or the loads and the grid.
-    dtype : str
-        NumPy's name of the type of its values.
-    of_lines : bool
-        Whether the reduced model gives it.
-    of_yielding : bool
-        Whether files hold it only where a hardness was given.
-    attribute : str
-        Name of the attribute of a curve or of its fields, where it is not that in files.
-
-    Raises
-    ------
-    ValueError
-        If the dimension is not known.
-    """
-
-    name: str
-    symbol: str
+    name: str  # name of the variable in files, and of the attribute unless that is given
+    symbol: str  # what formulas call it, in LaTeX; empty where they do not name it
+    # its unit in any coherent units: "1", "length", "force", "pressure", "energy" or a quotient of
+    # two of them; None for a flag, which has no unit
     dimension: str | None
-    meaning: str
+    meaning: str  # what it is, for the glossary
+    # what it is in a few words, for the attributes of files; empty where files have none
     long_name: str = ""
+    # Its place among the variables of a file; None for what files do not hold. Tables are read by
+    # position too, so a new quantity takes the next number
     column: int | None = None
-    dims: tuple[str, ...] = OVER_LOADS
-    dtype: str = "f8"
-    of_lines: bool = True
-    of_yielding: bool = False
+    dims: tuple[str, ...] = OVER_LOADS  # what it extends over: the loads, or the loads and the grid
+    dtype: str = "f8"  # NumPy's name of the type of its values
+    of_lines: bool = True  # whether the reduced model gives it
+    of_yielding: bool = False  # whether files hold it only where a hardness was given
+    # name of the attribute of a curve or of its fields, where it is not that in files
     attribute: str = ""
 
     def __post_init__(self) -> None:

@@ -26,17 +26,10 @@ class Springs:
 
     Springs are counted in bins of their separation, and only the bins in which the contact under a
     load ends are sorted. The result is the same as if all springs were sorted.
-
-    Attributes
-    ----------
-    heights : ndarray, shape (n,)
-        Heights; the highest spring touches first. [length]
-    spring_stiffness : float
-        E* times the spacing. [force / length]
     """
 
-    heights: Real
-    spring_stiffness: float
+    heights: Real  # shape (n,): Heights; the highest spring touches first. [length]
+    spring_stiffness: float  # E* times the spacing. [force / length]
 
     @classmethod
     def under(cls, heights: Real, spacing: float, E_star: float) -> Springs:
@@ -155,21 +148,11 @@ class _SortedSprings(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SpringsInContact:
-    """Springs in contact at given depths or under given forces.
+    """Springs in contact at given depths or under given forces."""
 
-    Attributes
-    ----------
-    count : ndarray of int, shape (loads,)
-        Their number.
-    sum : ndarray, shape (loads,)
-        Sum of their separations. [length]
-    spring_stiffness : float
-        Stiffness of each. [force / length]
-    """
-
-    count: Indices
-    sum: Real
-    spring_stiffness: float
+    count: Indices  # shape (loads,): their number
+    sum: Real  # shape (loads,): sum of their separations [length]
+    spring_stiffness: float  # stiffness of each [force / length]
 
     @property
     def stiffness(self) -> Real:

@@ -16,20 +16,12 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True)
 class Band:
-    """One up to ``q_roll``, ``(q / q_roll)**-decay`` beyond, zero outside ``q_low`` to ``q_high``.
+    """One to ``q_roll``, ``(q / q_roll)**-decay`` beyond, zero outside ``q_low`` to ``q_high``."""
 
-    Attributes
-    ----------
-    q_low, q_roll, q_high : float
-        Cutoffs and roll-off; ``q_high`` may be infinite. [1 / length]
-    decay : float
-        Exponent of the power law, 2 (H + 1) for a self-affine surface.
-    """
-
-    q_low: float
-    q_roll: float
-    q_high: float
-    decay: float
+    q_low: float  # of the longest waves [1 / length]
+    q_roll: float  # where the plateau ends [1 / length]
+    q_high: float  # of the shortest waves; may be infinite [1 / length]
+    decay: float  # exponent of the power law, 2 (H + 1) for a self-affine surface
 
     def shape(self, q: Real) -> Real:
         """Values at wavenumbers q >= 0."""

@@ -71,25 +71,14 @@ def _some_of(heights: Real) -> Real:
 
 @dataclass(frozen=True)
 class Jump:
-    """Rows that stand off those beside them, all along.
+    """Rows that stand off those beside them, all along."""
 
-    Attributes
-    ----------
-    axis, index : int
-        Across which side, and the first of these rows.
-    height : float
-        By how much they stand above the rows before. [length]
-    scatter : float
-        By how much rows stand off the line through those beside them otherwise. [length]
-    is_single : bool
-        Whether it is one row alone, between others that continue each other.
-    """
-
-    axis: int
-    index: int
-    height: float
+    axis: int  # across which side
+    index: int  # of the first of these rows
+    height: float  # by how much they stand above the rows before [length]
+    # by how much rows stand off the line through those beside them otherwise [length]
     scatter: float
-    is_single: bool
+    is_single: bool  # whether it is one row alone, between others that continue each other
 
 
 def jump(heights: Real) -> Jump | None:

@@ -36,19 +36,12 @@ class _Body(Protocol):
 
 @dataclass(frozen=True)
 class Borders:
-    """The step of heights across opposite borders, compared with ordinary steps.
+    """The step of heights across opposite borders, compared with ordinary steps."""
 
-    Attributes
-    ----------
-    step : float
-        Step across the borders over the ordinary one between neighbours, along the side where it
-        is least likely. [1]
-    chance : float
-        Chance of such a step or a larger one, if the heights are periodic. [1]
-    """
-
+    # across the borders over the ordinary one between neighbours, along the side where it is least
+    # likely [1]
     step: float
-    chance: float
+    chance: float  # chance of such a step or a larger one, if the heights are periodic [1]
 
     @property
     def jump(self) -> bool:

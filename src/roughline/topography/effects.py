@@ -34,20 +34,11 @@ def effect_of_trend(before: float, after: float) -> Settings:
 
 @dataclass(frozen=True)
 class Effect:
-    """What a step did.
+    """What a step did."""
 
-    Attributes
-    ----------
-    text : str
-        In words.
-    is_grave : bool
-        Whether it took most of the rms height, which a removed trend may do.
-    is_idle : bool
-        Whether it changed nothing; no spikes are no fault of who lets them be removed.
-    """
-
-    text: str
-    is_grave: bool = False
+    text: str  # in words
+    is_grave: bool = False  # whether it took most of the rms height, which a removed trend may do
+    # whether it changed nothing; no spikes are no fault of who lets them be removed
     is_idle: bool = False
 
 

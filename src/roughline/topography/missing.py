@@ -23,23 +23,11 @@ _COLUMNS, _ROWS = 48, 16  # of a coarse map, at most
 
 @dataclass(frozen=True)
 class Missing:
-    """How missing points are filled, and how many are too many.
+    """How missing points are filled, and how many are too many."""
 
-    Parameters
-    ----------
-    method : {"harmonic", "nearest"}
-        The solution of Laplace's equation between the known heights, or the nearest known height.
-    most : float
-        Largest share of missing points. [1]
-
-    Raises
-    ------
-    InputError
-        If the method is unknown, or the share is not from 0 to below 1.
-    """
-
+    # the solution of Laplace's equation between the known heights, or the nearest known height
     method: Filling = "harmonic"
-    most: float = 0.1
+    most: float = 0.1  # largest share of missing points [1]
 
     def __post_init__(self) -> None:
         one_of("missing", self.method, ("harmonic", "nearest"))

@@ -19,20 +19,11 @@ _OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned o
 
 @dataclass(frozen=True)
 class BorderJump:
-    """Steps of a repeated surface across its borders, compared with those within.
+    """Steps of a repeated surface across its borders, compared with those within."""
 
-    Attributes
-    ----------
-    jump : float
-        Root-mean-square difference of heights across opposite borders. [length]
-    step : float
-        The same of neighbouring points within the surface. [length]
-    share_of_slope : float
-        Share of the repeated surface's mean-square slope that lies at its borders. [1]
-    """
-
-    jump: float
-    step: float
+    jump: float  # Root-mean-square difference of heights across opposite borders. [length]
+    step: float  # the same of neighbouring points within the surface [length]
+    # share of the repeated surface's mean-square slope that lies at its borders [1]
     share_of_slope: float
 
     @property

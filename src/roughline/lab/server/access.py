@@ -143,18 +143,10 @@ def passwords_match(given: str, wanted: str) -> bool:
 
 @dataclass
 class Allowance:
-    """How often something may be done: a supply that fills up with time.
+    """How often something may be done: a supply that fills up with time."""
 
-    Parameters
-    ----------
-    rate : float
-        How fast it fills up. [1 / s]
-    most : float
-        The supply when it is full.
-    """
-
-    rate: float
-    most: float
+    rate: float  # how fast it fills up [1 / s]
+    most: float  # the supply when it is full
     _left: float = field(init=False)
     _at: float = field(init=False)
 

@@ -33,21 +33,13 @@ _OTHER_FILES, _FILES_OF_PROCESS = 64, 3  # that are no connections
 
 @dataclass(frozen=True)
 class Patience:
-    """How long the server waits for the other side of a connection.
+    """How long the server waits for the other side of a connection."""
 
-    Parameters
-    ----------
-    request : float
-        Until a request is complete, counted from the connection or from the answer before. [s]
-    stall : float
-        Time after which it is asked how much of a file, or of an answer, has moved. [s]
-    speed : float
-        What has to move on average over that time. [bytes / s]
-    """
-
+    # until a request is complete, counted from the connection or from the answer before [s]
     request: float = 20.0
+    # time after which it is asked how much of a file, or of an answer, has moved [s]
     stall: float = 60.0
-    speed: float = 1000.0
+    speed: float = 1000.0  # what has to move on average over that time [bytes / s]
 
 
 PATIENCE = Patience()

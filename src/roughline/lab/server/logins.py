@@ -19,17 +19,10 @@ _TOKEN = re.compile(r"token=([^&\s]*)")
 
 @dataclass(frozen=True)
 class Key:
-    """What a visitor must know.
+    """What a visitor must know."""
 
-    Attributes
-    ----------
-    secret : str
-        The password, or the token.
-    is_token : bool
-        Whether it is a random token, which cannot be guessed; tries of it need not wait.
-    """
-
-    secret: str
+    secret: str  # the password, or the token
+    # whether it is a random token, which cannot be guessed; tries of it need not wait
     is_token: bool
 
     @classmethod

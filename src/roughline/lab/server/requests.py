@@ -12,32 +12,20 @@ from roughline.lab.server.tasks import Outcome, Place
 
 @dataclass(frozen=True)
 class Request:
-    """One thing that a page asks for.
+    """One thing that a page asks for."""
 
-    Attributes
-    ----------
-    address, session, slot : str
-        Where the page is, which page asks, and for which of its parts: a newer request for the same
-        part replaces an older one.
-    place : Place
-        Where the task is.
-    arguments : mapping
-        Of the task; with "refines" it refines an existing answer, and lets other requests pass.
-    answer : callable
-        Told the outcome, unless the request was replaced or withdrawn.
-    progress : callable
-        Told (steps done, steps in all).
-    since : float
-        When it, or an older one that it replaced, began to wait, on the monotonic clock. [s]
-    """
-
+    # where the page is, which page asks, and for which of its parts: a newer request for the same
+    # part replaces an older one
     address: str
     session: str
     slot: str
-    place: Place
+    place: Place  # where the task is
+    # of the task; with "refines" it refines an existing answer, and lets other requests pass
     arguments: Mapping[str, Any]
+    # told the outcome, unless the request was replaced or withdrawn
     answer: Callable[[Outcome], None]
-    progress: Callable[[int, int], None]
+    progress: Callable[[int, int], None]  # told (steps done, steps in all)
+    # when it, or an older one that it replaced, began to wait, on the monotonic clock [s]
     since: float = field(default_factory=time.monotonic)
 
     @property
@@ -53,24 +41,10 @@ class Request:
 
 @dataclass(frozen=True)
 class Limits:
-    """What a lane and one task in it may take.
+    """What a lane and one task in it may take."""
 
-    Attributes
-    ----------
-    count : int
-        Processes that work side by side; one that takes long lets others start beside it.
-    most : int
-        Processes in all.
-    per_session : int
-        Processes that work for one page.
-    seconds : float
-        Time of a task. [s]
-    memory : float
-        Memory of a task, beside the program. [bytes]
-    """
-
-    count: int
-    most: int
-    per_session: int
-    seconds: float
-    memory: float
+    count: int  # processes that work side by side; one that takes long lets others start beside it
+    most: int  # processes in all
+    per_session: int  # processes that work for one page
+    seconds: float  # time of a task [s]
+    memory: float  # memory of a task, beside the program [bytes]

@@ -49,105 +49,48 @@ class Line(Protocol):
 
 @dataclass(frozen=True)
 class Visit:
-    """Who opens a page.
+    """Who opens a page."""
 
-    Attributes
-    ----------
-    address : str
-        Where the page is.
-    login : str
-        Of the browser; empty where nobody logs in.
-    token : str
-        Of the session that the page had before; empty if it had none.
-    """
-
-    address: str
-    login: str
-    token: str
+    address: str  # where the page is
+    login: str  # of the browser; empty where nobody logs in
+    token: str  # of the session that the page had before; empty if it had none
 
 
 @dataclass(frozen=True)
 class Upload:
-    """A file that a page has brought.
+    """A file that a page has brought."""
 
-    Attributes
-    ----------
-    path : Path
-        Where it lies, under a random name.
-    name : str
-        Name that its owner gave it.
-    size : int
-        Size, as the page stated it in advance. [bytes]
-    digest : str
-        Of its content; empty until it is whole.
-    """
-
-    path: Path
-    name: str
-    size: int
-    digest: str = ""
+    path: Path  # where it lies, under a random name
+    name: str  # name that its owner gave it
+    size: int  # as the page stated it in advance [bytes]
+    digest: str = ""  # of its content; empty until it is whole
 
 
 @dataclass(eq=False)
 class Asked:
-    """What a page has asked for one of its parts, until it is told the outcome.
+    """What a page has asked for one of its parts, until it is told the outcome."""
 
-    Attributes
-    ----------
-    number : int
-        By which the page knows the answer.
-    task : str
-        What is to be done.
-    arguments : mapping
-        Of the task.
-    line : Line or None
-        On which it was asked; another line knows another question by this number.
-    outcome : Outcome or None
-        How it ended while no page could be told.
-    """
-
-    number: int
-    task: str
-    arguments: Mapping[str, Any]
-    line: Line | None
-    outcome: Outcome | None = None
+    number: int  # by which the page knows the answer
+    task: str  # what is to be done
+    arguments: Mapping[str, Any]  # of the task
+    line: Line | None  # on which it was asked; another line knows another question by this number
+    outcome: Outcome | None = None  # how it ended while no page could be told
 
 
 @dataclass
 class Session:
-    """What a page has: it goes on over a new line when the old one drops, or the page is reloaded.
+    """What a page has; it goes on over a new line if the old one drops or the page is reloaded."""
 
-    Attributes
-    ----------
-    address : str
-        Where the page is.
-    login : str
-        Of the browser; only the same login may go on with the session.
-    token : str
-        Known to the page alone; a request with it counts as a request of the page.
-    root : Path
-        Folder of all sessions; this one's lies in it from the first file on.
-    site : Site
-        What may be asked for.
-    settings : ServerSettings
-        Limits.
-    quick, slow : Lane
-        Processes for what takes some milliseconds, and for the rest.
-    room : callable
-        Tells how large a file a task may write. [bytes]
-    line : Line or None
-        The connection to its page; None while it waits for one.
-    """
-
-    address: str
-    login: str
-    root: Path
+    address: str  # where the page is
+    login: str  # of the browser; only the same login may go on with the session
+    root: Path  # folder of all sessions; this one's lies in it from the first file on
     site: Site
     settings: ServerSettings
-    quick: Lane
-    slow: Lane
-    room: Callable[[], float]
-    line: Line | None
+    quick: Lane  # processes for what takes some milliseconds
+    slow: Lane  # and for the rest
+    room: Callable[[], float]  # tells how large a file a task may write [bytes]
+    line: Line | None  # the connection to its page; None while it waits for one
+    # known to the page alone; a request with it counts as a request of the page
     token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
     uploads: dict[str, Upload] = field(default_factory=dict)
     allowance: Allowance = field(default_factory=lambda: Allowance(rate=200, most=800))

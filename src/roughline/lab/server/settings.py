@@ -23,52 +23,25 @@ _LONGEST_PASSWORD = 1000  # [bytes]
 
 @dataclass(frozen=True)
 class ServerSettings:
-    """What the server listens to, and what a session may take.
+    """What the server listens to, and what a session may take."""
 
-    Parameters
-    ----------
-    host : str
-        Address to listen to; another than that of this machine itself needs a password.
-    port : int
-        0 takes a free one.
-    password : str or None
-        Asked of every browser; None takes a new token instead.
-    proxies : tuple of IPv4Network and IPv6Network
-        Proxies that other machines come through, which are believed who comes; if there are any,
-        nobody comes another way.
-    max_upload : float
-        Largest file that is taken. [bytes]
-    max_points : int
-        Largest number of points along a side in the view "Explore".
-    max_seconds : float
-        Longest time of one task. [s]
-    max_memory : float
-        Most memory of one task, beside the program. [bytes]
-    memory : float
-        Most memory of all tasks together. [bytes]
-    max_disk : float or None
-        Most that the files of all sessions may take together; None takes half of what is free, at
-        most 20 GB. [bytes]
-    max_sessions : int
-        Most pages that are open at once.
-
-    Raises
-    ------
-    InputError
-        If others could reach the server without a password, or a limit makes no sense.
-    """
-
+    # address to listen to; another than that of this machine itself needs a password
     host: str = LOOPBACK
-    port: int = 5107
-    password: str | None = None
+    port: int = 5107  # 0 takes a free one
+    password: str | None = None  # asked of every browser; None takes a new token instead
+    # proxies that other machines come through, which are believed who comes; if there are any,
+    # nobody comes another way
     proxies: tuple[IPv4Network | IPv6Network, ...] = ()
-    max_upload: float = 200_000_000
-    max_points: int = 1024
-    max_seconds: float = 600.0
-    max_memory: float = 4_000_000_000
+    max_upload: float = 200_000_000  # largest file that is taken [bytes]
+    max_points: int = 1024  # largest number of points along a side in the view "Explore"
+    max_seconds: float = 600.0  # longest time of one task [s]
+    max_memory: float = 4_000_000_000  # most memory of one task, beside the program [bytes]
+    # most memory of all tasks together [bytes]
     memory: float = field(default_factory=memory_for_tasks)
+    # Most that the files of all sessions may take together; None takes half of what is free, at
+    # most 20 GB. [bytes]
     max_disk: float | None = None
-    max_sessions: int = 100
+    max_sessions: int = 100  # most pages that are open at once
 
     def __post_init__(self) -> None:
         if not self.host:

@@ -11,29 +11,16 @@ from roughline.lab.server.tasks import Place
 
 @dataclass(frozen=True)
 class Site:
-    """What a server serves.
+    """What a server serves."""
 
-    Attributes
-    ----------
-    page : callable
-        Gives the page, as HTML.
-    login_page : callable
-        Gives the page that asks for the token, or else for the password, from that choice, a word
-        on what was wrong, and the address to go on to.
-    parts : Path
-        Folder of scripts and styles.
-    figures : mapping of str to str
-        Sets of empty figures that a page embeds at once, and the module of each, whose function
-        ``figures`` draws them; the first is wanted first.
-    tasks : mapping of str to Place
-        All tasks, by the names that pages know them by.
-    warm : str
-        Module that is loaded before processes are forked; its function ``up`` loads the rest.
-    """
-
-    page: Callable[[], str]
+    page: Callable[[], str]  # gives the page, as HTML
+    # gives the page that asks for the token, or else for the password, from that choice, a word on
+    # what was wrong, and the address to go on to
     login_page: Callable[[bool, str, str], str]
-    parts: Path
+    parts: Path  # folder of scripts and styles
+    # sets of empty figures that a page embeds at once, and the module of each, whose function
+    # ``figures`` draws them; the first is wanted first
     figures: Mapping[str, str]
-    tasks: Mapping[str, Place]
+    tasks: Mapping[str, Place]  # all tasks, by the names that pages know them by
+    # module that is loaded before processes are forked; its function ``up`` loads the rest
     warm: str

@@ -36,42 +36,24 @@ Task = Callable[[Mapping[str, Any], Progress], bytes]
 
 @dataclass(frozen=True)
 class Place:
-    """Where a task is, and how it is done.
+    """Where a task is, and how it is done."""
 
-    Attributes
-    ----------
-    module, function : str
-        The module by its whole name, and the function in it.
-    is_quick : bool
-        Whether it is so short that it waits only for other quick tasks. Other tasks have a process
-        each, with limits of time and memory, and are stopped when they are no longer wanted.
-    reads_files : bool
-        Whether it reads a file that a page has sent. Its process does nothing else and then ends.
-    """
-
-    module: str
-    function: str
+    module: str  # by its whole name
+    function: str  # in it
+    # Whether it is so short that it waits only for other quick tasks. Other tasks have a process
+    # each, with limits of time and memory, and are stopped when they are no longer wanted.
     is_quick: bool = False
+    # Whether it reads a file that a page has sent. Its process does nothing else and then ends.
     reads_files: bool = False
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a task ended.
+    """How a task ended."""
 
-    Attributes
-    ----------
-    answer : bytes or None
-        The message for the page; None if there is none.
-    error : str
-        Why there is none, in one sentence; empty if there is one.
-    at : str
-        Key of the control that the sentence belongs to; empty if it belongs to none.
-    """
-
-    answer: bytes | None = None
-    error: str = ""
-    at: str = ""
+    answer: bytes | None = None  # the message for the page; None if there is none
+    error: str = ""  # why there is none, in one sentence; empty if there is one
+    at: str = ""  # key of the control that the sentence belongs to; empty if it belongs to none
 
 
 def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:

@@ -18,24 +18,14 @@ SHOWN = ("depth", "force", "stiffness", "area_fraction_corrected", "area_fractio
 
 @dataclass(frozen=True, eq=False)
 class CurveInFile:
-    """What a file with a curve holds of it.
+    """What a file with a curve holds of it."""
 
-    Attributes
-    ----------
-    file : str
-        Name of the file.
-    settings : mapping
-        How the curve was computed.
-    columns : mapping of str to ndarray, shape (loads,)
-        Those of the quantities `SHOWN` that the curve has; NaN where a load was not solved.
-    units : mapping of str to str
-        Unit of each of them.
-    """
-
-    file: str
-    settings: dict[str, Any]
+    file: str  # name of the file
+    settings: dict[str, Any]  # how the curve was computed
+    # shape (loads,): those of the quantities `SHOWN` that the curve has; NaN where a load was not
+    # solved
     columns: dict[str, Real]
-    units: dict[str, str]
+    units: dict[str, str]  # unit of each of them
 
 
 def curve_in(path: Path) -> CurveInFile | None:

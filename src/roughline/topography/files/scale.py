@@ -20,28 +20,16 @@ Sizes = float | str | Sequence[float | str]
 
 @dataclass(frozen=True, eq=False)
 class Scale:
-    """Unit and sides of a file; each is stated by the file or given by the caller.
+    """Unit and sides of a file; each is stated by the file or given by the caller."""
 
-    Attributes
-    ----------
-    file : str
-        Name of the file, for messages.
-    points : tuple of int
-        Points along each axis.
-    stated_unit, given_unit : str or None
-        Unit of all lengths, by the file and by the caller.
-    stated_sizes : tuple of float or None
-        Sides of the map, or length of the line, by the file. [unit of the file]
-    given_sizes : float, str, sequence of them, or None
-        The same by the caller; one length makes a square. Texts have units of their own, numbers
-        are in `given_unit`, and in metres without one.
-    """
-
-    file: str
-    points: tuple[int, ...]
-    stated_unit: str | None
-    given_unit: str | None
+    file: str  # name of the file, for messages
+    points: tuple[int, ...]  # points along each axis
+    stated_unit: str | None  # of all lengths, by the file
+    given_unit: str | None  # the same by the caller
+    # sides of the map, or length of the line, by the file [unit of the file]
     stated_sizes: tuple[float, ...] | None
+    # the same by the caller; one length makes a square; texts have units of their own, numbers are
+    # in `given_unit`, and in metres without one
     given_sizes: Sizes | None
 
     def obstacles(self) -> list[InputError]:

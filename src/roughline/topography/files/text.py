@@ -55,24 +55,12 @@ _HUGE = 1e30  # no height in any unit; programs write such numbers for missing p
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Rows of numbers in a text.
+    """Rows of numbers in a text."""
 
-    Attributes
-    ----------
-    head : tuple of str
-        Lines above the rows, without blank ones.
-    rows : ndarray, shape (rows, columns)
-        The numbers; NaN where a point is marked as missing.
-    separator : str or None
-        Between the numbers of a row; None for white space.
-    decimal : str
-        The decimal sign.
-    """
-
-    head: tuple[str, ...]
-    rows: Real
-    separator: str | None
-    decimal: str
+    head: tuple[str, ...]  # lines above the rows, without blank ones
+    rows: Real  # shape (rows, columns): the numbers; NaN where a point is marked as missing
+    separator: str | None  # between the numbers of a row; None for white space
+    decimal: str  # the decimal sign
 
 
 _Cells = list[tuple[int, list[str]]]
