@@ -31,7 +31,7 @@ _WORKER_BYTES = 300_000_000  # of the interpreter and its libraries
 
 
 @dataclass(frozen=True)
-class Cost:
+class _Cost:
     """Cost of computing some cases."""
 
     cases: int  # number of bodies
@@ -64,18 +64,18 @@ def chunk_shape(ensemble: Ensemble) -> tuple[int, int]:
     return min(most // realisations, len(ensemble.fractal_dimensions)), realisations
 
 
-def cost_of(plan: Plan, missing: dict[str, int]) -> Cost:
+def cost_of(plan: Plan, missing: dict[str, int]) -> _Cost:
     """Estimate the cost of what is missing, from the time of one small problem of each kind."""
     seconds, memory = 0.0, 0
     for ensemble in plan.ensembles:
         count = missing[ensemble.name]
         if count:
             seconds += count * _timed(ensemble)
-            memory = max(memory, memory_of(ensemble))
-    return Cost(sum(missing.values()), seconds, memory, disk_of(plan, missing))
+            memory = max(memory, _memory_of(ensemble))
+    return _Cost(sum(missing.values()), seconds, memory, _disk_of(plan, missing))
 
 
-def memory_of(ensemble: Ensemble) -> int:
+def _memory_of(ensemble: Ensemble) -> int:
     """Return the memory of a worker with one case of an ensemble. [bytes]"""
     if ensemble.model == "reduced":
         return _WORKER_BYTES + _LINE_BYTES * ensemble.n
@@ -87,7 +87,7 @@ def memory_of(ensemble: Ensemble) -> int:
     return _WORKER_BYTES + heights + max(pressing, _GENERATION_BYTES * ensemble.n**2)
 
 
-def disk_of(plan: Plan, missing: dict[str, int]) -> int:
+def _disk_of(plan: Plan, missing: dict[str, int]) -> int:
     """Return the size of results, before compression. [bytes]"""
     return sum(
         _bytes_on_disk(ensemble, missing[ensemble.name])
@@ -107,7 +107,7 @@ def refuse_beyond_disk(plan: Plan, missing: dict[str, int], store: Path) -> None
     folder = store.absolute()
     while not folder.exists():
         folder = folder.parent
-    needed, free = disk_of(plan, missing), shutil.disk_usage(folder).free
+    needed, free = _disk_of(plan, missing), shutil.disk_usage(folder).free
     if needed > free:
         raise StoreError(
             f"{sum(missing.values())} cases need up to {needed / 1e9:.3g} GB of disk, and "

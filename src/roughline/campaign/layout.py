@@ -18,7 +18,7 @@ FORMAT = 1
 
 PENDING, DONE, FAILED = 0, 1, 2
 
-DIMENSIONS = ("fractal_dimension", "realisation", "force_bar")
+_DIMENSIONS = ("fractal_dimension", "realisation", "force_bar")
 GALLERY = "gallery"
 GALLERY_DONE = "gallery_done"  # attribute of the root
 
@@ -31,7 +31,7 @@ class Variable:
     dtype: str  # NumPy's name of the type of its values
     fill: float  # value where nothing was written; no finished case has it
     meaning: str  # for the attributes of the array; everything in a store is dimensionless
-    dims: tuple[str, ...] = DIMENSIONS
+    dims: tuple[str, ...] = _DIMENSIONS
     of_lines: bool = True  # whether the reduced model gives it
     of_yielding: bool = False  # whether only bodies with a hardness have it
     averaged: bool = False  # whether tables of means over the realisations have it
@@ -58,7 +58,7 @@ def _of_curve(name: str, meaning: str = "", *, averaged: bool = False) -> Variab
 
 
 def _of_body(name: str, meaning: str) -> Variable:
-    return Variable(name, "f8", np.nan, meaning, DIMENSIONS[:2])
+    return Variable(name, "f8", np.nan, meaning, _DIMENSIONS[:2])
 
 
 _DECLARED = (
@@ -88,20 +88,20 @@ CASE_STATUS = Variable(
     "i1",
     PENDING,
     "0 not done, 1 done, 2 failed (reasons in the group's attribute failures)",
-    DIMENSIONS[:2],
+    _DIMENSIONS[:2],
 )
 """The mark of each case."""
 
 COORDINATES = (
-    Variable("fractal_dimension", "f8", np.nan, "D_f = 3 - H", DIMENSIONS[:1]),
+    Variable("fractal_dimension", "f8", np.nan, "D_f = 3 - H", _DIMENSIONS[:1]),
     Variable(
         "realisation",
         "i8",
         -1,
         "body i has the seed SeedSequence(seed, spawn_key=(i,))",
-        DIMENSIONS[1:2],
+        _DIMENSIONS[1:2],
     ),
-    Variable("force_bar", "f8", np.nan, QUANTITIES["force_bar"].long_name, DIMENSIONS[2:]),
+    Variable("force_bar", "f8", np.nan, QUANTITIES["force_bar"].long_name, _DIMENSIONS[2:]),
 )
 
 

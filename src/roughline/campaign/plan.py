@@ -12,8 +12,8 @@ import numpy as np
 from roughline.errors import InputError
 from roughline.spectra.self_affine import SelfAffine
 
-Model = Literal["full", "reduced"]
-Boundary = Literal["free", "periodic", "none"]
+_Model = Literal["full", "reduced"]
+_Boundary = Literal["free", "periodic", "none"]
 
 _SMALLEST, _LARGEST = 3, {"full": 2**15, "reduced": 2**28}
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
@@ -58,13 +58,13 @@ class Ensemble:
     """
 
     name: str
-    model: Model
+    model: _Model
     fractal_dimensions: tuple[float, ...]
     n: int
     realisations: int
     force_bars: tuple[float, ...]
     seed: int
-    boundary: Boundary
+    boundary: _Boundary
     roll_off_ratio: float = 1.0
     cutoff_ratio: float | None = None
     hardness_bar: float | None = None

@@ -7,16 +7,16 @@ from typing import Any, TypeVar, cast
 
 from numba import njit
 
-Loop = TypeVar("Loop", bound=Callable[..., Any])
+_Loop = TypeVar("_Loop", bound=Callable[..., Any])
 
 
-def compiled(loop: Loop) -> Loop:
+def compiled(loop: _Loop) -> _Loop:
     """Compile a loop on first use; it holds no lock, so threads may run it side by side.
 
     The machine code is kept beside the source or in the user's cache folder, so that the next
     process finds it; where neither can be written, every process compiles for itself.
     """
     try:
-        return cast(Loop, njit(cache=True, nogil=True)(loop))
+        return cast(_Loop, njit(cache=True, nogil=True)(loop))
     except RuntimeError:
-        return cast(Loop, njit(nogil=True)(loop))
+        return cast(_Loop, njit(nogil=True)(loop))

@@ -49,7 +49,7 @@ def threads() -> int:
     return _threads
 
 
-def share_out(work: Callable[[int], None], count: int) -> None:
+def _share_out(work: Callable[[int], None], count: int) -> None:
     """Call ``work(i)`` for i = 0 ... count - 1, the calls shared out over the threads."""
     workers = min(_threads, count)
     if workers <= 1:
@@ -75,7 +75,7 @@ def share_out_blocks(work: Callable[[int, int], None], count: int, size: int) ->
     if 0 < count <= size:
         work(0, count)
     else:
-        share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
+        _share_out(lambda i: work(i * size, min((i + 1) * size, count)), -(-count // size))
 
 
 @cache

@@ -11,8 +11,8 @@ from roughline.topography.repetition import border_jump
 
 # A surface that was cut out of a larger one ends where the larger one continues. Where the outer
 # frame of this width carries more than this share of the force, the part beyond it is missed.
-BORDER_WIDTH = 0.05
-BORDER_SHARE = 0.05
+_BORDER_WIDTH = 0.05
+_BORDER_SHARE = 0.05
 
 
 def border_share(contact: Contact) -> float:
@@ -23,7 +23,7 @@ def border_share(contact: Contact) -> float:
     x, y = np.divmod(contact.nodes, ny)
     within = np.minimum(np.minimum(x, nx - 1 - x) / nx, np.minimum(y, ny - 1 - y) / ny)
     borne = np.abs(contact.pressure)
-    return float(borne[within < BORDER_WIDTH].sum() / borne.sum())
+    return float(borne[within < _BORDER_WIDTH].sum() / borne.sum())
 
 
 def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:
@@ -31,7 +31,7 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
 
     Shares are NaN where a load was not solved.
     """
-    beyond = np.flatnonzero(shares > BORDER_SHARE)
+    beyond = np.flatnonzero(shares > _BORDER_SHARE)
     if not surface.is_cut_out or not beyond.size:
         return ()
     ends = [f"{end:.3g}" for end in (force[beyond].min(), force[beyond].max())]
@@ -39,7 +39,7 @@ def border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, .
     at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
     return (
         f"at {at}{unit}, up to {shares[beyond].max():.0%} of the force is carried within "
-        f"{BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: the "
+        f"{_BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: the "
         "surface beyond it would carry a part of the load, so depth, stiffness and area are those "
         "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or the "
         "periodic half-space",

@@ -36,10 +36,10 @@ _FASTEST_OF_POINTS = 4 / 3
 _NEARLY_ALL = 0.9  # of a softer body at the hardness: as far as it is loaded at most
 _FEWEST_POINTS = 4  # along a side of the coarsest grid
 
-Press = Callable[[Surface, Loads, ContactLaw], Curve]
+_Press = Callable[[Surface, Loads, ContactLaw], Curve]
 """Presses another surface under some loads, by a contact law."""
 
-Coarsen = Callable[[Surface], Surface]
+_Coarsen = Callable[[Surface], Surface]
 """Takes a surface to a coarser grid."""
 
 
@@ -94,7 +94,7 @@ class _Grids:
         return max(1.0, self.full.rms_slope / half) if half > 0 else 1.0
 
 
-def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: Press) -> Curve:
+def with_grid_error(curve: Curve, surface: Surface, loads: Loads, press: _Press) -> Curve:
     """Add to a curve the discretisation errors estimated from coarser grids.
 
     The error of a stiffness is the steepening m, by which two finer grids raise the rms slope,
@@ -212,7 +212,7 @@ def _excess(squares: Sequence[float], acceleration: float) -> float:
 
 
 def _softer(
-    grids: _Grids, steepening: float, curve: Curve, law: ContactLaw, press: Press
+    grids: _Grids, steepening: float, curve: Curve, law: ContactLaw, press: _Press
 ) -> tuple[Curve, Curve]:
     """Return curves of n / 2 points that yield as the surface does, and as a finer grid will.
 
@@ -227,7 +227,7 @@ def _softer(
     return alike, softer
 
 
-def _pressed_softer(curve: Curve, surface: Surface, law: ContactLaw, press: Press) -> Curve:
+def _pressed_softer(curve: Curve, surface: Surface, law: ContactLaw, press: _Press) -> Curve:
     """Press a surface softer under the forces of its curve, as far as it bears them."""
     known = np.isfinite(curve.force) & (np.maximum.accumulate(np.nan_to_num(curve.force)) > 0)
     if not known.any():
@@ -250,7 +250,7 @@ def _times(value: Real, error: Real) -> Real:
     return np.where(error == 0, 0.0, value * np.expm1(error))
 
 
-def _field_on(surface: Surface, coarsen: Coarsen, field: Real) -> Real:
+def _field_on(surface: Surface, coarsen: _Coarsen, field: Real) -> Real:
     """Take a field over a surface to a coarser grid."""
     return coarsen(with_heights(surface, field)).heights
 

@@ -18,7 +18,7 @@ from roughline.halfspace.laws.law import ContactLaw, refuse_pulls
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
 
-Control = Literal["depths", "forces"]
+_Control = Literal["depths", "forces"]
 """What is prescribed."""
 
 _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
@@ -34,7 +34,7 @@ _LARGEST_FIRST = 1e-3  # first of the spaced forces over the last, at most; few 
 class Loads:
     """Checked loads, in the order in which they are applied."""
 
-    control: Control  # what is prescribed
+    control: _Control  # what is prescribed
     values: Real  # [length] or [force]
 
 
@@ -118,7 +118,7 @@ def _checked_loads(given: GivenLoads) -> Loads:
     if (depths is None) == (forces is None):
         count = "no loads" if depths is None else "both depths and forces"
         raise InputError(f"{count} given; give one of depths, forces and n_loads")
-    control: Control = "forces" if depths is None else "depths"
+    control: _Control = "forces" if depths is None else "depths"
     values = checked_values(control, forces if depths is None else depths)
     if values.ndim != 1 or values.size == 0:
         raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")

@@ -10,7 +10,7 @@ import numpy as np
 
 from roughline.exact._checks import Real, positive
 
-SQUARE_CAPACITY = 0.366788
+_SQUARE_CAPACITY = 0.366788
 """Capacity of the unit square, to the last digit given."""
 
 
@@ -25,7 +25,7 @@ def square_stiffness(E_star: float, side: float) -> float:
         Side L. [length]
     """
     positive(E_star=E_star, side=side)
-    return float(np.pi * SQUARE_CAPACITY * E_star * side)
+    return float(np.pi * _SQUARE_CAPACITY * E_star * side)
 
 
 def disc_stiffness(E_star: float, radius: float) -> float:

@@ -51,7 +51,7 @@ def contact(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     surface, fields = _at_load(curve, load)
     with drawing_on(axes) as drawn:
         if fields is None:
-            say_unsolved(drawn, curve, load)
+            _say_unsolved(drawn, curve, load)
         else:
             draw_contact(drawn, surface, fields, surface.unit)
             drawn.set_title(_title(curve, load, fields), fontsize=_TITLE)
@@ -84,7 +84,7 @@ def pressure(curve: Curve, load: int = -1, axes: Axes | None = None) -> Axes:
     surface, fields = _at_load(curve, load)
     with drawing_on(axes) as drawn:
         if fields is None:
-            say_unsolved(drawn, curve, load)
+            _say_unsolved(drawn, curve, load)
         else:
             label, factor = in_unit("pressure $p$", fields.pressure, _unit_of_pressure(surface))
             shown = np.where(fields.contact, fields.pressure * factor, np.nan)
@@ -107,7 +107,7 @@ def draw_contact(axes: Axes, surface: Surface, fields: Fields, unit: str | None)
     label_sides(axes, surface, unit)
 
 
-def say_unsolved(axes: Axes, curve: Curve, load: int) -> None:
+def _say_unsolved(axes: Axes, curve: Curve, load: int) -> None:
     """Write on empty axes that a load was not solved, and why."""
     number = load % curve.status.size
     say(axes, f"load {number} was not solved\n{Status(curve.status[load]).reason}")

@@ -71,7 +71,7 @@ class Springs:
         _, counts, sums = self._binned
         return np.append(0, np.cumsum(counts)), np.append(0.0, np.cumsum(sums))
 
-    def at_depths(self, depths: Real) -> SpringsInContact:
+    def at_depths(self, depths: Real) -> _SpringsInContact:
         """Springs in contact at each depth."""
         last = self._below[0].size - 2
         bins = np.minimum(depths * self._bins_per_length, last).astype(np.intp)
@@ -79,7 +79,7 @@ class Springs:
         ends = np.searchsorted(springs.separations, depths, side="left")
         return self._in_contact(bins, springs, ends)
 
-    def under_forces(self, forces: Real) -> SpringsInContact:
+    def under_forces(self, forces: Real) -> _SpringsInContact:
         """Springs in contact under each force."""
         counts, sums = self._below
         edges = np.arange(counts.size - 1) / (self._bins_per_length or 1.0)
@@ -120,7 +120,7 @@ class Springs:
 
     def _in_contact(
         self, bins: Indices, springs: _SortedSprings, ends: Indices
-    ) -> SpringsInContact:
+    ) -> _SpringsInContact:
         """Return the springs in contact under each load.
 
         `bins` says in which bin the contact under each load ends, `ends` which of its springs is
@@ -130,7 +130,7 @@ class Springs:
         counts, sums = self._below
         position = np.minimum(ends, springs.bin.size - 1)
         inside = (ends < springs.bin.size) & (springs.bin[position] == bins)
-        return SpringsInContact(
+        return _SpringsInContact(
             np.where(inside, springs.counts[position], counts[bins + 1]),
             np.where(inside, springs.sums[position], sums[bins + 1]),
             self.spring_stiffness,
@@ -147,7 +147,7 @@ class _SortedSprings(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class SpringsInContact:
+class _SpringsInContact:
     """Springs in contact at given depths or under given forces."""
 
     count: Indices  # shape (loads,): their number

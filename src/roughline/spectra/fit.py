@@ -25,7 +25,7 @@ from roughline.spectra.self_affine import SelfAffine
 from roughline.spectra.self_affine_laws import LEAST_MEANS, Corner, Law, power_law
 from roughline.topography.body import Body, Surface
 
-Spectrum = IsotropicSpectrum | ProfileSpectrum
+_Spectrum = IsotropicSpectrum | ProfileSpectrum
 
 _LEVEL = 0.975  # of profile likelihoods; as ends are chosen too, 95 in 100 hold the truth
 _LEAST_RANGE = 3.0  # ratio of wavenumbers that a power law must span
@@ -227,7 +227,7 @@ def fit_self_affine(spectrum: IsotropicSpectrum | ProfileSpectrum) -> SelfAffine
     return fit
 
 
-def fitted(body: Body) -> tuple[Spectrum, SelfAffineFit]:
+def fitted(body: Body) -> tuple[_Spectrum, SelfAffineFit]:
     """Return the spectrum of a body and the law that fits it, computed once for each body."""
     if body not in _KNOWN:
         spectrum = isotropic_spectrum(body) if isinstance(body, Surface) else profile_spectrum(body)
@@ -235,10 +235,10 @@ def fitted(body: Body) -> tuple[Spectrum, SelfAffineFit]:
     return _KNOWN[body]
 
 
-_KNOWN: WeakKeyDictionary[Body, tuple[Spectrum, SelfAffineFit]] = WeakKeyDictionary()
+_KNOWN: WeakKeyDictionary[Body, tuple[_Spectrum, SelfAffineFit]] = WeakKeyDictionary()
 
 
-def _fitted(spectrum: Spectrum, observed: Observed, remarks: tuple[str, ...]) -> SelfAffineFit:
+def _fitted(spectrum: _Spectrum, observed: Observed, remarks: tuple[str, ...]) -> SelfAffineFit:
     """The law that explains a spectrum best, and the intervals of all that are likely."""
     q_low, last = 2 * math.pi / spectrum.length, float(observed.means.q[-1])
     laws = observed.laws
@@ -281,7 +281,7 @@ def _tail(observed: Observed, law: Law, q_low: float) -> float | None:
     return q_low * float(observed.means.q[changed.argmax()]) if changed.any() else None
 
 
-def _observed(spectrum: Spectrum) -> tuple[Observed, tuple[str, ...]]:
+def _observed(spectrum: _Spectrum) -> tuple[Observed, tuple[str, ...]]:
     """The spectrum as laws are compared with it, and what speaks against its instrument.
 
     An instrument that contradicts the spectrum's tail is taken as unknown.
@@ -306,13 +306,13 @@ def _observed(spectrum: Spectrum) -> tuple[Observed, tuple[str, ...]]:
     return unknown, (said,)
 
 
-def _compared(spectrum: Spectrum) -> Observed:
+def _compared(spectrum: _Spectrum) -> Observed:
     if isinstance(spectrum, ProfileSpectrum):
         return ScanBins.of(spectrum)
     return MapRings.of(spectrum)
 
 
-def _within_reach(spectrum: Spectrum) -> Spectrum:
+def _within_reach(spectrum: _Spectrum) -> _Spectrum:
     """The waves that a tip of known radius follows.
 
     Up to some wavenumber the rms curvature of the waves is small over that of the tip.

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from roughline.computing.arrays import Real
 
-Modes = NDArray[np.intp]
-Sides = tuple[float, float]
+_Modes = NDArray[np.intp]
+_Sides = tuple[float, float]
 
 RING_HALF_WIDTH = 0.25
 """Modes this near to a ring's wavenumber belong to it; wider rings would smear a steep spectrum."""
@@ -39,7 +39,7 @@ _OF_A_RING = 24  # modes that are computed of a large ring
 
 
 @dataclass(frozen=True, eq=False)
-class Leakage:
+class _Leakage:
     """Expected power in the longest modes of a piece, from ranges of waves of its surface. [q_low]
 
     It is that in each ring of a map, or of each function of a scan, for a spectrum of one in a
@@ -53,7 +53,7 @@ class Leakage:
 
 
 @lru_cache(maxsize=8)
-def map_leakage(aspect: float = 1.0) -> Leakage:
+def map_leakage(aspect: float = 1.0) -> _Leakage:
     """Leakage into the longest rings of a map of some Lx / Ly, the mean over all directions."""
     sides = _sides(aspect)
     reach = _REACH / min(sides)
@@ -64,7 +64,7 @@ def map_leakage(aspect: float = 1.0) -> Leakage:
     means, kept[low] = _without_plane(waves[low], sides)
     response[:_PLANE_MATTERS, low] = 2 * math.pi * waves[low] * widths[low] * means
     offset, power = _patch(8)
-    mx, my, ring = ring_modes(sides, _MODES)
+    mx, my, ring = _ring_modes(sides, _MODES)
     for k in range(_PLANE_MATTERS + 1, _MODES + 1):
         members = np.flatnonzero(ring == k)
         members = members[:: -(-members.size // _OF_A_RING)]
@@ -73,11 +73,11 @@ def map_leakage(aspect: float = 1.0) -> Leakage:
             wave = LONGER.size - 1 + ((q - LONGER[-1]) / _STEP).astype(np.intp)
             by_wave = np.bincount(wave.ravel(), power.ravel(), minlength=waves.size)
             response[k - 1] += by_wave[: waves.size] / members.size
-    return Leakage(edges, waves, response, kept)
+    return _Leakage(edges, waves, response, kept)
 
 
 @lru_cache(maxsize=1)
-def scan_leakage() -> Leakage:
+def scan_leakage() -> _Leakage:
     """Leakage into the longest waves of a line scan, those of a cosine series.
 
     Its functions are sqrt(2) cos(pi k (x + 1/2)) over a unit length, k = 2, 3, ..., with the
@@ -90,9 +90,9 @@ def scan_leakage() -> Leakage:
     left = (turn * np.sinc(waves + k / 2) + np.conj(turn) * np.sinc(waves - k / 2)) / math.sqrt(2)
     # the slope of exp(2 pi i q x) over a unit length is -6i / pi sinc'(q)
     ramp = np.where(k % 2, -2 * math.sqrt(2) / (np.pi * k) ** 2, 0.0)
-    left -= ramp * -6j / math.pi * sinc_slope(waves)
-    removed = np.sinc(waves) ** 2 + 3 / math.pi**2 * sinc_slope(waves) ** 2
-    return Leakage(edges, waves, 2 * np.abs(left) ** 2 * widths, 1 - removed)
+    left -= ramp * -6j / math.pi * _sinc_slope(waves)
+    removed = np.sinc(waves) ** 2 + 3 / math.pi**2 * _sinc_slope(waves) ** 2
+    return _Leakage(edges, waves, 2 * np.abs(left) ** 2 * widths, 1 - removed)
 
 
 @lru_cache(maxsize=8)
@@ -117,7 +117,7 @@ def power_inside(aspect: float = 1.0) -> tuple[Real, Real]:
     return edges, np.append(0.0, np.cumsum(share)) / share.sum()
 
 
-def ring_modes(sides: Sides, rings: int) -> tuple[Modes, Modes, Modes]:
+def _ring_modes(sides: _Sides, rings: int) -> tuple[_Modes, _Modes, _Modes]:
     """Numbers along x and y >= 0, and ring, of the modes that belong to rings."""
     most = [int((rings + 0.5) * side) for side in sides]
     mx, my = np.meshgrid(np.arange(-most[0], most[0] + 1), np.arange(most[1] + 1), indexing="ij")
@@ -127,7 +127,7 @@ def ring_modes(sides: Sides, rings: int) -> tuple[Modes, Modes, Modes]:
     return mx[members], my[members], ring[members]
 
 
-def hann(distance: Real) -> Real:
+def _hann(distance: Real) -> Real:
     """Amplitude that a wave has in a mode at a distance, under a Hann window of mean square 1.
 
     This is the Fourier transform of the window about its middle.
@@ -136,26 +136,26 @@ def hann(distance: Real) -> Real:
     return math.sqrt(2 / 3) * (np.sinc(distance) + around)
 
 
-def hann_slope(distance: Real) -> Real:
-    """Derivative of :func:`hann`."""
-    around = (sinc_slope(distance - 1) + sinc_slope(distance + 1)) / 2
-    return math.sqrt(2 / 3) * (sinc_slope(distance) + around)
+def _hann_slope(distance: Real) -> Real:
+    """Derivative of :func:`_hann`."""
+    around = (_sinc_slope(distance - 1) + _sinc_slope(distance + 1)) / 2
+    return math.sqrt(2 / 3) * (_sinc_slope(distance) + around)
 
 
-def sinc_slope(distance: Real) -> Real:
+def _sinc_slope(distance: Real) -> Real:
     """Derivative of sin(pi x) / (pi x)."""
     other = np.where(distance == 0, 1.0, distance)
     slope = (np.cos(np.pi * other) - np.sinc(other)) / other
     return np.where(distance == 0, 0.0, slope)
 
 
-def _without_plane(q: Real, sides: Sides) -> tuple[Real, Real]:
+def _without_plane(q: Real, sides: _Sides) -> tuple[Real, Real]:
     """Power of waves in the longest rings, over (ring, q), and the share of their mean square left.
 
     The mean plane is removed. The mean and the slopes of exp(2 pi i (x + y)) over a unit square
     are products of sinc and of its derivative, and so are the transforms of that plane.
     """
-    along_x, along_y, ring = ring_modes(sides, _PLANE_MATTERS)
+    along_x, along_y, ring = _ring_modes(sides, _PLANE_MATTERS)
     mx, my = (along.astype(np.float64) for along in (along_x, along_y))
     tilted = 3 / math.pi**2  # 12 / (2 pi)², from the transform of x over its mean square
     power, kept = np.zeros((mx.size, q.size)), np.zeros(q.size)
@@ -166,14 +166,14 @@ def _without_plane(q: Real, sides: Sides) -> tuple[Real, Real]:
                 sign * side * q * of_angle
                 for side, of_angle in zip(sides, (math.cos(angle), math.sin(angle)), strict=True)
             )
-            left = hann(mx[:, np.newaxis] - x) * hann(my[:, np.newaxis] - y)
-            left -= np.outer(hann(mx) * hann(my), np.sinc(x) * np.sinc(y))
-            left -= tilted * np.outer(hann_slope(mx) * hann(my), sinc_slope(x) * np.sinc(y))
-            left -= tilted * np.outer(hann(mx) * hann_slope(my), np.sinc(x) * sinc_slope(y))
+            left = _hann(mx[:, np.newaxis] - x) * _hann(my[:, np.newaxis] - y)
+            left -= np.outer(_hann(mx) * _hann(my), np.sinc(x) * np.sinc(y))
+            left -= tilted * np.outer(_hann_slope(mx) * _hann(my), _sinc_slope(x) * np.sinc(y))
+            left -= tilted * np.outer(_hann(mx) * _hann_slope(my), np.sinc(x) * _sinc_slope(y))
             power += left**2
         removed = (np.sinc(x) * np.sinc(y)) ** 2
-        removed += tilted * (sinc_slope(x) * np.sinc(y)) ** 2
-        removed += tilted * (np.sinc(x) * sinc_slope(y)) ** 2
+        removed += tilted * (_sinc_slope(x) * np.sinc(y)) ** 2
+        removed += tilted * (np.sinc(x) * _sinc_slope(y)) ** 2
         kept += 1 - removed
     counts = np.bincount(ring, minlength=_PLANE_MATTERS + 1)[1:]
     sums = np.zeros((_PLANE_MATTERS + 1, q.size))
@@ -185,7 +185,7 @@ def _without_plane(q: Real, sides: Sides) -> tuple[Real, Real]:
 def _patch(steps: int) -> tuple[Real, Real]:
     """Offsets from a mode along one side, and the power of the window over both sides."""
     offset = (np.arange(2 * steps * _REACH) + 0.5) / steps - _REACH
-    along = hann(offset) ** 2 / steps
+    along = _hann(offset) ** 2 / steps
     return offset, np.outer(along, along)
 
 
@@ -193,6 +193,6 @@ def _edges(last: float) -> Real:
     return np.append(LONGER, np.arange(LONGER[-1] + _STEP, last + _STEP, _STEP))
 
 
-def _sides(aspect: float) -> Sides:
+def _sides(aspect: float) -> _Sides:
     """Both sides in units of L, the root of their product."""
     return math.sqrt(aspect), 1 / math.sqrt(aspect)

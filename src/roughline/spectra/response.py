@@ -17,10 +17,10 @@ from roughline.topography.settings import Settings
 
 Pixels = Literal["means", "points"]
 
-BLURS = np.append(0.0, np.geomspace(0.2, 4.0, 26))
+_BLURS = np.append(0.0, np.geomspace(0.2, 4.0, 26))
 """Standard deviations of blurs that are tried."""
 
-AS_PIXELS = 0.3
+_AS_PIXELS = 0.3
 """Blur that acts as means over pixels do, or a little more."""
 
 _NOISES = np.geomspace(0.1, 1.4, 13)
@@ -86,7 +86,7 @@ class Responses:
         At wavenumbers u, and for surfaces of some exponents.
         """
         means, known = instrument.pixels == "means", instrument.blur is not None
-        tried = np.array([instrument.blur]) if known else BLURS
+        tried = np.array([instrument.blur]) if known else _BLURS
         sharp = tried[tried <= _FOLDS][::_EACH]
         noisy = sharp[: 1 if means else 3 : 2]
         blurs, reaches = np.array(
@@ -105,7 +105,7 @@ class Responses:
         effect = folded[:, hursts.size // 2] * np.minimum(u, 1.0) ** (1 + dimensions)  # at H = 0.5
         unknown = (_KNOWN * ((not known) * np.abs(blurred) + np.log1p(effect))) ** 2
         pixel = _pixel_means(u, dimensions) if means else 0.0
-        second = (blurs > AS_PIXELS) & (not known)
+        second = (blurs > _AS_PIXELS) & (not known)
         return cls(blurs, reaches, blurred + pixel, folded, unknown, second)
 
     def seen(self, which: int | Indices, nodes: slice, law: Real, last: Real) -> Real:

@@ -30,7 +30,7 @@ HURSTS = np.linspace(-0.49, 1.5, 200)
 NODES = np.linspace(HURSTS[0], HURSTS[-1], 25)
 """Exponents with which deviances are computed; they are smooth in between."""
 
-DESCRIPTION = 0.1
+_DESCRIPTION = 0.1
 """Relative deviations from a law, up to which a spectrum counts as following it."""
 
 IMPOSSIBLE = 1e30
@@ -76,7 +76,7 @@ class Means:
         # the means, would decide alone
         bins = _bins(q)
         in_tenth = np.bincount(bins)[bins].astype(np.float64)
-        weight = 1 / (by_chance + DESCRIPTION**2 * in_tenth)
+        weight = 1 / (by_chance + _DESCRIPTION**2 * in_tenth)
         return cls(q, np.maximum(power, floor), by_chance, weight, leaked, in_tenth)
 
     def weighed(self, unknown: Real) -> tuple[Real, Real]:
@@ -113,7 +113,7 @@ class Means:
         penalty = math.log(weight.sum() + 1) * (np.count_nonzero(known) + 1)
         return float(2 * deviance.sum() + penalty)
 
-    def deviations(self, law: Real) -> Deviations:
+    def deviations(self, law: Real) -> _Deviations:
         """Compare the powers with the logarithm of a law, -inf where it has ended."""
         bins, inside = _bins(self.q), np.isfinite(law)
         size = int(bins[-1]) + 1
@@ -127,11 +127,11 @@ class Means:
         variance = np.where(known, special.polygamma(1, safe), math.inf)
         weight = np.bincount(bins, np.where(inside, self.weight, 0.0), size)[known]
         excess = float(weight @ (value**2 - variance)[known] / weight.sum())
-        return Deviations(bins, value, variance, math.sqrt(max(0.0, excess)))
+        return _Deviations(bins, value, variance, math.sqrt(max(0.0, excess)))
 
 
 @dataclass(frozen=True, eq=False)
-class Deviations:
+class _Deviations:
     """Logarithms of a spectrum over a law, in tenths of a decade."""
 
     bins: Indices  # tenth that each mean falls in
@@ -141,7 +141,7 @@ class Deviations:
 
     def drawn(self, generator: np.random.Generator) -> Real:
         """Draw deviations of the surface itself from its law, one for each mean."""
-        of_surface = max(self.scatter, DESCRIPTION) ** 2  # variance
+        of_surface = max(self.scatter, _DESCRIPTION) ** 2  # variance
         share = of_surface / (of_surface + self.variance)
         spread = np.sqrt(of_surface * (1 - share))
         drawn = share * self.values + spread * generator.standard_normal(share.size)

@@ -21,7 +21,7 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 
-Statistic = Callable[[Real], tuple[Real, Real]]
+_Statistic = Callable[[Real], tuple[Real, Real]]
 """Takes means, shape (..., loads); returns values, shape (...), and gradients, (..., loads)."""
 
 ROUNDS = 1999
@@ -167,7 +167,7 @@ def means(values: Real, rng: int = 0) -> Resampled:
     )
 
 
-def function_of_means(values: Real, statistic: Statistic, rng: int = 0) -> Resampled:
+def function_of_means(values: Real, statistic: _Statistic, rng: int = 0) -> Resampled:
     """Resample a smooth function of the means, with its linearised standard error.
 
     Parameters

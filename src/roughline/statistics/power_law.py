@@ -18,7 +18,7 @@ from roughline.statistics.averages import Averaging, refuse_other_settings
 from roughline.statistics.bootstrap import IntervalEstimate
 from roughline.statistics.window import inside_window
 
-Value = TypeVar("Value", float, Real)
+_Value = TypeVar("_Value", float, Real)
 
 
 @public
@@ -58,7 +58,7 @@ class PowerLaw:
     interval_from: str
     averaging: Averaging = "arithmetic"
 
-    def __call__(self, force_bar: Value) -> Value:
+    def __call__(self, force_bar: _Value) -> _Value:
         """Evaluate the law."""
         return self.prefactor * force_bar**self.exponent
 
@@ -155,12 +155,12 @@ def exponent_weights(force_bar: Real, window: tuple[float, float]) -> Real:
     return weights
 
 
-def scaling_exponent(fractal_dimension: Value) -> Value:
+def scaling_exponent(fractal_dimension: _Value) -> _Value:
     """Exponent from the scaling argument, alpha = 1 / (H + 1) = 1 / (4 - D_f), eq. 14."""
     return 1 / (4 - fractal_dimension)
 
 
-def linear_exponent(fractal_dimension: Value) -> Value:
+def linear_exponent(fractal_dimension: _Value) -> _Value:
     """Exponent that the paper reads off its 3D results, alpha = 0.2567 D_f."""
     return 0.2567 * fractal_dimension
 

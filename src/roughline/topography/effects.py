@@ -33,7 +33,7 @@ def effect_of_trend(before: float, after: float) -> Settings:
 
 
 @dataclass(frozen=True)
-class Effect:
+class _Effect:
     """What a step did."""
 
     text: str  # in words
@@ -42,13 +42,13 @@ class Effect:
     is_idle: bool = False
 
 
-def effects(body: Body) -> list[Effect]:
+def effects(body: Body) -> list[_Effect]:
     """Return what each step did to the rms height and slope, and which steps changed nothing."""
     found = []
     if body.settings.get("cropped_share") == 1:
-        found.append(Effect("the crop keeps all points: it changes nothing", is_idle=True))
+        found.append(_Effect("the crop keeps all points: it changes nothing", is_idle=True))
     if body.settings.get("outliers_removed") == 0:
-        found.append(Effect("no spikes are found, so none is removed"))
+        found.append(_Effect("no spikes are found, so none is removed"))
     for step, name in _NAMES.items():
         if f"{step}_{_LEFT}height" in body.settings:
             found.append(_effect(body, step, name(body)))
@@ -60,7 +60,7 @@ def grave_effects(body: Body) -> tuple[str, ...]:
     return tuple(each.text for each in effects(body) if each.is_grave)
 
 
-def _effect(body: Body, step: str, name: str) -> Effect:
+def _effect(body: Body, step: str, name: str) -> _Effect:
     """What a step did, from the shares that the settings record."""
     left = [body.settings.get(f"{step}_{_LEFT}{of}", 1.0) for of in ("height", "slope")]
     height, slope = map(float, left)
@@ -70,12 +70,12 @@ def _effect(body: Body, step: str, name: str) -> Effect:
             verb = "lowers" if share < 1 else "raises"
             verbs.setdefault(verb, []).append(f"the rms {of} by {_per_cent(abs(share - 1))}")
     if not verbs:
-        return Effect(f"{name} changes neither rms height nor rms slope", is_idle=True)
+        return _Effect(f"{name} changes neither rms height nor rms slope", is_idle=True)
     changes = [f"{verb} {' and '.join(which)}" for verb, which in verbs.items()]
     said = f"{name} {' and '.join(changes)}"
     if step == "detrended" or height >= 1 - _MOST:
-        return Effect(said)
-    return Effect(
+        return _Effect(said)
+    return _Effect(
         f"{said}: most of the roughness is gone, and answers are those of what is left",
         is_grave=True,
     )

@@ -18,7 +18,7 @@ _OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned o
 
 
 @dataclass(frozen=True)
-class BorderJump:
+class _BorderJump:
     """Steps of a repeated surface across its borders, compared with those within."""
 
     jump: float  # Root-mean-square difference of heights across opposite borders. [length]
@@ -48,7 +48,7 @@ class BorderJump:
         )
 
 
-def border_jump(surface: Surface) -> BorderJump:
+def border_jump(surface: Surface) -> _BorderJump:
     """Measure the jump across the borders of a surface that is repeated periodically."""
     across, within = [], []
     slopes_across = slopes_within = 0.0
@@ -60,4 +60,4 @@ def border_jump(surface: Surface) -> BorderJump:
         slopes_within += float(np.sum((within[-1] / spacing) ** 2))
     jump, step = (math.sqrt(float(np.mean(np.concatenate(each) ** 2))) for each in (across, within))
     slopes = slopes_across + slopes_within
-    return BorderJump(jump, step, slopes_across / slopes if slopes else 0.0)
+    return _BorderJump(jump, step, slopes_across / slopes if slopes else 0.0)

@@ -55,7 +55,7 @@ TILT_REMOVED = ("tilt_removed_x", "tilt_removed_y")
 TILT, MOUNTING = "tilt", "mounting"
 """Name and value of the setting that says that the tilt of a body is that of its mounting."""
 
-GENERATED = "self-affine"
+_GENERATED = "self-affine"
 """First word of the origin of what was generated with a spectrum."""
 
 
@@ -65,7 +65,7 @@ def checked_cut_out(given: object, settings: Settings) -> bool | None:
         origin = str(settings.get("origin"))
         if "cropped" in settings or origin in (MEASURED, PIECE):
             return True
-        return False if origin == PERIODIC or origin.startswith(GENERATED) else None
+        return False if origin == PERIODIC or origin.startswith(_GENERATED) else None
     if not isinstance(given, bool | np.bool_):
         refuse("is_cut_out", given, "True or False is needed")
     return bool(given)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 from roughline.computing.summary import summary
 from roughline.errors.public import public
 
-COMPARED_LINES = 200
+_COMPARED_LINES = 200
 """Number of lines that are pressed beside the surfaces."""
 _SPRINGS_PER_WAVE = 128  # springs under the shortest wave, so fine that their spacing has no effect
 _LEAST_SPRINGS = 2**16
@@ -168,10 +168,10 @@ def _compare_surface(
     """Compare one surface with random lines of its spectrum."""
     spectrum = isotropic_spectrum(surface)
     springs = _SPRINGS_PER_WAVE * spectrum.q.size
-    steps = forces.size + COMPARED_LINES
+    steps = forces.size + _COMPARED_LINES
     full, resolved = _stiffness_under(forces, surface, lambda done, loads: report(done, steps))
-    stiffness = np.empty((COMPARED_LINES, 2, forces.size))
-    for i, seed in enumerate(_seeds(rng, COMPARED_LINES)):
+    stiffness = np.empty((_COMPARED_LINES, 2, forces.size))
+    for i, seed in enumerate(_seeds(rng, _COMPARED_LINES)):
         line = spectrum.line(springs, seed)
         stiffness[i] = [_stiffness_under(loads, line)[0] for loads in (forces, forces / 2)]
         report(forces.size + i + 1, steps)
@@ -188,7 +188,7 @@ def _compare_surface(
         scatter=scatter,
         resolved=resolved,
         surfaces=1,
-        lines=COMPARED_LINES,
+        lines=_COMPARED_LINES,
         warnings=tilt_warnings(surface),
     )
 
@@ -209,7 +209,7 @@ def _compare_spectrum(
         pressed.append(_stiffness_under(forces, spectrum.surface(n, seed)))
     report(surfaces, surfaces)
     full = np.array([stiffness for stiffness, _ in pressed])
-    lines = (spectrum.line(springs, seed) for seed in _seeds(rng, COMPARED_LINES))
+    lines = (spectrum.line(springs, seed) for seed in _seeds(rng, _COMPARED_LINES))
     reduced = np.array([_stiffness_under(forces, line)[0] for line in lines])
     difference, low, high = relative_difference(full, reduced, paired=False)
     return Comparison(
@@ -222,7 +222,7 @@ def _compare_spectrum(
         scatter=full.std(axis=0, ddof=1) / full.mean(axis=0),
         resolved=np.all([resolved for _, resolved in pressed], axis=0),
         surfaces=surfaces,
-        lines=COMPARED_LINES,
+        lines=_COMPARED_LINES,
     )
 
 

@@ -133,11 +133,11 @@ def _stencil(operator: Convolution, stretch: float) -> tuple[Indices, Real]:
     return offsets, np.where(centre, taps, around)
 
 
-Preconditioner = Callable[[Real], Real]
+_Preconditioner = Callable[[Real], Real]
 """Returns the change of pressure that causes a displacement; exactly so, were the inverse exact."""
 
 
-def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> Preconditioner:
+def preconditioner(inverse: ApproximateInverse, nodes: GridNodes) -> _Preconditioner:
     """Return the approximate inverse on a set of contact nodes; for few nodes it is the inverse."""
     return (_Direct if nodes.indices.size <= _DIRECT else _TwoLevels)(inverse, nodes)
 

@@ -133,7 +133,7 @@ def _within_bounds(carriers: Carriers, bounds: Bounds) -> Carriers:
 
 
 @dataclass(frozen=True, eq=False)
-class Wrong:
+class _Wrong:
     """Nodes on the wrong side of a set."""
 
     below: Mask  # touching carriers whose pressure is beyond its lower bound
@@ -148,12 +148,12 @@ class Wrong:
         each = (self.below, self.above, self.leaving, self.overlapping)
         return sum(int(np.count_nonzero(wrong)) for wrong in each)
 
-    def last_alone(self, places: Indices, watched: Indices) -> Wrong:
+    def last_alone(self, places: Indices, watched: Indices) -> _Wrong:
         """Leave only the wrong node of highest place."""
         among = places[self.below | self.above | self.leaving]
         last = max(among.max(initial=-1), watched[self.overlapping].max(initial=-1))
         alone = places == last
-        return Wrong(
+        return _Wrong(
             self.below & alone,
             self.above & alone,
             self.leaving & alone,
@@ -167,7 +167,7 @@ class _Relaxation:
     """Where conjugate gradients on the touching nodes of a trial ended."""
 
     carriers: Carriers  # with the pressures after the steps
-    wrong: Wrong
+    wrong: _Wrong
     level: float  # approach since touch that goes with the pressures [length]
     largest_error: float  # displacement that is missing on the touching nodes [length]
     steps: int  # each takes one product with the operator
@@ -277,7 +277,7 @@ class Sides:
         wrong = np.where(self.is_plastic, np.maximum(gap, 0.0), np.minimum(gap, 0.0))
         return float(outside @ outside + wrong @ wrong)
 
-    def wrong(self, pressure: Real, gap: Real, slack: float) -> Wrong:
+    def wrong(self, pressure: Real, gap: Real, slack: float) -> _Wrong:
         """Return the nodes on the wrong side of a set; up to a slack, nodes stay at their bound."""
         below, above, leaving = np.zeros((3, self.touching.size), dtype=bool)
         below[self.touching] = pressure < self.bounds.low
@@ -285,7 +285,7 @@ class Sides:
         held = gap[~self.is_watched]
         off = np.where(self.is_plastic[~self.is_watched], held, -held) > slack
         leaving[~self.touching] = off
-        return Wrong(below, above, leaving, gap[self.is_watched] < 0, held[off])
+        return _Wrong(below, above, leaving, gap[self.is_watched] < 0, held[off])
 
 
 class _ExchangeRule:
@@ -321,7 +321,7 @@ class _ExchangeRule:
         return exchanged(region, carriers, watched, wrong)
 
 
-def exchanged(region: Region, carriers: Carriers, watched: Indices, wrong: Wrong) -> Carriers:
+def exchanged(region: Region, carriers: Carriers, watched: Indices, wrong: _Wrong) -> Carriers:
     """Return carriers after wrong nodes have changed sides; their pressures are overwritten."""
     bounds, pressure = region.bounds.at(carriers.places), carriers.pressure
     pressure[wrong.above] = bounds.at(wrong.above).high

@@ -14,7 +14,7 @@ from tornado.httputil import HTTPServerRequest
 
 from roughline.lab.server.settings import ServerSettings
 
-CONTENT_POLICY = "; ".join(
+_CONTENT_POLICY = "; ".join(
     (
         "default-src 'none'",
         "script-src 'self'",
@@ -29,7 +29,7 @@ CONTENT_POLICY = "; ".join(
 """Everything is loaded from this server only, and no text of a page is run as a program."""
 
 HEADERS = {
-    "Content-Security-Policy": CONTENT_POLICY,
+    "Content-Security-Policy": _CONTENT_POLICY,
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
     "Referrer-Policy": "no-referrer",

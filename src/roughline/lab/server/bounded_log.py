@@ -19,7 +19,7 @@ _VARIES = re.compile(r"0x[0-9A-Fa-f]+|\d+(?:\.\d+)?(?:e[+-]?\d+)?|'[^']*'|\"[^\"
 _END = b"\0"
 
 
-class Limiter:
+class _Limiter:
     """Passes messages on as long as they are few.
 
     Parameters
@@ -68,7 +68,7 @@ class Limiter:
             self._write(f"… more than {_MOST_BYTES / 1000:g} kB within an hour: no more of it\n")
 
 
-class Messages:
+class _Messages:
     """Puts lines together to messages: a traceback is one, any other line is one.
 
     Parameters
@@ -164,8 +164,8 @@ def _relay(source: int, terminal: int, ending: threading.Event) -> None:
         with suppress(OSError):  # such as no room on the disk
             os.write(terminal, message.encode())
 
-    limiter = Limiter(write)
-    messages = Messages(limiter.take)
+    limiter = _Limiter(write)
+    messages = _Messages(limiter.take)
     has_ended = False
     while not has_ended:
         if sys.platform != "win32" and not select.select([source], [], [], _MINUTE)[0]:

@@ -22,7 +22,7 @@ def folder_of_files(parent: Path | None = None) -> Iterator[Path]:
     It lies among the system's temporary files, or in `parent`.
     """
     parent = parent or Path(tempfile.gettempdir())
-    remove_leftovers(parent)
+    _remove_leftovers(parent)
     root = Path(tempfile.mkdtemp(prefix=f"{_PREFIX}{os.getpid()}-", dir=parent))
     try:
         yield root
@@ -30,7 +30,7 @@ def folder_of_files(parent: Path | None = None) -> Iterator[Path]:
         shutil.rmtree(root, ignore_errors=True)
 
 
-def remove_leftovers(parent: Path) -> None:
+def _remove_leftovers(parent: Path) -> None:
     """Delete the folders of servers that no longer run; folders of other users are left alone."""
     import psutil  # here because it is wanted once
 

@@ -67,7 +67,7 @@ class Upload:
 
 
 @dataclass(eq=False)
-class Asked:
+class _Asked:
     """What a page has asked for one of its parts, until it is told the outcome."""
 
     number: int  # by which the page knows the answer
@@ -94,7 +94,7 @@ class Session:
     token: str = field(default_factory=lambda: secrets.token_urlsafe(16))
     uploads: dict[str, Upload] = field(default_factory=dict)
     allowance: Allowance = field(default_factory=lambda: Allowance(rate=200, most=800))
-    asked: dict[str, Asked] = field(default_factory=dict)
+    asked: dict[str, _Asked] = field(default_factory=dict)
 
     @property
     def folder(self) -> Path:
@@ -129,7 +129,7 @@ class Session:
             if before.outcome is not None:
                 self._tell(slot, before, before.outcome)
             return
-        asked = self.asked[slot] = Asked(number, task, arguments, self.line)
+        asked = self.asked[slot] = _Asked(number, task, arguments, self.line)
         started = last_told = time.monotonic()
 
         def progress(done: int, total: int) -> None:
@@ -203,7 +203,7 @@ class Session:
         self.uploads.clear()
         asyncio.get_running_loop().run_in_executor(None, _delete, self.folder, stopped)
 
-    def _tell(self, slot: str, asked: Asked, outcome: Outcome) -> None:
+    def _tell(self, slot: str, asked: _Asked, outcome: Outcome) -> None:
         """Tell the page how a task ended, or hold it until the page comes back and asks again."""
         if asked.line is not None and asked.line is self.line:
             if self.asked.get(slot) is asked:
@@ -220,7 +220,7 @@ class Session:
             else:
                 del self.asked[slot]  # it is done anew when it is asked again
 
-    def _reads_files(self, asked: Asked) -> bool:
+    def _reads_files(self, asked: _Asked) -> bool:
         return self.site.tasks[asked.task].reads_files
 
     def _context(self) -> dict[str, Any]:

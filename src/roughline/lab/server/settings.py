@@ -15,7 +15,7 @@ from roughline.errors.checks import refuse, shown
 from roughline.errors.words import called
 from roughline.lab.server.budget import LEAST_MEMORY, memory_for_tasks
 
-LOOPBACK = "127.0.0.1"
+_LOOPBACK = "127.0.0.1"
 LEAST_POINTS = 64
 """Fewest points along a side that a limit may leave."""
 _LONGEST_PASSWORD = 1000  # [bytes]
@@ -26,7 +26,7 @@ class ServerSettings:
     """What the server listens to, and what a session may take."""
 
     # address to listen to; another than that of this machine itself needs a password
-    host: str = LOOPBACK
+    host: str = _LOOPBACK
     port: int = 5107  # 0 takes a free one
     password: str | None = None  # asked of every browser; None takes a new token instead
     # proxies that other machines come through, which are believed who comes; if there are any,

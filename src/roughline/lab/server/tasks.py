@@ -30,7 +30,7 @@ _PROGRAM = (str(Path(__file__).parents[1]), sys.prefix)
 Progress = Callable[[int, int], None]
 """Called with (steps done, steps in all)."""
 
-Task = Callable[[Mapping[str, Any], Progress], bytes]
+_Task = Callable[[Mapping[str, Any], Progress], bytes]
 """Arguments and progress in, a message for the page out."""
 
 
@@ -59,7 +59,7 @@ class Outcome:
 def outcome_of(place: Place, arguments: Mapping[str, Any], progress: Progress) -> Outcome:
     """Do a task; a refusal and a failure become one line, without names of files and folders."""
     try:
-        task: Task = getattr(import_module(place.module), place.function)
+        task: _Task = getattr(import_module(place.module), place.function)
         return Outcome(task(arguments, progress))
     except (RoughlineError, OSError, RuntimeError) as error:
         if is_full(error):

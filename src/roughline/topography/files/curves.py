@@ -12,7 +12,7 @@ import numpy as np
 from roughline.computing.arrays import Real
 from roughline.topography.files.archives import refuse_empty_datasets
 
-SHOWN = ("depth", "force", "stiffness", "area_fraction_corrected", "area_fraction")
+_SHOWN = ("depth", "force", "stiffness", "area_fraction_corrected", "area_fraction")
 """Quantities of a curve that are shown; the first three are in all of them."""
 
 
@@ -22,7 +22,7 @@ class CurveInFile:
 
     file: str  # name of the file
     settings: dict[str, Any]  # how the curve was computed
-    # shape (loads,): those of the quantities `SHOWN` that the curve has; NaN where a load was not
+    # shape (loads,): those of the quantities `_SHOWN` that the curve has; NaN where a load was not
     # solved
     columns: dict[str, Real]
     units: dict[str, str]  # unit of each of them
@@ -37,9 +37,9 @@ def curve_in(path: Path) -> CurveInFile | None:
 
     try:
         with h5netcdf.File(path, "r") as file:
-            if "E_star" not in file.attrs or not set(SHOWN[:3]) <= set(file.variables):
+            if "E_star" not in file.attrs or not set(_SHOWN[:3]) <= set(file.variables):
                 return None
-            found = {name: file[name] for name in SHOWN if name in file.variables}
+            found = {name: file[name] for name in _SHOWN if name in file.variables}
             if any(variable.ndim != 1 for variable in found.values()):
                 return None
             return CurveInFile(
