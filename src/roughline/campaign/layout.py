@@ -13,9 +13,7 @@ import numpy as np
 from roughline.campaign.plan import Ensemble
 from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
 
-FORMAT = 1
-"""Changes when older stores can no longer be read."""
-
+FORMAT = 1  # changes when older stores can no longer be read
 PENDING, DONE, FAILED = 0, 1, 2
 
 _DIMENSIONS = ("fractal_dimension", "realisation", "force_bar")

@@ -22,9 +22,7 @@ from roughline.errors.public import public
 
 _threads = available_cores()
 
-LINES_AT_A_TIME = 64
-"""Columns, rows, or pairs of these, that fit into a core's cache."""
-
+LINES_AT_A_TIME = 64  # columns, rows, or pairs of these, that fit into a core's cache
 VALUES_AT_A_TIME = 2**15
 """Values that a thread works on: they fit into a cache; for fewer, to start it costs more."""
 

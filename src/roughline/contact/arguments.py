@@ -19,9 +19,7 @@ from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
 
-LARGEST = 1e150
-"""Beyond it, squares leave the range of double precision."""
-
+LARGEST = 1e150  # beyond it, squares leave the range of double precision
 _MOST = 10**9  # loads, points along a side, or iterations
 
 

@@ -39,8 +39,7 @@ _FEWEST_POINTS = 4  # along a side of the coarsest grid
 _Press = Callable[[Surface, Loads, ContactLaw], Curve]
 """Presses another surface under some loads, by a contact law."""
 
-_Coarsen = Callable[[Surface], Surface]
-"""Takes a surface to a coarser grid."""
+_Coarsen = Callable[[Surface], Surface]  # takes a surface to a coarser grid
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,9 +18,7 @@ from roughline.halfspace.laws.law import ContactLaw, refuse_pulls
 from roughline.reduction.springs import Springs
 from roughline.topography.body import Body, Line, Surface
 
-_Control = Literal["depths", "forces"]
-"""What is prescribed."""
-
+_Control = Literal["depths", "forces"]  # what is prescribed
 _SATURATED_FORCE_BAR = 3.0  # k is within 15 % of the punch there, for every fractal dimension
 _GAP_ROUNDING = 1e-15  # rounding of a gap over the depth, as observed
 _GAP_ROUNDING_SINGLE = 3e-6  # the same in single precision

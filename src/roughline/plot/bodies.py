@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from matplotlib.axes import Axes
 
+from roughline.computing.arrays import Real
 from roughline.errors.public import public
 from roughline.plot.pixels import thinned
 from roughline.plot.style import drawing_on
 from roughline.plot.units import in_unit
-from roughline.topography.body import Surface
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
-    from roughline.topography.body import Body
+from roughline.topography.body import Body, Surface
 
 
 @public

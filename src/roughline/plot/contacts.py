@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
+from roughline.contact.curve import Curve
+from roughline.contact.fields import Fields
 from roughline.contact.status import Status
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.plot.bodies import draw_map, extent, label_sides
 from roughline.plot.style import drawing_on
 from roughline.plot.units import in_unit
+from roughline.topography.body import Surface
 from roughline.units import decimal, digits_known, in_words
-
-if TYPE_CHECKING:
-    from roughline.contact.curve import Curve
-    from roughline.contact.fields import Fields
-    from roughline.topography.body import Surface
 
 _GAP_ELASTIC_PLASTIC = ListedColormap(["white", "black", "tab:red"])
 _TITLE = 8  # font size [pt]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
+from roughline.computing.arrays import Mask, Real
+from roughline.contact.curve import Curve
 from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
 from roughline.contact.quantity import OVER_LOADS
 from roughline.errors import InputError
@@ -14,10 +16,6 @@ from roughline.errors.public import public
 from roughline.plot.contacts import say
 from roughline.plot.style import FORCE_LABEL, OPEN, drawing_on, label_decades
 from roughline.plot.units import in_unit
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Mask, Real
-    from roughline.contact.curve import Curve
 
 _ELASTIC, _AFTER_A_LARGER = "k", "tab:blue"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -10,15 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.ticker import PercentFormatter
 
+from roughline.computing.arrays import Real
+from roughline.contact.comparison.models import Comparison
+from roughline.contact.comparison.trust import TrustMap
 from roughline.contact.comparison.trust import trust_map as published_map
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.plot.style import FORCE_LABEL, OPEN, SHADE, colours, drawing_on
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
-    from roughline.contact.comparison.models import Comparison
-    from roughline.contact.comparison.trust import TrustMap
 
 _DIFFERENCE = "$k_{3D} / k_{1D} - 1$"
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
@@ -15,12 +13,10 @@ from roughline.plot.curves import name_of
 from roughline.plot.style import SHADE, drawing_on, label_decades
 from roughline.plot.units import in_unit
 from roughline.spectra.isotropic import IsotropicSpectrum
+from roughline.spectra.profile import ProfileSpectrum
 from roughline.spectra.roughness import Roughness, roughness
-
-if TYPE_CHECKING:
-    from roughline.spectra.profile import ProfileSpectrum
-    from roughline.statistics.power_law import PowerLaw
-    from roughline.topography.body import Body
+from roughline.statistics.power_law import PowerLaw
+from roughline.topography.body import Body
 
 _MOST_ROUNDING = 1e4  # how far above that of rounding a spectrum is still rounding
 

@@ -14,9 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation
 from numpy.typing import NDArray
 
-COLUMN, PAGE = 3.5, 7.2
-"""Widths of one and two journal columns. [inch]"""
-
+COLUMN, PAGE = 3.5, 7.2  # widths of one and two journal columns [inch]
 MARKERS = "osD^vP"
 
 FORCE_LABEL = r"force $\bar F = F\,/\,(E^* h L)$"

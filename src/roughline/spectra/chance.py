@@ -13,9 +13,7 @@ from roughline.computing import fft
 from roughline.computing.arrays import Real
 from roughline.units import in_words
 
-MOST = 512
-"""Cells along a side of a map, from which correlations are taken."""
-
+MOST = 512  # cells along a side of a map, from which correlations are taken
 _LEAST_CHANCE = 1e-300
 
 

@@ -17,12 +17,8 @@ from roughline.topography.settings import Settings
 
 Pixels = Literal["means", "points"]
 
-_BLURS = np.append(0.0, np.geomspace(0.2, 4.0, 26))
-"""Standard deviations of blurs that are tried."""
-
-_AS_PIXELS = 0.3
-"""Blur that acts as means over pixels do, or a little more."""
-
+_BLURS = np.append(0.0, np.geomspace(0.2, 4.0, 26))  # standard deviations of blurs that are tried
+_AS_PIXELS = 0.3  # blur that acts as means over pixels do, or a little more
 _NOISES = np.geomspace(0.1, 1.4, 13)
 """Where white noise is as strong as the surface's waves, that is tried."""
 
@@ -55,8 +51,7 @@ class Instrument:
         )
 
 
-UNKNOWN = Instrument()
-"""An instrument of which nothing is known."""
+UNKNOWN = Instrument()  # an instrument of which nothing is known
 
 
 @dataclass(frozen=True, eq=False)

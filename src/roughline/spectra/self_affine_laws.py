@@ -21,27 +21,18 @@ from roughline.errors import InputError
 Corner = Literal["sharp", "smooth"]
 """Of a law at its roll-off: a plateau up to it, or 1 + (q / q_roll)² to a power."""
 
-CORNERS: tuple[Corner, ...] = ("sharp", "smooth")
-"""Both are tried."""
-
-HURSTS = np.linspace(-0.49, 1.5, 200)
-"""Exponents that are tried."""
-
+CORNERS: tuple[Corner, ...] = ("sharp", "smooth")  # both are tried
+HURSTS = np.linspace(-0.49, 1.5, 200)  # exponents that are tried
 NODES = np.linspace(HURSTS[0], HURSTS[-1], 25)
 """Exponents with which deviances are computed; they are smooth in between."""
 
-_DESCRIPTION = 0.1
-"""Relative deviations from a law, up to which a spectrum counts as following it."""
-
-IMPOSSIBLE = 1e30
-"""Deviance of laws that cannot be."""
-
+_DESCRIPTION = 0.1  # relative deviations from a law, up to which a spectrum counts as following it
+IMPOSSIBLE = 1e30  # deviance of laws that cannot be
 _BINS_PER_DECADE = 10  # of deviations from the law, and of the free spectrum beyond its end
 _FLOOR = 1e-14  # of the largest power: rounding
 _FARTHEST = 256  # means; a window leaks 1e-16 so far away
 _LEAKED = 3.0  # times the leakage of stronger waves; a smaller power may be leakage alone
-LEAST_MEANS = 12
-"""Means that a spectrum needs, for laws to be compared with it."""
+LEAST_MEANS = 12  # means that a spectrum needs, for laws to be compared with it
 
 
 @dataclass(frozen=True, eq=False)

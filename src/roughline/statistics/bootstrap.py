@@ -24,8 +24,7 @@ from roughline.computing.arrays import Real
 _Statistic = Callable[[Real], tuple[Real, Real]]
 """Takes means, shape (..., loads); returns values, shape (...), and gradients, (..., loads)."""
 
-ROUNDS = 1999
-"""Number of resamples."""
+ROUNDS = 1999  # number of resamples
 _LEAST_FREEDOM = 5.0  # with fewer degrees of freedom too many resamples are alike
 _ROUNDING = 1e-12  # relative errors below this are rounding: the realisations are all alike
 

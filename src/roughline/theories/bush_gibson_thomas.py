@@ -14,8 +14,7 @@ from roughline.computing.arrays import Real
 from roughline.spectra.moments import SurfaceOrSpectrum, moments
 from roughline.theories.theory_curve import TheoryCurve
 
-KAPPA = math.sqrt(2 * math.pi)
-"""Contact area at light loads: A / A_0 = KAPPA p / (E* rms |grad h|)."""
+KAPPA = math.sqrt(2 * math.pi)  # contact area at light loads: A / A_0 = KAPPA p / (E* rms |grad h|)
 
 
 def bush_gibson_thomas(roughness: SurfaceOrSpectrum, E_star: float, pressure: Real) -> TheoryCurve:

@@ -20,9 +20,7 @@ from roughline.computing.arrays import Real
 from roughline.spectra.moments import SurfaceOrSpectrum, bands
 from roughline.theories.theory_curve import TheoryCurve
 
-KAPPA = math.sqrt(8 / math.pi)
-"""Contact area at light loads: A / A_0 = KAPPA p / (E* rms |grad h|)."""
-
+KAPPA = math.sqrt(8 / math.pi)  # contact area at light loads: A / A_0 = KAPPA p / (E* rms |grad h|)
 _GAMMA = 0.45  # share of the elastic energy of full contact, Yang and Persson
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)  # within a band
 _SMALLEST, _LARGEST, _STEPS = 1e-4, 6.0, 20_000  # of the table of the energy integral

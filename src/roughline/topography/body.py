@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import is_whole, one_of, refuse, rising_pair
 from roughline.errors.public import public
@@ -35,9 +36,6 @@ from roughline.topography.settings import (
 )
 from roughline.topography.surfacetopography import fields_of_topography
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
 
 _NOT_GIVEN = (math.nan, math.nan)  # sizes
 

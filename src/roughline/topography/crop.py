@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
+from roughline.topography.settings import Settings
 from roughline.units import in_words
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
-    from roughline.topography.settings import Settings
 
 Crop = tuple[float, ...]
 """From and to along each side: (x0, x1, y0, y1) of a map, (x0, x1) of a line. [length]"""

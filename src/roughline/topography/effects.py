@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
+from roughline.topography.body import Body, BodyType
+from roughline.topography.settings import Settings
 from roughline.units import in_words
-
-if TYPE_CHECKING:
-    from roughline.topography.body import Body, BodyType
-    from roughline.topography.settings import Settings
 
 _NOTHING = 1e-3  # relative change of rms height and slope below which a step did nothing
 _MOST = 0.5  # share of the rms height whose loss is warned of

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 from roughline.units import is_unit_of_length
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
 
 _LARGEST = 1e150  # beyond it, squares of lengths leave the range of double precision
 _BLOCK = 2**16  # heights summed at a time

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
+from roughline.computing.arrays import Mask, Real
 from roughline.errors import InputError
 from roughline.errors.checks import number, one_of, refuse
 from roughline.errors.words import called
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Mask, Real
 
 Filling = Literal["harmonic", "nearest"]
 

@@ -6,15 +6,13 @@ import base64
 import io
 from collections.abc import Iterable, Sequence
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.topography.borders import whole_or_piece
 from roughline.units import MOST_DIGITS, decimal, in_words
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
 
 _WIDTH, _HEIGHT = 3.2, 1.6  # of a thumbnail [inch]
 _MOST_POINTS = 2000  # of a line in a thumbnail

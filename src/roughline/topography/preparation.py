@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from roughline.computing.arrays import Mask, Real
 from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, PreparationWarning
 from roughline.errors.checks import as_number, is_whole, positive, refuse, several
@@ -20,9 +20,6 @@ from roughline.topography.effects import effects, with_effect
 from roughline.topography.missing import Missing
 from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
 from roughline.units import in_words
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Mask, Real
 
 _TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
 _SPIKE = 5.0  # times the scatter of neighbours

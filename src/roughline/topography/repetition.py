@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from roughline.errors.words import called
+from roughline.topography.body import Surface
 from roughline.units import decimal, in_words
-
-if TYPE_CHECKING:
-    from roughline.topography.body import Surface
 
 _OUTWEIGHS = 0.5  # share of a repeated map's mean-square slope that is warned of
 

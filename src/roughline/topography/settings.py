@@ -9,15 +9,13 @@ from __future__ import annotations
 import copyreg
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, get_args
+from typing import Any, get_args
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.errors.checks import one_of, refuse
 from roughline.topography.trend import Trend, slopes_of_plane
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
 
 Settings = Mapping[str, str | int | float]
 
@@ -37,26 +35,19 @@ def read_only(settings: Settings) -> MappingProxyType[str, str | int | float]:
 # so that bodies, and curves with them, travel between processes
 copyreg.pickle(MappingProxyType, lambda settings: (read_only, (dict(settings),)))
 
-AS_RECORDED: Any = None
-"""Default of a typed field: it follows from the settings."""
-
-MEASURED = "instrument file"
-"""Origin of what an instrument measured."""
-
+AS_RECORDED: Any = None  # default of a typed field: it follows from the settings
+MEASURED = "instrument file"  # origin of what an instrument measured
 PIECE = "topography"
 """Origin of a topography of SurfaceTopography that is not periodic, so a piece of a larger one."""
 
-PERIODIC = "periodic topography"
-"""Origin of a topography of SurfaceTopography that is periodic."""
-
+PERIODIC = "periodic topography"  # origin of a topography of SurfaceTopography that is periodic
 TILT_REMOVED = ("tilt_removed_x", "tilt_removed_y")
 """Slopes of the planes that were removed from a body, along each side. [1]"""
 
 TILT, MOUNTING = "tilt", "mounting"
 """Name and value of the setting that says that the tilt of a body is that of its mounting."""
 
-_GENERATED = "self-affine"
-"""First word of the origin of what was generated with a spectrum."""
+_GENERATED = "self-affine"  # first word of the origin of what was generated with a spectrum
 
 
 def checked_cut_out(given: object, settings: Settings) -> bool | None:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.errors.checks import one_of
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
 
 Trend = Literal["none", "mean", "tilt", "curvature"]
 

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from roughline.computing.arrays import Real
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.topography.body import Surface
 from roughline.topography.settings import MEASURED, MOUNTING, TILT, TILT_REMOVED
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
 
 
 @public

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from roughline.computing.arrays import Mask, Real
+from roughline.computing.summary import summary
 from roughline.contact.comparison.single_surface import difference_of_one, scatter_of_surfaces
 from roughline.contact.comparison.trust import Difference
 from roughline.contact.press import press
 from roughline.errors.checks import refuse, refuse_other_seeds, whole
+from roughline.errors.public import public
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.realisation import refuse_points
 from roughline.spectra.self_affine import SelfAffine
@@ -22,13 +24,7 @@ from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Body, Surface
 from roughline.topography.preparation import tilt_warnings
 
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Mask, Real
-from roughline.computing.summary import summary
-from roughline.errors.public import public
-
-_COMPARED_LINES = 200
-"""Number of lines that are pressed beside the surfaces."""
+_COMPARED_LINES = 200  # number of lines that are pressed beside the surfaces
 _SPRINGS_PER_WAVE = 128  # springs under the shortest wave, so fine that their spacing has no effect
 _LEAST_SPRINGS = 2**16
 

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Real
+from roughline.computing.arrays import Real
 
 _LEAST_SCATTER = 0.01  # for saturated lines; surfaces scatter by 0.012 at F̄ = 4 and by 0.003 at 10
 _STUDENT_95 = 1.97  # Student's t for 95 % on two sides, with the freedom of 200 lines

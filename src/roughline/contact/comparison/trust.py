@@ -14,17 +14,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.errors import InputError
-from roughline.statistics.verdict import Verdict, verdict
-
-if TYPE_CHECKING:
-    from roughline.computing.arrays import Mask, Real
+from roughline.computing.arrays import Mask, Real
 from roughline.computing.summary import summary
+from roughline.errors import InputError
 from roughline.errors.public import public
+from roughline.statistics.verdict import Verdict, verdict
 
 COLUMNS = (
     "roll_off_ratio",

@@ -15,8 +15,7 @@ from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.operators.restricted import RestrictedOperator
 from roughline.halfspace.search.carriers import merged
 
-MOST_STEPS = 200
-"""Steps on one set of nodes, after which their displacement is computed afresh."""
+MOST_STEPS = 200  # steps on one set of nodes, after which their displacement is computed afresh
 
 
 class Patch:

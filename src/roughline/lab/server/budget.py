@@ -14,8 +14,7 @@ from roughline.computing.memory import free_memory
 from roughline.errors import InputError
 from roughline.lab.server.requests import Limits
 
-LEAST_MEMORY = 500_000_000
-"""Of a task that is not quick. [bytes]"""
+LEAST_MEMORY = 500_000_000  # of a task that is not quick [bytes]
 _USABLE = 0.9  # of the memory that is free when the server starts
 _SERVER = 500_000_000  # of the server itself and what all processes share [bytes]
 _PROCESS = 100_000_000  # of each process, beside its task [bytes]

@@ -42,8 +42,7 @@ class Patience:
     speed: float = 1000.0  # what has to move on average over that time [bytes / s]
 
 
-PATIENCE = Patience()
-"""What the server has."""
+PATIENCE = Patience()  # what the server has
 
 
 class Stage(IntEnum):

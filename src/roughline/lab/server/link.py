@@ -15,8 +15,7 @@ from roughline.lab.server.access import Allowance, origin_is_ours
 from roughline.lab.server.handlers import Guarded
 from roughline.lab.server.session import Session, Visit
 
-MOST_BYTES = 2**16
-"""Longest message of a page; files come another way."""
+MOST_BYTES = 2**16  # longest message of a page; files come another way
 _SLOT_LENGTH, _TEXT_LENGTH, _MOST_DEPTH = 40, 2000, 6
 _MOST_UNSENT = 10_000_000  # answers on their way to a page until its questions are held [bytes]
 _MOST_HELD = 16

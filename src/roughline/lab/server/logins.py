@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 from roughline.lab.server.access import passwords_match
 
-DAYS = 7
-"""How long a login lasts."""
+DAYS = 7  # how long a login lasts
 _MOST = 10_000  # logins that are remembered
 _TOKEN = re.compile(r"token=([^&\s]*)")
 

@@ -16,8 +16,7 @@ from roughline.errors.words import called
 from roughline.lab.server.budget import LEAST_MEMORY, memory_for_tasks
 
 _LOOPBACK = "127.0.0.1"
-LEAST_POINTS = 64
-"""Fewest points along a side that a limit may leave."""
+LEAST_POINTS = 64  # fewest points along a side that a limit may leave
 _LONGEST_PASSWORD = 1000  # [bytes]
 
 

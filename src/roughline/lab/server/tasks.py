@@ -27,9 +27,7 @@ _UNKNOWN = (
 _PROGRAM = (str(Path(__file__).parents[1]), sys.prefix)
 """Folders of the program, whose names concern nobody who uses a page."""
 
-Progress = Callable[[int, int], None]
-"""Called with (steps done, steps in all)."""
-
+Progress = Callable[[int, int], None]  # called with (steps done, steps in all)
 _Task = Callable[[Mapping[str, Any], Progress], bytes]
 """Arguments and progress in, a message for the page out."""
 

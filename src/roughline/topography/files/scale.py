@@ -14,8 +14,7 @@ from roughline.errors.checks import shown
 from roughline.errors.words import called
 from roughline.units import in_si, metres_per, refuse_decimal_comma
 
-Sizes = float | str | Sequence[float | str]
-"""Sides of a file as a caller gives them."""
+Sizes = float | str | Sequence[float | str]  # sides of a file as a caller gives them
 
 
 @dataclass(frozen=True, eq=False)

@@ -63,8 +63,7 @@ class Table:
     decimal: str  # the decimal sign
 
 
-_Cells = list[tuple[int, list[str]]]
-"""The cells of each row, with the number of its line."""
+_Cells = list[tuple[int, list[str]]]  # the cells of each row, with the number of its line
 
 
 def table_of(path: Path, name: str) -> Table | None:
