@@ -38,6 +38,7 @@ SECTIONS = {
     ),
     "Questions and answers": (
         *("Question", "Reading", "assess", "assess_body", "assess_part", "Assessment"),
+        *("Joint", "Friction", "Ultrasound", "Theories", "History", "Unloading", "WholeCurve"),
         *("PartAssessment", "material", "Material", "contact_modulus", "Rule", "rules"),
     ),
     "Statistics": ("average", "relative_difference", "fit_power_law", "PowerLaw", "find_window"),
