@@ -169,7 +169,7 @@ def question_of(said: Said, source: Source) -> Question:
     ControlError
         If a text cannot be used; it says at which control.
     """
-    given = told_in(said) | bodies_of(said) | {"whole_curve": bool(loads_of(said))}
+    given = bodies_of(said) | told_in(said) | {"whole_curve": bool(loads_of(said))}
     with at(next((key for key in _NEEDING if key in said), "")):
         return told.question_of(source.path, given, source.name)
 
