@@ -164,6 +164,8 @@ def test_sliders_and_texts_of_the_paper(pages):
         page.inner_text('#published [data-fit-error="3D"]'),
     ]
     page.click("#published-windows")  # all four edges as they were
+    # sliders move up as sentences above them go
+    page.wait_for_function("() => !document.querySelector('#published .error:not(:empty)')")
     drag_edges(page)
     page.context.close()
 
