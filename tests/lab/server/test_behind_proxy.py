@@ -197,6 +197,7 @@ def test_the_page_is_used_through_it(proxied, browser):
     assert cookie["sameSite"] == "Strict"
     rows = b"\n".join(b" ".join(b"%d" % (i * j % 7) for i in range(64)) for j in range(64))
     file = {"name": "map.txt", "mimeType": "text/plain", "buffer": rows}
+    page.wait_for_selector("#plot-measured-file >> nth=0", state="attached")  # the view is ready
     page.set_input_files("#measured [data-file]", file)
     page.wait_for_selector('#measured [data-result="file"]')
     page.goto(f"{proxied.address}/?view=explore&v=1&n=64")
