@@ -20,7 +20,7 @@ from roughline.cli.help import PanelsFirst
 from roughline.contact.quantities import QUANTITIES
 from roughline.engineering import formulas
 from roughline.engineering.materials import materials
-from roughline.engineering.rule import rules
+from roughline.engineering.rules import rules
 from roughline.exact import indenters, mdr, punch, westergaard
 from roughline.units import decimal
 

@@ -33,7 +33,7 @@ from roughline.engineering.materials import Material as Material
 from roughline.engineering.materials import material as material
 from roughline.engineering.pair import contact_modulus as contact_modulus
 from roughline.engineering.rule import Rule as Rule
-from roughline.engineering.rule import rules as rules
+from roughline.engineering.rules import rules as rules
 from roughline.errors import ClusterError as ClusterError
 from roughline.errors import ContinuumWarning as ContinuumWarning
 from roughline.errors import ConvergenceError as ConvergenceError

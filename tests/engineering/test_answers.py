@@ -17,7 +17,7 @@ from roughline.engineering.formulas import (
 from roughline.engineering.intervals import Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Pressed
-from roughline.engineering.rule import rules
+from roughline.engineering.rules import rules
 
 PAIR = MaterialPair(rl.material("steel"), rl.material("copper"))
 

@@ -18,7 +18,8 @@ from roughline.contact.selection import at_loads
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Interface, Pressed
-from roughline.engineering.rule import Answer, rules
+from roughline.engineering.rule import Answer
+from roughline.engineering.rules import rules
 from roughline.spectra.moments import Moments, moments
 from roughline.topography.body import Body, Surface
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal, get_args
 
@@ -158,10 +158,6 @@ class Rule:
     may_be_infinite: bool = False
     needs_fields: bool = False
 
-    def __reduce__(self) -> tuple[Callable[[str], Rule], tuple[str]]:
-        """Found by its key in another process: what it computes with cannot be written."""
-        return _rule_of, (self.key,)
-
     def answer(self, pressed: Pressed) -> Answer | None:
         """Work out the answer; None where there is none."""
         rows = self.value(pressed)
@@ -265,8 +261,10 @@ class Answer:
 class Rules:
     """The rules by which answers are worked out: a group at a time, in the order of pages."""
 
-    def __init__(self) -> None:
+    def __init__(self, rules: Iterable[Rule] = ()) -> None:
         self._by_key: dict[str, Rule] = {}
+        for rule in rules:
+            self.add(rule)
 
     def __iter__(self) -> Iterator[Rule]:
         """Rules one by one, group by group."""
@@ -346,12 +344,3 @@ def _why_not_used(answer: Answer, pressed: Pressed) -> str:
         value = values[np.flatnonzero(unknown)[0]]
         return f"its rule gives {value:g} under a load that was solved, which is not finite"
     return ""
-
-
-rules = Rules()
-"""By which all answers are worked out; the files of `rules/` add theirs."""
-
-
-def _rule_of(key: str) -> Rule:
-    """The rule of a key, among those that were added."""
-    return rules[key]

@@ -13,7 +13,7 @@ from roughline.assessment.hardness import Hardness, hardness_of
 from roughline.assessment.notes import meaning_of_loads, of_unknown_hardness
 from roughline.assessment.question import DEFAULT_LOADS, Question
 from roughline.assessment.reading import Reading
-from roughline.engineering.rule import rules
+from roughline.engineering.rules import rules
 from roughline.errors.words import speaking
 from roughline.lab.controls import STRANGE, ControlError
 from roughline.lab.frames import frame
