@@ -9,7 +9,8 @@ import roughline as rl
 from random_cases import cases
 from roughline.spectra.isotropic import isotropic_spectrum
 from roughline.spectra.leakage import map_leakage
-from roughline.spectra.profile import cuts_of_surface, profile_spectrum
+from roughline.spectra.profile import profile_spectrum
+from roughline.spectra.scan_bins import ScanBins
 
 Q_0 = 2 * math.pi
 
@@ -47,7 +48,7 @@ def test_pieces_of_cuts_have_the_expected_spectrum(hurst, roll):
     whole[:, 1:-1] = modes[:, 0] + 1j * modes[:, 1]
     pieces = (np.fft.irfft(whole, axis=1) * longer * n)[:, :n] + np.linspace(-9, 9, n)
     found = profile_spectrum([rl.Line(piece, 1.0, kind="profile") for piece in pieces])
-    cuts = cuts_of_surface(found.edges / Q_0)
+    cuts = ScanBins.of(found).cuts
     levels = np.where(cuts.edges[1:] < 61, np.maximum(1, cuts.q / roll) ** (-2 * (hurst + 1)), 0)
     inside = found.q < 40 * Q_0  # the end lies within a bin
     expected = (cuts.matrix @ levels)[inside] * Q_0

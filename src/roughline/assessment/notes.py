@@ -22,10 +22,10 @@ from roughline.engineering.rules.mechanical import (
     UNLOADING_STIFFNESS,
 )
 from roughline.errors.words import called
+from roughline.spectra.alike import ALIKE
 from roughline.spectra.departures import departures
 from roughline.spectra.isotropic import isotropy
 from roughline.spectra.moments import Moments
-from roughline.spectra.roughness import ALIKE
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump

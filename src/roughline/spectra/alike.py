@@ -14,6 +14,8 @@ from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Surface
 from roughline.units import in_words
 
+ALIKE = 0.7  # least over largest slope, from which on a surface counts as isotropic
+
 _VARIES = 0.05  # relative scatter of rms slopes between places that matters
 _TILES = (2, 4, 8)  # along a side, whose slopes are compared
 _NONE = 1e-6  # of the largest mean square slope: none
@@ -21,7 +23,6 @@ _LEAST_OF_TILE = 10  # independent squares of slopes in a tile
 _STRIPS = 24  # from side to side, of which the mean squares of slopes are compared
 _MOST = 0.9  # correlation of neighbouring strips
 _DRIFTS = 0.1  # logarithm of the ratio of rms slopes at both sides that matters
-_ALIKE = 0.7  # least over largest slope, from which on a surface counts as isotropic
 _LEAST_POINTS = 16  # along a side, for slopes by direction
 _CORRELATED = 3.78  # modes that vary together under a Hann window: (35 / 18)²
 
@@ -149,7 +150,7 @@ def _lay(lay: float, variance: float, wave: float, unit: str | None) -> Finding:
             f"{_ratio(lay):.2f} of the largest, and chance allows {_ratio(min(allowed, 1.0)):.2f}"
         )
 
-    return Finding(score, lay / _lay_of(_ALIKE), text)
+    return Finding(score, lay / _lay_of(ALIKE), text)
 
 
 def _lay_of(ratio: float) -> float:

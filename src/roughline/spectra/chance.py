@@ -10,8 +10,7 @@ import numpy as np
 from scipy import special
 
 from roughline.computing import fft
-from roughline.computing.arrays import Real
-from roughline.units import in_words
+from roughline.computing.arrays import Mask, Real
 
 MOST = 512  # cells along a side of a map, from which correlations are taken
 _LEAST_CHANCE = 1e-300
@@ -39,13 +38,13 @@ class Chance:
     @classmethod
     def of(cls, field: Real, reach: int) -> Chance:
         """Take the correlation of a field up to some lag along each side."""
-        count, part = field.size, fine_part(field)
+        count, part = field.size, _fine_part(field)
         field = part - part.mean()
         pairs = np.ones(())
         for n in field.shape:
             lags = np.abs(np.arange(-min(reach, n // 2), min(reach, n // 2) + 1))
             pairs = np.multiply.outer(pairs, (n - lags) / n)
-        correlation = correlated(field, reach) / pairs
+        correlation = _correlated(field, reach) / pairs
         middle = tuple(n // 2 for n in correlation.shape)
         scale = correlation[middle]
         correlation = correlation / scale if scale else correlation
@@ -60,50 +59,14 @@ class Chance:
             total /= self.own_scatter
         return self.count / max(total, 1.0)
 
-
-def in_digits(value: float) -> str:
-    """Write a number as sentences on findings do."""
-    return in_words(value, None, 2)
-
-
-def fine_part(field: Real) -> Real:
-    """Return the part of a field from which correlations are taken: all but of large maps."""
-    if field.ndim == 1:
-        return field
-    return field[tuple(slice(0, MOST) for _ in field.shape)]
-
-
-def correlated(values: Real, reach: int) -> Real:
-    """Return sums of products of values over lags up to a reach, or to half a side."""
-    lags = [min(reach, n // 2) for n in values.shape]
-    padded = [fft.good_size(n + lag) for n, lag in zip(values.shape, lags, strict=True)]
-    wide = np.zeros(padded)
-    wide[tuple(slice(0, n) for n in values.shape)] = values
-    axes = range(values.ndim)
-    sums = np.fft.irfftn(np.abs(np.fft.rfftn(wide)) ** 2, padded, axes)
-    return np.asarray(sums[np.ix_(*(np.r_[-lag : lag + 1] for lag in lags))])
-
-
-def skewness_score(skewness: float, n: float) -> float:
-    """Return the standard score of a skewness of n Gaussian values (D'Agostino 1970)."""
-    y = skewness * math.sqrt((n + 1) * (n + 3) / (6 * (n - 2)))
-    beta = 3 * (n**2 + 27 * n - 70) * (n + 1) * (n + 3) / ((n - 2) * (n + 5) * (n + 7) * (n + 9))
-    w2 = -1 + math.sqrt(2 * (beta - 1))
-    delta, alpha = 1 / math.sqrt(0.5 * math.log(w2)), math.sqrt(2 / (w2 - 1))
-    return delta * math.asinh(y / alpha)
-
-
-def kurtosis_score(kurtosis: float, n: float) -> float:
-    """Return the standard score of a kurtosis of n Gaussian values (Anscombe, Glynn 1983)."""
-    mean = 3 * (n - 1) / (n + 1)
-    variance = 24 * n * (n - 2) * (n - 3) / ((n + 1) ** 2 * (n + 3) * (n + 5))
-    x = (kurtosis - mean) / math.sqrt(variance)
-    beta = 6 * (n**2 - 5 * n + 2) / ((n + 7) * (n + 9))
-    beta *= math.sqrt(6 * (n + 3) * (n + 5) / (n * (n - 2) * (n - 3)))
-    a = 6 + 8 / beta * (2 / beta + math.sqrt(1 + 4 / beta**2))
-    root = (1 - 2 / a) / abs(1 + x * math.sqrt(2 / (a - 4)))
-    third = math.copysign(root ** (1 / 3), 1 + x * math.sqrt(2 / (a - 4)))
-    return (1 - 2 / (9 * a) - third) / math.sqrt(2 / (9 * a))
+    def scatter_within(self, places: Mask) -> float:
+        """Relative variance of the mean square of such a field over some places."""
+        part = _fine_part(places.astype(np.float64))
+        if not part.any():
+            return math.inf
+        total = float((_correlated(part, self.reach) * self.correlation**2).sum())
+        total /= self.own_scatter
+        return 2 * max(total / float(part.sum()), 1.0) / float(places.sum())
 
 
 def score_of_square(freedom: float, ratio: float) -> float:
@@ -112,3 +75,21 @@ def score_of_square(freedom: float, ratio: float) -> float:
     if over < 0.5:
         return -float(special.ndtri(max(over, _LEAST_CHANCE)))
     return float(special.ndtri(max(float(special.chdtr(freedom, freedom * ratio)), _LEAST_CHANCE)))
+
+
+def _fine_part(field: Real) -> Real:
+    """Return the part of a field from which correlations are taken: all but of large maps."""
+    if field.ndim == 1:
+        return field
+    return field[tuple(slice(0, MOST) for _ in field.shape)]
+
+
+def _correlated(values: Real, reach: int) -> Real:
+    """Return sums of products of values over lags up to a reach, or to half a side."""
+    lags = [min(reach, n // 2) for n in values.shape]
+    padded = [fft.good_size(n + lag) for n, lag in zip(values.shape, lags, strict=True)]
+    wide = np.zeros(padded)
+    wide[tuple(slice(0, n) for n in values.shape)] = values
+    axes = range(values.ndim)
+    sums = np.fft.irfftn(np.abs(np.fft.rfftn(wide)) ** 2, padded, axes)
+    return np.asarray(sums[np.ix_(*(np.r_[-lag : lag + 1] for lag in lags))])

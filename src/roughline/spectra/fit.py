@@ -15,14 +15,13 @@ from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.spectra.isotropic import IsotropicSpectrum, isotropic_spectrum
-from roughline.spectra.law_search import Observed
-from roughline.spectra.likely_laws import Interval, LikelyLaws
+from roughline.spectra.law_search import Corner, Interval, Law, LikelyLaws, Observed, power_law
 from roughline.spectra.map_rings import MapRings
+from roughline.spectra.means import LEAST_MEANS
 from roughline.spectra.profile import ProfileSpectrum, profile_spectrum
 from roughline.spectra.response import UNKNOWN
 from roughline.spectra.scan_bins import ScanBins
 from roughline.spectra.self_affine import SelfAffine
-from roughline.spectra.self_affine_laws import LEAST_MEANS, Corner, Law, power_law
 from roughline.topography.body import Body, Surface
 
 _Spectrum = IsotropicSpectrum | ProfileSpectrum

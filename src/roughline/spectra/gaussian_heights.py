@@ -8,17 +8,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from scipy import special
 
-from roughline.computing.arrays import Mask, Real
-from roughline.spectra.chance import (
-    Chance,
-    Finding,
-    correlated,
-    fine_part,
-    in_digits,
-    kurtosis_score,
-    score_of_square,
-    skewness_score,
-)
+from roughline.computing.arrays import Real
+from roughline.spectra.chance import Chance, Finding, score_of_square
 from roughline.spectra.coarser_selves import CoarserSelf
 from roughline.topography.body import Body, Surface
 from roughline.units import in_words
@@ -63,19 +54,19 @@ def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[F
 
     def skewed(limit: float) -> str:
         return (
-            f"heights are not Gaussian: the skewness of {name} is {in_digits(skewness)}, and "
-            f"chance allows {in_digits(limit * math.sqrt(6 / third))}"
+            f"heights are not Gaussian: the skewness of {name} is {_in_digits(skewness)}, and "
+            f"chance allows {_in_digits(limit * math.sqrt(6 / third))}"
         )
 
     def tailed(limit: float) -> str:
         return (
-            f"heights are not Gaussian: the kurtosis of {name} is {in_digits(kurtosis)}, and "
-            f"chance allows 3 with {in_digits(limit * math.sqrt(24 / fourth))} more or less"
+            f"heights are not Gaussian: the kurtosis of {name} is {_in_digits(kurtosis)}, and "
+            f"chance allows 3 with {_in_digits(limit * math.sqrt(24 / fourth))} more or less"
         )
 
-    yield Finding(skewness_score(skewness, third), abs(skewness) / _SKEW, skewed)
+    yield Finding(_skewness_score(skewness, third), abs(skewness) / _SKEW, skewed)
     gravity = (kurtosis - 3) / (excess if kurtosis > 3 else -_LACK)
-    yield Finding(kurtosis_score(kurtosis, fourth), gravity, tailed)
+    yield Finding(_kurtosis_score(kurtosis, fourth), gravity, tailed)
 
 
 def skewness_and_kurtosis(values: Real) -> tuple[float, float]:
@@ -90,6 +81,28 @@ def skewness_and_kurtosis(values: Real) -> tuple[float, float]:
         float((deviation**3).mean()) / variance**1.5,
         float((deviation**4).mean()) / variance**2,
     )
+
+
+def _skewness_score(skewness: float, n: float) -> float:
+    """Standard score of a skewness of n Gaussian values (D'Agostino 1970)."""
+    y = skewness * math.sqrt((n + 1) * (n + 3) / (6 * (n - 2)))
+    beta = 3 * (n**2 + 27 * n - 70) * (n + 1) * (n + 3) / ((n - 2) * (n + 5) * (n + 7) * (n + 9))
+    w2 = -1 + math.sqrt(2 * (beta - 1))
+    delta, alpha = 1 / math.sqrt(0.5 * math.log(w2)), math.sqrt(2 / (w2 - 1))
+    return delta * math.asinh(y / alpha)
+
+
+def _kurtosis_score(kurtosis: float, n: float) -> float:
+    """Standard score of a kurtosis of n Gaussian values (Anscombe, Glynn 1983)."""
+    mean = 3 * (n - 1) / (n + 1)
+    variance = 24 * n * (n - 2) * (n - 3) / ((n + 1) ** 2 * (n + 3) * (n + 5))
+    x = (kurtosis - mean) / math.sqrt(variance)
+    beta = 6 * (n**2 - 5 * n + 2) / ((n + 7) * (n + 9))
+    beta *= math.sqrt(6 * (n + 3) * (n + 5) / (n * (n - 2) * (n - 3)))
+    a = 6 + 8 / beta * (2 / beta + math.sqrt(1 + 4 / beta**2))
+    root = (1 - 2 / a) / abs(1 + x * math.sqrt(2 / (a - 4)))
+    third = math.copysign(root ** (1 / 3), 1 + x * math.sqrt(2 / (a - 4)))
+    return (1 - 2 / (9 * a) - third) / math.sqrt(2 / (9 * a))
 
 
 def _slopes_of_the_highest(body: Body, own: CoarserSelf) -> Iterable[Finding]:
@@ -109,7 +122,7 @@ def _slopes_of_the_highest(body: Body, own: CoarserSelf) -> Iterable[Finding]:
         if not count:
             continue
         variance = sum(
-            (float((each**2).mean()) / mean) ** 2 * _scatter_within(highest, chance)
+            (float((each**2).mean()) / mean) ** 2 * chance.scatter_within(highest)
             for each, chance in zip(slopes, chances, strict=True)
         )
         if variance > 2 / _LEAST_SLOPES:
@@ -127,16 +140,6 @@ def _mean_and_slopes(heights: Real) -> tuple[Real, list[Real]]:
     return (along[:, 1:] + along[:, :-1]) / 4, slopes
 
 
-def _scatter_within(places: Mask, chance: Chance) -> float:
-    """Relative variance of the mean square of a Gaussian field over some places."""
-    part = fine_part(places.astype(np.float64))
-    if not part.any():
-        return math.inf
-    total = float((correlated(part, chance.reach) * chance.correlation**2).sum())
-    total /= chance.own_scatter
-    return 2 * max(total / float(part.sum()), 1.0) / float(places.sum())
-
-
 def _as_of_all(places: str, ratio: float, variance: float) -> Finding:
     """Judge the mean square slope of the highest places over that of all."""
     shape = 2 / variance  # of a chi-squared variable with as many degrees of freedom
@@ -149,8 +152,12 @@ def _as_of_all(places: str, ratio: float, variance: float) -> Finding:
         )
         return (
             f"heights are not Gaussian: the rms slope of {places} is "
-            f"{in_digits(math.sqrt(ratio))} of that of all, and chance allows {in_digits(least)} "
-            f"to {in_digits(most)}"
+            f"{_in_digits(math.sqrt(ratio))} of that of all, and chance allows {_in_digits(least)} "
+            f"to {_in_digits(most)}"
         )
 
     return Finding(score, abs(math.log(max(ratio, 1e-9))) / 2 / _AS_OF_ALL, text)
+
+
+def _in_digits(value: float) -> str:
+    return in_words(value, None, 2)

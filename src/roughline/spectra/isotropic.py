@@ -13,9 +13,9 @@ from roughline.computing.arrays import Real
 from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.public import public
-from roughline.spectra import synthesis
 from roughline.spectra.leakage import RING_HALF_WIDTH
 from roughline.spectra.response import UNKNOWN, Instrument
+from roughline.spectra.synthesis import Seed, random_line
 from roughline.topography.body import Line, Surface
 from roughline.topography.settings import Settings
 
@@ -88,7 +88,7 @@ class IsotropicSpectrum:
         """Spectrum of the line of the reduction method, pi q C_2d, the paper's eq. 7. [length³]"""
         return np.pi * self.q * self.C_2d
 
-    def line(self, n: int, rng: synthesis.Seed = None) -> Line:
+    def line(self, n: int, rng: Seed = None) -> Line:
         """Generate a random reduced line, scaled to the rms height of the surface.
 
         Parameters
@@ -108,9 +108,7 @@ class IsotropicSpectrum:
             raise InputError(f"n is {n}; the spectrum's {self.q.size} waves need {least} or more")
         moduli = np.zeros((n - 1) // 2)
         moduli[: self.q.size] = np.sqrt(self.C_reduced)
-        phases, _ = synthesis.generators(rng)
-        scale = self.rms_height / synthesis.rms_of(moduli)
-        heights = synthesis.line_heights(moduli, phases, scale, n)
+        heights = random_line(moduli, self.rms_height, n, rng)
         settings: Settings = {"origin": "reduced line of a surface's spectrum", "n": int(n)}
         return Line(heights, self.length, settings=settings, is_cut_out=False)
 

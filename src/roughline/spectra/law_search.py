@@ -1,34 +1,163 @@
-"""A measured spectrum compared with self-affine laws: which of them explain it about as well."""
+"""Self-affine laws compared with a measured spectrum: which of them explain it about as well.
+
+Wavenumbers are in units of q_low = 2 pi / L here, and powers are those of modes, as in `means`.
+"""
 
 from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import ClassVar
+from typing import ClassVar, Literal, NamedTuple
 
 import numpy as np
+from scipy import special
 
 from roughline.computing import linear_algebra
 from roughline.computing.arrays import Indices, Mask, Real
+from roughline.spectra.means import Means
 from roughline.spectra.response import Instrument, Responses
-from roughline.spectra.self_affine_laws import (
-    CORNERS,
-    HURSTS,
-    IMPOSSIBLE,
-    NODES,
-    Corner,
-    Law,
-    Laws,
-    Means,
-)
+
+Corner = Literal["sharp", "smooth"]
+"""Of a law at its roll-off: a plateau up to it, or 1 + (q / q_roll)² to a power."""
+
+Interval = tuple[float, float]
+IMPOSSIBLE = 1e30  # deviance of laws that cannot be
+
+_CORNERS: tuple[Corner, ...] = ("sharp", "smooth")  # both are tried
+_HURSTS = np.linspace(-0.49, 1.5, 200)  # exponents that are tried
+_NODES = np.linspace(_HURSTS[0], _HURSTS[-1], 25)
+"""Exponents with which deviances are computed; they are smooth in between."""
 
 _MARGIN = 15.0  # of deviances in which a law may still turn out to be likely
 _FEW_NODES = slice(None, None, 3)  # exponents of a first search
 _FEW_ROLLS = 4  # from roll-off to roll-off in the first search
 _FEW_ENDS = 6  # that are tried in the first search
 _FEW_BLURS = 2  # from blur to blur with which all ends are tried; a blurred law may end too
+
+
+def power_law(q: Real, hursts: Real, roll: float, corner: Corner = "sharp") -> Real:
+    """Logarithm of C_2d with a plateau of one, over (hurst, q)."""
+    if corner == "smooth":
+        return np.outer(-(hursts + 1), np.log1p((q / roll) ** 2))
+    return np.outer(-2 * (hursts + 1), np.log(np.maximum(1.0, q / roll)))
+
+
+class Law(NamedTuple):
+    """A law with what explains how it appears in a spectrum."""
+
+    hurst: float
+    roll: float
+    end: float
+    corner: Corner
+    response: int  # number of what the instrument does
+
+
+@dataclass(frozen=True, eq=False)
+class Laws:
+    """Deviances of laws from a spectrum, each at its best level, corner and response.
+
+    A deviance is minus twice the logarithm of the likelihood, up to a constant. Arrays are over
+    (exponent of :data:`_HURSTS`, roll-off, end).
+    """
+
+    rolls: Real  # those up to 1 are beyond the longest waves of the piece
+    ends: Real  # infinite if the law goes on beyond the shortest waves
+    margins: Real  # distance to the next end that was tried
+    deviance: Real  # infinite for laws that are far from the spectrum
+    log_level: Real  # logarithm of the power of a mode on the plateau
+    explained: Indices  # which explanation is the best
+    explanations: Sequence[tuple[Corner, int]]  # corner and response
+    of_responses: Real  # least deviance of the laws that each response of the instrument explains
+
+    @cached_property
+    def best(self) -> tuple[int, int, int]:
+        """Indices of the law that explains most."""
+        hurst, roll, end = np.unravel_index(np.argmin(self.deviance), self.deviance.shape)
+        return int(hurst), int(roll), int(end)
+
+    def at(self, hurst: int, roll: int, end: int) -> Law:
+        """The law of some indices, with its best explanation."""
+        corner, response = self.explanations[self.explained[hurst, roll, end]]
+        h, q_roll, q_end = map(float, (_HURSTS[hurst], self.rolls[roll], self.ends[end]))
+        return Law(h, q_roll, q_end, corner, response)
+
+    def drawn(self, count: int, generator: np.random.Generator) -> tuple[Indices, Indices, Indices]:
+        """Draw laws by their likelihood, as indices.
+
+        All exponents are equally likely beforehand, and so are all logarithms of roll-offs.
+        """
+        likelihood = np.exp((self.deviance.min() - self.deviance) / 2)
+        likelihood *= np.gradient(np.log(self.rolls))[:, np.newaxis]
+        chances = likelihood.ravel() / likelihood.sum()
+        flat = generator.choice(chances.size, count, p=chances)
+        hurst, roll, end = np.unravel_index(flat, self.deviance.shape)
+        return hurst, roll, end
+
+
+@dataclass(frozen=True, eq=False)
+class LikelyLaws:
+    """Laws that explain a spectrum hardly worse than the best one."""
+
+    laws: Laws  # all that were tried
+    hursts: Indices  # of each likely law
+    rolls: Indices
+    ends: Indices
+    responses: Indices  # what the instrument may do with one of them
+
+    @classmethod
+    def of(cls, laws: Laws, level: float) -> LikelyLaws:
+        """Take the laws within a level of the profile likelihood."""
+        # a chi-squared variable with one degree of freedom is twice a gamma variable of shape 1/2
+        most = 2 * special.gammaincinv(0.5, level)
+        most += laws.deviance.min()
+        responses = np.flatnonzero(laws.of_responses <= most)
+        hursts, rolls, ends = np.nonzero(laws.deviance <= most)
+        return cls(laws, hursts, rolls, ends, responses)
+
+    @property
+    def hurst_interval(self) -> Interval:
+        """Exponents of likely laws, and one step further, as those between were not tried. [1]"""
+        step = _HURSTS[1] - _HURSTS[0]
+        return float(_HURSTS[self.hursts.min()] - step), float(_HURSTS[self.hursts.max()] + step)
+
+    @property
+    def roll_interval(self) -> Interval:
+        """Roll-offs of likely laws, and the next that was tried on either side. [q_low]
+
+        It begins at zero if a likely law has its roll-off beyond the longest waves of the piece.
+        """
+        tried, first, last = self.laws.rolls, self.rolls.min(), self.rolls.max()
+        begin = tried[max(first - 1, 0)] if tried[first] > 1 else 0.0
+        end = tried[min(last + 1, tried.size - 1)]
+        return float(begin), float(max(end, 1.0))
+
+    @property
+    def end_interval(self) -> Interval:
+        """Ends of likely laws, with their margins; infinite if one has no end. [q_low]"""
+        ends, margins = self.laws.ends, self.laws.margins
+        return float((ends - margins)[self.ends].min()), float((ends + margins)[self.ends].max())
+
+    def blur_interval(self, blurs: Real) -> Interval:
+        """Blurs of likely responses, and the next that was tried on either side. [spacings]"""
+        tried = np.unique(blurs)
+        likely = np.searchsorted(tried, blurs[self.responses])
+        first, last = int(likely.min()), int(likely.max())
+        return float(tried[max(first - 1, 0)]), float(tried[min(last + 1, tried.size - 1)])
+
+    def outline(self) -> Iterator[tuple[int, int, int]]:
+        """Give the likely laws with the least and largest exponent and end at each roll-off."""
+        for roll in np.unique(self.rolls):
+            of_roll = np.flatnonzero(self.rolls == roll)
+            corners = {
+                int(of_roll[find(values[of_roll])])
+                for values in (self.hursts, self.ends)
+                for find in (np.argmin, np.argmax)
+            }
+            for each in sorted(corners):
+                yield int(self.hursts[each]), int(roll), int(self.ends[each])
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +217,7 @@ class Observed(ABC):
     @cached_property
     def responses(self) -> Responses:
         """What the instrument may do, at the means and at all exponents that are computed."""
-        return Responses.of(self.instrument, self.means.q / self.nyquist, NODES, self.dimensions)
+        return Responses.of(self.instrument, self.means.q / self.nyquist, _NODES, self.dimensions)
 
     @cached_property
     def _weights(self) -> tuple[Real, Real]:
@@ -111,7 +240,7 @@ class Observed(ABC):
         values, last = self.expected(np.array([hurst]), roll, corner, np.array([end]))
         power = values[0, :, 0]
         if seen:
-            node = int(np.abs(NODES - hurst).argmin())
+            node = int(np.abs(_NODES - hurst).argmin())
             nodes = slice(node, node + 1)
             power = self.responses.seen(response, nodes, values[:, :, 0], last)[0]
         return np.where(self.means.q <= end, power, -math.inf)
@@ -123,7 +252,7 @@ class Observed(ABC):
         means, at = self.means, self.ends.at[ends]
         weight, added = (each[responses] for each in self._weights)
         inside, log_share = self.ends.inside[ends].T, self.ends.log_share[ends].T
-        law, last = self.expected(NODES[nodes], roll, corner, at)
+        law, last = self.expected(_NODES[nodes], roll, corner, at)
         shares = self.responses.log_share[responses]
         total = (weight @ inside)[:, np.newaxis]
         scaled = weight * means.power * np.exp(-shares)
@@ -155,26 +284,26 @@ class Observed(ABC):
                 self.deviances(corner, float(roll), _FEW_NODES, responses, ends)[0]
                 for roll in rolls
             ]
-            finer = _between(NODES[_FEW_NODES].tobytes(), NODES.tobytes())
+            finer = _between(_NODES[_FEW_NODES].tobytes(), _NODES.tobytes())
             return np.array([(finer @ each).min(axis=1) for each in tried])
 
         of_ends = least("sharp", blurs, np.arange(none + 1)).min(axis=(0, 1))
         few = np.append(np.argsort(of_ends[:-1], kind="stable")[:_FEW_ENDS], none)
-        found = np.array([least(corner, every, few).min(axis=2) for corner in CORNERS])
+        found = np.array([least(corner, every, few).min(axis=2) for corner in _CORNERS])
         most = float(found.min()) + _MARGIN
         return found <= most, np.append(np.flatnonzero(of_ends[:-1] <= most), none)
 
     def _second_search(self, kept: Mask, ends: Indices) -> Laws:
         """Compare the spectrum with all laws between those that were found."""
-        shape = (HURSTS.size, self.rolls.size, ends.size)
+        shape = (_HURSTS.size, self.rolls.size, ends.size)
         deviance, log_level = np.full(shape, np.inf), np.zeros(shape)
         explained = np.zeros(shape, dtype=np.intp)
         explanations: list[tuple[Corner, int]] = []
         of_responses = np.full(kept.shape[-1], np.inf)
-        finer = _between(NODES.tobytes(), HURSTS.tobytes())
+        finer = _between(_NODES.tobytes(), _HURSTS.tobytes())
         for j, roll in enumerate(self.rolls):
             around = slice(j // _FEW_ROLLS, -(-j // _FEW_ROLLS) + 1)
-            for i, corner in enumerate(CORNERS):
+            for i, corner in enumerate(_CORNERS):
                 which = np.flatnonzero(kept[i, around].any(axis=0))
                 if which.size == 0:
                     continue

@@ -21,9 +21,8 @@ _Sides = tuple[float, float]
 
 RING_HALF_WIDTH = 0.25
 """Modes this near to a ring's wavenumber belong to it; wider rings would smear a steep spectrum."""
-LONGEST = 1 / 16  # wavenumber of the longest waves that leave a trace in a piece [q_low]
-LONGER = np.geomspace(LONGEST, 0.5, 13)
-"""Ends of the ranges of waves that are longer than the piece. [q_low]"""
+LONGER = np.geomspace(1 / 16, 0.5, 13)
+"""Ends of the ranges of waves that are longer than the piece and leave a trace in it. [q_low]"""
 
 LONG_WAVES = 8  # wavenumber up to which a line scan's waves are those of a cosine series [q_low]
 _MODES = 48  # from the longest; beyond, a power law is smeared by less than 0.3 %

@@ -10,9 +10,9 @@ import numpy as np
 
 from roughline.computing.arrays import Real
 from roughline.spectra.isotropic import IsotropicSpectrum
-from roughline.spectra.law_search import Ends, Observed
-from roughline.spectra.leakage import LONGER, LONGEST, map_leakage, power_inside
-from roughline.spectra.self_affine_laws import LEAST_MEANS, Corner, Law, Means, power_law
+from roughline.spectra.law_search import Corner, Ends, Law, Observed, power_law
+from roughline.spectra.leakage import LONGER, map_leakage, power_inside
+from roughline.spectra.means import LEAST_MEANS, Means
 
 _CORRELATED = 2.4  # modes of a ring that vary together under a Hann window
 _ROLLS_PER_DECADE = 40
@@ -50,7 +50,7 @@ class MapRings(Observed):
     def rolls(self) -> Real:
         """Roll-offs to try, closer to each other than the rings where these are few."""
         last = max(float(self.means.q[-1]) / 2, 4.0)
-        longer = np.geomspace(LONGEST, 1, 9)[:-1] if self.windowed else np.zeros(0)
+        longer = np.geomspace(LONGER[0], 1, 9)[:-1] if self.windowed else np.zeros(0)
         count = max(2, round(_ROLLS_PER_DECADE * math.log10(last / 4)))
         return np.concatenate([longer, np.arange(1.0, 4.0, 0.25), np.geomspace(4, last, count)])
 

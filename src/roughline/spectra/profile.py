@@ -1,11 +1,10 @@
-"""Line scans: the spectrum of a straight cut, and the surface's spectrum behind it."""
+"""Line scans: the spectrum of straight cuts."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from scipy import fft
@@ -15,16 +14,13 @@ from roughline.computing.summary import summary
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, several
 from roughline.errors.public import public
-from roughline.spectra.leakage import LONG_WAVES, LONGER, scan_leakage
+from roughline.spectra.leakage import LONG_WAVES
 from roughline.spectra.response import UNKNOWN, Instrument
 from roughline.topography.body import Line
 
 _BINS_PER_DECADE = 20
 _LEAST_POINTS = 64
-_WITHIN = 8  # wavenumbers that a mean over a bin is of
 _FLAT = 1e-12  # rms over the whole height, tilt included, below which it is rounding
-_BEYOND = np.array([1.25, 1.6, 2, 4, 8, 32])  # times the shortest wavenumber of a cut
-_DECAY = 3  # of C_2d within a bin, between those of H = 0 and H = 1: 2 and 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,48 +64,6 @@ class ProfileSpectrum:
     def __post_init__(self) -> None:
         if not self.spacing:
             object.__setattr__(self, "spacing", math.pi / float(self.edges[-1]))
-
-
-@dataclass(frozen=True, eq=False)
-class Cuts:
-    """Expected spectrum of straight cuts, from levels of the surface's spectrum.
-
-    Wavenumbers are in units of the cut's q_low. C_2d has its levels at geometric middles of ranges
-    in which it falls like q^-3. They begin with waves that are longer than the cut, go on with its
-    own, and end beyond the shortest.
-    """
-
-    edges: Real  # of the ranges
-    q: Real  # their geometric middles
-    matrix: Real  # C_profile as :func:`profile_spectrum` estimates it, over (mean, level)
-    mean_square: Real  # expected of the heights, without mean and tilt, for a level of one
-
-
-def cuts_of_surface(edges: Real) -> Cuts:
-    """Compute the spectrum that cuts of a surface are expected to have.
-
-    C_profile follows by Abel's integral, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). The longest
-    waves are smeared by the ends of the cut and by the tilt that is removed. The edges are those of
-    a :class:`ProfileSpectrum`. [q_low]
-    """
-    ends = np.concatenate([LONGER, edges, edges[-1] * _BEYOND])
-    low, high = ends[:-1], ends[1:]
-    q = np.sqrt(low * high)
-
-    def cut(at: Real) -> Real:
-        at = at[:, np.newaxis]
-        return 2 * q**_DECAY * (_integral(at, high) - _integral(at, np.maximum(low, at)))
-
-    leakage = scan_leakage()
-    matrix = [leakage.response @ cut(leakage.waves)]
-    shares = (np.arange(_WITHIN) + 0.5) / _WITHIN
-    for first, last in pairwise(edges[leakage.response.shape[0] :]):
-        matrix.append(cut(first + shares * (last - first)).mean(axis=0, keepdims=True))
-    long = 2 * np.diff(leakage.edges)[:, np.newaxis] * cut(leakage.waves)
-    # of waves beyond the longest modes, the mean and the tilt take nothing
-    whole = 2 * math.pi * q**_DECAY * (1 / low - 1 / high)
-    short = np.where(high > leakage.edges[-1], whole - long.sum(axis=0), 0.0)
-    return Cuts(ends, q, np.concatenate(matrix), leakage.kept @ long + short)
 
 
 @public
@@ -171,9 +125,3 @@ def profile_spectrum(lines: Line | Sequence[Line]) -> ProfileSpectrum:
         spacing=first.length / n,
         instrument=Instrument.of(first.settings, first.length / n),
     )
-
-
-def _integral(q: Real, end: Real) -> Real:
-    """Integral of q'^-2 / sqrt(q'² - q²) from q to an end; zero for ends below q."""
-    end = np.maximum(end, q)
-    return np.sqrt(end**2 - q**2) / (q**2 * end)

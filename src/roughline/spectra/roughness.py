@@ -19,8 +19,6 @@ from roughline.spectra.profile import ProfileSpectrum
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.borders import border_doubts
 
-ALIKE = 0.7  # minor over major slope, from which on a surface counts as isotropic
-
 
 @dataclass(frozen=True, eq=False)
 class Roughness:

@@ -6,22 +6,16 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
 from roughline.computing.arrays import Indices, Real
-from roughline.spectra.law_search import Ends, Observed
-from roughline.spectra.leakage import LONG_WAVES, map_leakage
+from roughline.spectra.law_search import IMPOSSIBLE, Corner, Ends, Law, Observed, power_law
+from roughline.spectra.leakage import LONG_WAVES, LONGER, map_leakage, scan_leakage
 from roughline.spectra.map_rings import modes_of_surface
-from roughline.spectra.profile import Cuts, ProfileSpectrum, cuts_of_surface
-from roughline.spectra.self_affine_laws import (
-    IMPOSSIBLE,
-    LEAST_MEANS,
-    Corner,
-    Law,
-    Means,
-    power_law,
-)
+from roughline.spectra.means import LEAST_MEANS, Means
+from roughline.spectra.profile import ProfileSpectrum
 
 _NOTHING = 1e-300  # replaces a power of zero where logarithms are taken
 _LEAST_LEFT = 0.01  # of a scan's mean square
@@ -29,6 +23,57 @@ _SAME = 1 + 1e-9  # ratio of equal wavenumbers, with rounding
 _TIMES_AS_LONG = 2  # as a scan, are the periodic lines that cuts are taken from
 _TABLED = 80  # wavenumbers of a drawn spectrum of cuts
 _CORRELATED = 35 / 18  # modes that vary together under a Hann window: 1 + 2 (4/9 + 1/36)
+_WITHIN = 8  # wavenumbers that a mean over a bin is of
+_BEYOND = np.array([1.25, 1.6, 2, 4, 8, 32])  # times the shortest wavenumber of a cut
+_DECAY = 3  # of C_2d within a bin, between those of H = 0 and H = 1: 2 and 4
+
+
+@dataclass(frozen=True, eq=False)
+class _Cuts:
+    """Expected spectrum of straight cuts, from levels of the surface's spectrum.
+
+    Wavenumbers are in units of the cut's q_low. C_2d has its levels at geometric middles of ranges
+    in which it falls like q^-3. They begin with waves that are longer than the cut, go on with its
+    own, and end beyond the shortest.
+    """
+
+    edges: Real  # of the ranges
+    q: Real  # their geometric middles
+    matrix: Real  # C_profile as :func:`profile_spectrum` estimates it, over (mean, level)
+    mean_square: Real  # expected of the heights, without mean and tilt, for a level of one
+
+
+def _cuts_of_surface(edges: Real) -> _Cuts:
+    """Compute the spectrum that cuts of a surface are expected to have.
+
+    C_profile follows by Abel's integral, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). The longest
+    waves are smeared by the ends of the cut and by the tilt that is removed. The edges are those of
+    a :class:`ProfileSpectrum`. [q_low]
+    """
+    ends = np.concatenate([LONGER, edges, edges[-1] * _BEYOND])
+    low, high = ends[:-1], ends[1:]
+    q = np.sqrt(low * high)
+
+    def cut(at: Real) -> Real:
+        at = at[:, np.newaxis]
+        return 2 * q**_DECAY * (_integral(at, high) - _integral(at, np.maximum(low, at)))
+
+    leakage = scan_leakage()
+    matrix = [leakage.response @ cut(leakage.waves)]
+    shares = (np.arange(_WITHIN) + 0.5) / _WITHIN
+    for first, last in pairwise(edges[leakage.response.shape[0] :]):
+        matrix.append(cut(first + shares * (last - first)).mean(axis=0, keepdims=True))
+    long = 2 * np.diff(leakage.edges)[:, np.newaxis] * cut(leakage.waves)
+    # of waves beyond the longest modes, the mean and the tilt take nothing
+    whole = 2 * math.pi * q**_DECAY * (1 / low - 1 / high)
+    short = np.where(high > leakage.edges[-1], whole - long.sum(axis=0), 0.0)
+    return _Cuts(ends, q, np.concatenate(matrix), leakage.kept @ long + short)
+
+
+def _integral(q: Real, end: Real) -> Real:
+    """Integral of q'^-2 / sqrt(q'² - q²) from q to an end; zero for ends below q."""
+    end = np.maximum(end, q)
+    return np.sqrt(end**2 - q**2) / (q**2 * end)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +84,7 @@ class ScanBins(Observed):
     """
 
     edges: Real  # of the bins
-    cuts: Cuts  # spectrum that cuts of a surface are expected to have in them
+    cuts: _Cuts  # spectrum that cuts of a surface are expected to have in them
     dimensions = 1
 
     @classmethod
@@ -51,7 +96,7 @@ class ScanBins(Observed):
         correlated = np.where(edges[:-1] < LONG_WAVES, 1.0, _CORRELATED)
         means = Means.of(spectrum.q / q_low, power, spectrum.modes / correlated, windowed=True)
         nyquist = spectrum.length / (2 * spectrum.spacing)
-        return cls(means, nyquist, spectrum.instrument, edges, cuts_of_surface(edges))
+        return cls(means, nyquist, spectrum.instrument, edges, _cuts_of_surface(edges))
 
     @property
     def modes(self) -> Real:

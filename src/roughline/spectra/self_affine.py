@@ -9,22 +9,31 @@ Conventions: q = 2 pi / wavelength, and
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+import warnings
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
-from roughline.errors import InputError
+from roughline.errors import ContinuumWarning, InputError
 from roughline.errors.checks import between, positive, refuse, whole
 from roughline.errors.public import public
 from roughline.errors.words import called
-from roughline.spectra import synthesis
 from roughline.spectra.band import Band
-from roughline.spectra.difference import are_close, sum_over_integral, warn_of_difference
 from roughline.spectra.lattice import BodyName, ContinuumSpectrum, LatticeSpectrum
-from roughline.spectra.realisation import Amplitudes, Normalisation, realisation, refuse_points
+from roughline.spectra.synthesis import (
+    Amplitudes,
+    Normalisation,
+    Seed,
+    realisation,
+    refuse_points,
+)
 from roughline.topography.body import Line, Surface
 from roughline.topography.settings import Settings
+
+_SUMMED = 64  # waves along L from which on the lattice's sum is its integral
+_CLOSE = 0.05  # relative difference of the continuum from bodies up to which they count as equal
 
 
 @public
@@ -200,7 +209,7 @@ class SelfAffine:
         """Root-mean-square height, given or as the continuum integral of C_2d. [length]"""
         if self.normalisation == "rms_height":
             return self.magnitude
-        factor = 1 / math.sqrt(sum_over_integral(self._band, 0, "surface"))
+        factor = 1 / math.sqrt(_sum_over_integral(self._band, 0, "surface"))
         return self._continuum_for("rms_height", factor).rms_height
 
     def C_2d(self, q: ArrayLike) -> Real:
@@ -218,13 +227,13 @@ class SelfAffine:
     def moment(self, order: int) -> float:
         """<h²>, <(grad h)²>, <(laplacian h)²>, as of :attr:`continuum`. [length^(2 - order)]"""
         whole("order", order, 0, "0, 2 or 4 is needed, or another whole number from 0 on")
-        factor = self._over_bodies("surface") / sum_over_integral(self._band, order, "surface")
+        factor = self._over_bodies("surface") / _sum_over_integral(self._band, order, "surface")
         return self._continuum_for("moment", factor).moment(order)
 
     def difference_from_surfaces(self) -> str:
         """Say how the continuum differs from the surfaces generated; empty within 5 %."""
-        factor = sum_over_integral(self._band, 0, "surface")
-        if are_close(factor):
+        factor = _sum_over_integral(self._band, 0, "surface")
+        if abs(factor - 1) <= _CLOSE:
             return ""
         if self.normalisation == "rms_height":
             return f"{factor:.2f} times the C_2d"
@@ -232,18 +241,25 @@ class SelfAffine:
 
     def _over_bodies(self, body: BodyName) -> float:
         """C_2d of the continuum over that of the surfaces or lines that are generated. [1]"""
-        return 1.0 if self.normalisation == "C_0" else sum_over_integral(self._band, 0, body)
+        return 1.0 if self.normalisation == "C_0" else _sum_over_integral(self._band, 0, body)
 
     def _continuum_for(
         self, name: str, factor: float, body: BodyName = "surface"
     ) -> ContinuumSpectrum:
-        """Return the continuum, for one of its quantities; warn where bodies differ from it."""
-        warn_of_difference(name, factor, body)
+        """Return the continuum, for an attribute; warn where it is `factor` times the bodies'."""
+        if abs(factor - 1) > _CLOSE:
+            which = 'n, "line"' if body == "line" else "n"
+            warnings.warn(
+                f"{name} is that of the continuum, {factor:.2f} times that of the {body}s which "
+                f"this spectrum generates, as a sum over few long waves is not the integral. Take "
+                f"lattice({which}).{name} for a body of n points, or continuum.{name} for the "
+                "integral",
+                ContinuumWarning,
+                stacklevel=3,  # who asked for the attribute
+            )
         return self.continuum
 
-    def surface(
-        self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed"
-    ) -> Surface:
+    def surface(self, n: int, rng: Seed = None, amplitudes: Amplitudes = "fixed") -> Surface:
         """Generate a random square surface.
 
         The same seed with a larger `n` gives the same surface with more detail: one phase belongs
@@ -270,7 +286,7 @@ class SelfAffine:
         sides = (self.length, self.length)
         return Surface(heights, sides, settings=settings, is_cut_out=False)
 
-    def line(self, n: int, rng: synthesis.Seed = None, amplitudes: Amplitudes = "fixed") -> Line:
+    def line(self, n: int, rng: Seed = None, amplitudes: Amplitudes = "fixed") -> Line:
         """Generate the random line of the reduction method (spectrum ``C_reduced``).
 
         Parameters
@@ -289,7 +305,7 @@ class SelfAffine:
         return Line(heights, self.length, settings=settings, is_cut_out=False)
 
     def _generate(
-        self, body: BodyName, n: int, rng: synthesis.Seed, amplitudes: Amplitudes
+        self, body: BodyName, n: int, rng: Seed, amplitudes: Amplitudes
     ) -> tuple[Real, Settings]:
         """Heights of a body, and the settings that make them again."""
         heights, made = realisation(
@@ -306,3 +322,17 @@ class SelfAffine:
             **made,
         }
         return heights, settings
+
+
+@lru_cache(maxsize=256)
+def _sum_over_integral(band: Band, order: int, body: BodyName) -> float:
+    """Moment over the whole lattice of wavevectors, over the integral.
+
+    The sum is taken over the longest waves; over shorter ones it equals the integral.
+    """
+    whole = band.moment(order)
+    summed = LatticeSpectrum.of(band, 1.0, 2 * _SUMMED + 1, body)
+    # half a wave further: each wavevector stands for the cell around it
+    edge = min(band.q_high, (_SUMMED + 0.5) * band.q_low)
+    rest = replace(band, q_roll=min(band.q_roll, edge), q_high=edge).moment(order)
+    return 1 + (summed.moment(order) - rest) / whole

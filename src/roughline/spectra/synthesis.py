@@ -1,4 +1,4 @@
-"""Random heights from the amplitudes of Fourier modes; one draw belongs to one wavevector.
+"""Random surfaces and lines of a spectrum; one draw belongs to one wavevector.
 
 Draws are ordered by wavenumber (1D) or by square rings around q = 0 (2D), so a finer grid with the
 same seed repeats the draws of the coarser one and adds to them.
@@ -6,20 +6,100 @@ same seed repeats the draws of the coarser one and adds to them.
 
 from __future__ import annotations
 
+from functools import lru_cache
+from typing import Literal
+
 import numpy as np
 
 from roughline.computing import fft
 from roughline.computing.arrays import Real
+from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
+from roughline.errors.checks import is_whole, one_of, refuse
+from roughline.spectra.band import Band
+from roughline.spectra.lattice import BodyName
+
+Seed = int | np.random.SeedSequence | np.random.Generator | None
+Amplitudes = Literal["fixed", "gaussian"]
+Normalisation = Literal["rms_height", "C_0"]
 
 _AMPLITUDES = 0x616D706C  # spawn key of the amplitudes; no ensemble counts realisations so far
 _STEPS = 4096  # of a turn, from which phases are reached by a small rotation
 _TURN = np.exp(2j * np.pi * np.arange(_STEPS) / _STEPS)
+_BYTES_PER_POINT = 40  # of a surface, while it is generated
+_LARGEST: dict[BodyName, int] = {"surface": 2**15, "line": 2**28}
 
-Seed = int | np.random.SeedSequence | np.random.Generator | None
+
+def refuse_points(n: int, body: BodyName) -> None:
+    """Refuse what is neither "surface" nor "line", and a number of points that neither has."""
+    one_of("body", body, _LARGEST)
+    if not is_whole(n) or not 3 <= n <= _LARGEST[body]:
+        refuse("n", n, f"a whole number of points from 3 to {_LARGEST[body]} is needed")
 
 
-def generators(rng: Seed) -> tuple[np.random.Generator, np.random.Generator]:
+def realisation(
+    band: Band,
+    normalisation: Normalisation,
+    magnitude: float,
+    body: BodyName,
+    n: int,
+    rng: Seed,
+    amplitudes: Amplitudes,
+) -> tuple[Real, dict[str, str | int]]:
+    """Return random heights, and the settings that make them again.
+
+    They are scaled to an rms height of the magnitude, or have the spectrum ``C_0``, which it is
+    then, times the shape of the band. The rest is as for :meth:`roughline.SelfAffine.surface`.
+    """
+    refuse_points(n, body)
+    if body == "surface":
+        refuse_beyond_memory(
+            _BYTES_PER_POINT * n**2, f"a surface of {n} x {n} points", "take a smaller n"
+        )
+    one_of("amplitudes", amplitudes, ("fixed", "gaussian"))
+    for_phases, for_amplitudes = _generators(rng)
+    seed = _described(rng, for_phases)
+    C_0 = magnitude if normalisation == "C_0" else 1.0
+    if body == "surface":
+        moduli, heights_of = _surface_moduli(band, C_0, n), _surface_heights
+    else:
+        moduli, heights_of = _line_moduli(band, C_0, n), _line_heights
+    if amplitudes == "gaussian":  # complex modes of unit mean square have these moduli
+        is_map = body == "surface"
+        draws = _surface_draws(n, for_amplitudes) if is_map else for_amplitudes.random(moduli.size)
+        moduli = moduli * np.sqrt(-np.log1p(-draws))
+    scale = 1.0 if normalisation == "C_0" else magnitude / _rms_of(moduli)
+    heights = heights_of(moduli, for_phases, scale, n)
+    return heights, {"n": int(n), "amplitudes": amplitudes, "seed": seed}
+
+
+def random_line(moduli: Real, rms_height: float, n: int, rng: Seed) -> Real:
+    """Sum modes of given moduli, from m = 1 on, and random phases to a line of an rms height."""
+    for_phases, _ = _generators(rng)
+    return _line_heights(moduli, for_phases, rms_height / _rms_of(moduli), n)
+
+
+def _surface_moduli(band: Band, C_0: float, n: int) -> Real:
+    """Moduli of the modes that the real inverse FFT of a surface takes."""
+    m = np.hypot(np.fft.fftfreq(n, 1 / n)[:, np.newaxis], np.arange(n // 2 + 1))
+    weight = np.where((m > 0) & (m < n / 2), band.q_low**2, 0.0)
+    return _moduli(band, C_0, m, weight)
+
+
+@lru_cache(maxsize=8)  # an ensemble of lines has the same moduli for all of them
+def _line_moduli(band: Band, C_0: float, n: int) -> Real:
+    """Moduli of the modes that the real inverse FFT of a line takes, from m = 1 on."""
+    m = np.arange(1, (n - 1) // 2 + 1, dtype=np.float64)
+    return _moduli(band, C_0, m, np.pi * band.q_low**2 * m)
+
+
+def _moduli(band: Band, C_0: float, m: Real, weight: Real) -> Real:
+    power = weight * band.shape(band.q_low * m)
+    power *= C_0
+    return np.sqrt(power)
+
+
+def _generators(rng: Seed) -> tuple[np.random.Generator, np.random.Generator]:
     """Return the generators of phases and of amplitudes that belong to a seed.
 
     Realisation i of an ensemble has the seed ``SeedSequence(root, spawn_key=(i,))``.
@@ -37,7 +117,7 @@ def generators(rng: Seed) -> tuple[np.random.Generator, np.random.Generator]:
     return np.random.default_rng(seed), np.random.default_rng(child)
 
 
-def described(rng: Seed, generator: np.random.Generator) -> str:
+def _described(rng: Seed, generator: np.random.Generator) -> str:
     """Say how to make the generator of the phases again."""
     if isinstance(rng, np.random.Generator):
         return "a generator in an unknown state"
@@ -46,17 +126,7 @@ def described(rng: Seed, generator: np.random.Generator) -> str:
     return f"entropy {seed.entropy}, spawn key {seed.spawn_key}"
 
 
-def rayleigh(draws: Real) -> Real:
-    """Turn draws into moduli of complex Gaussian modes of unit mean square."""
-    return np.sqrt(-np.log1p(-draws))
-
-
-def line_draws(n: int, rng: np.random.Generator) -> Real:
-    """Draw one number in [0, 1) for each mode 0 < m < n / 2, in this order."""
-    return rng.random((n - 1) // 2)
-
-
-def surface_draws(n: int, rng: np.random.Generator) -> Real:
+def _surface_draws(n: int, rng: np.random.Generator) -> Real:
     """Draw one number in [0, 1) for each mode of the half plane with max(|mx|, |my|) < n / 2.
 
     They have the shape (n, n // 2 + 1) and lie where the real inverse FFT wants its modes; the
@@ -74,7 +144,7 @@ def surface_draws(n: int, rng: np.random.Generator) -> Real:
     return draws
 
 
-def rms_of(amplitudes: Real) -> float:
+def _rms_of(amplitudes: Real) -> float:
     """Root-mean-square height of a line or a surface with modes of given moduli (Parseval)."""
     if amplitudes.ndim == 1:
         return float(np.sqrt(2 * np.einsum("i,i->", amplitudes, amplitudes)))
@@ -84,7 +154,7 @@ def rms_of(amplitudes: Real) -> float:
     return float(np.sqrt(2 * total))
 
 
-def line_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: int) -> Real:
+def _line_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: int) -> Real:
     """Sum modes of given amplitudes and random phases to a periodic line.
 
     The amplitudes, in units of `scale`, are those of 0 < m < n / 2; the mean and, for even n, the
@@ -101,15 +171,15 @@ def line_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: in
     return heights
 
 
-def surface_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: int) -> Real:
+def _surface_heights(amplitudes: Real, rng: np.random.Generator, scale: float, n: int) -> Real:
     """Sum modes of given amplitudes, shape (n, n // 2 + 1), to a periodic surface.
 
-    As :func:`line_heights`, with the phases of :func:`surface_draws`.
+    As :func:`_line_heights`, with the phases of :func:`_surface_draws`.
     """
     from roughline.spectra.loops import set_modes  # here because numba loads slowly
 
     modes = np.empty(amplitudes.shape, dtype=np.complex128)
-    set_modes(modes.ravel(), amplitudes.ravel(), surface_draws(n, rng).ravel(), scale, _TURN)
+    set_modes(modes.ravel(), amplitudes.ravel(), _surface_draws(n, rng).ravel(), scale, _TURN)
     half = (n - 1) // 2
     modes[n - half :, 0] = modes[half:0:-1, 0].conj()
     return fft.synthesise(modes, n)

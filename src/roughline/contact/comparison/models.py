@@ -17,8 +17,8 @@ from roughline.contact.press import press
 from roughline.errors.checks import refuse, refuse_other_seeds, whole
 from roughline.errors.public import public
 from roughline.spectra.isotropic import isotropic_spectrum
-from roughline.spectra.realisation import refuse_points
 from roughline.spectra.self_affine import SelfAffine
+from roughline.spectra.synthesis import refuse_points
 from roughline.statistics.averages import Average, average, relative_difference
 from roughline.statistics.verdict import Verdict
 from roughline.topography.body import Body, Surface

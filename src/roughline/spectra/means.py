@@ -1,4 +1,4 @@
-"""Self-affine laws and how well each of them explains a measured spectrum.
+"""Mean powers of a measured spectrum, and how much each of them varies by chance.
 
 Wavenumbers are in units of q_low = 2 pi / L here, and powers are those of modes: q_low² C_2d for
 the rings of a map, q_low C_profile for the bins of a line scan. [length²]
@@ -7,10 +7,7 @@ the rings of a map, q_low C_profile for the bins of a line scan. [length²]
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Literal, NamedTuple
 
 import numpy as np
 from scipy import special
@@ -18,21 +15,13 @@ from scipy import special
 from roughline.computing.arrays import Indices, Mask, Real
 from roughline.errors import InputError
 
-Corner = Literal["sharp", "smooth"]
-"""Of a law at its roll-off: a plateau up to it, or 1 + (q / q_roll)² to a power."""
-
-CORNERS: tuple[Corner, ...] = ("sharp", "smooth")  # both are tried
-HURSTS = np.linspace(-0.49, 1.5, 200)  # exponents that are tried
-NODES = np.linspace(HURSTS[0], HURSTS[-1], 25)
-"""Exponents with which deviances are computed; they are smooth in between."""
+LEAST_MEANS = 12  # means that a spectrum needs, for laws to be compared with it
 
 _DESCRIPTION = 0.1  # relative deviations from a law, up to which a spectrum counts as following it
-IMPOSSIBLE = 1e30  # deviance of laws that cannot be
 _BINS_PER_DECADE = 10  # of deviations from the law, and of the free spectrum beyond its end
 _FLOOR = 1e-14  # of the largest power: rounding
 _FARTHEST = 256  # means; a window leaks 1e-16 so far away
 _LEAKED = 3.0  # times the leakage of stronger waves; a smaller power may be leakage alone
-LEAST_MEANS = 12  # means that a spectrum needs, for laws to be compared with it
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,65 +126,6 @@ class _Deviations:
         spread = np.sqrt(of_surface * (1 - share))
         drawn = share * self.values + spread * generator.standard_normal(share.size)
         return np.asarray(drawn[self.bins])
-
-
-class Law(NamedTuple):
-    """A law with what explains how it appears in a spectrum."""
-
-    hurst: float
-    roll: float
-    end: float
-    corner: Corner
-    response: int  # number of what the instrument does
-
-
-@dataclass(frozen=True, eq=False)
-class Laws:
-    """Deviances of laws from a spectrum, each at its best level, corner and response.
-
-    A deviance is minus twice the logarithm of the likelihood, up to a constant. Arrays are over
-    (exponent of :data:`HURSTS`, roll-off, end).
-    """
-
-    rolls: Real  # those up to 1 are beyond the longest waves of the piece
-    ends: Real  # infinite if the law goes on beyond the shortest waves
-    margins: Real  # distance to the next end that was tried
-    deviance: Real  # infinite for laws that are far from the spectrum
-    log_level: Real  # logarithm of the power of a mode on the plateau
-    explained: Indices  # which explanation is the best
-    explanations: Sequence[tuple[Corner, int]]  # corner and response
-    of_responses: Real  # least deviance of the laws that each response of the instrument explains
-
-    @cached_property
-    def best(self) -> tuple[int, int, int]:
-        """Indices of the law that explains most."""
-        hurst, roll, end = np.unravel_index(np.argmin(self.deviance), self.deviance.shape)
-        return int(hurst), int(roll), int(end)
-
-    def at(self, hurst: int, roll: int, end: int) -> Law:
-        """The law of some indices, with its best explanation."""
-        corner, response = self.explanations[self.explained[hurst, roll, end]]
-        h, q_roll, q_end = map(float, (HURSTS[hurst], self.rolls[roll], self.ends[end]))
-        return Law(h, q_roll, q_end, corner, response)
-
-    def drawn(self, count: int, generator: np.random.Generator) -> tuple[Indices, Indices, Indices]:
-        """Draw laws by their likelihood, as indices.
-
-        All exponents are equally likely beforehand, and so are all logarithms of roll-offs.
-        """
-        likelihood = np.exp((self.deviance.min() - self.deviance) / 2)
-        likelihood *= np.gradient(np.log(self.rolls))[:, np.newaxis]
-        chances = likelihood.ravel() / likelihood.sum()
-        flat = generator.choice(chances.size, count, p=chances)
-        hurst, roll, end = np.unravel_index(flat, self.deviance.shape)
-        return hurst, roll, end
-
-
-def power_law(q: Real, hursts: Real, roll: float, corner: Corner = "sharp") -> Real:
-    """Logarithm of C_2d with a plateau of one, over (hurst, q)."""
-    if corner == "smooth":
-        return np.outer(-(hursts + 1), np.log1p((q / roll) ** 2))
-    return np.outer(-2 * (hursts + 1), np.log(np.maximum(1.0, q / roll)))
 
 
 def _leakage_of_others(q: Real, power: Real) -> Real:
