@@ -20,7 +20,7 @@ from roughline.campaign import Store
 from roughline.campaign.export import write_netcdf
 from roughline.campaign.run import log_of
 from roughline.contact.comparison.trust import COLUMNS, TrustMap
-from roughline.paper.exponents import exponents_of
+from roughline.paper.laws import exponents_of
 from roughline.paper.page import compose
 from roughline.paper.results import published_dataset, published_folder, published_results
 from roughline.paper.windows import WINDOWS_REDUCED

@@ -12,7 +12,7 @@ from roughline.lab.published import controls, state
 from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
 from roughline.paper.claims import claims_section, judge_claims
-from roughline.paper.exponents import exponent_estimate
+from roughline.paper.laws import exponent_estimate
 from roughline.paper.plan import PAPER_DIMENSIONS, paper_plan
 from roughline.paper.stated import stated_exponents
 from roughline.paper.tables import constant_table, exponent_table

@@ -9,7 +9,7 @@ import pytest
 
 import roughline as rl
 from roughline import campaign
-from roughline.paper.exponents import exponent_estimate
+from roughline.paper.laws import exponent_estimate
 from roughline.paper.results import published_dataset, published_results
 from roughline.paper.windows import WINDOW_FULL
 from studies.area.measure import REDUCED as AREA

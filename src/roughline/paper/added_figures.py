@@ -11,7 +11,6 @@ from matplotlib.ticker import PercentFormatter
 
 from roughline.contact import scaling
 from roughline.paper.contact_area import mean_area
-from roughline.paper.figures import looks
 from roughline.paper.windows import WINDOW_AGREEMENT, WINDOW_AREA
 from roughline.plot.style import (
     FORCE_LABEL,
@@ -22,6 +21,7 @@ from roughline.plot.style import (
     dimension_label,
     label_decades,
     legend_dimensions,
+    looks,
     new_figure,
 )
 from roughline.statistics.averages import relative_difference
@@ -68,11 +68,11 @@ def _draw_area(axes: Axes, full: xarray.Dataset) -> None:
 
 def _draw_kappa(axes: Axes, laws: list[DimensionLaws]) -> None:
     dimensions = [each.fractal_dimension for each in laws]
-    looks: tuple[tuple[list[AreaLaw], str, dict[str, Any], str], ...] = (
+    marked: tuple[tuple[list[AreaLaw], str, dict[str, Any], str], ...] = (
         ([each.corrected for each in laws], "ko", {}, "this study, area corrected"),
         ([each.cells for each in laws], "k^", OPEN, "this study, area in cells"),
     )
-    for area_laws, marks, look, label in looks:
+    for area_laws, marks, look, label in marked:
         kappas = [law.kappa for law in area_laws]
         axes.errorbar(
             dimensions,

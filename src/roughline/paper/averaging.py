@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from roughline.paper.exponents import converged_stiffness, exponent_estimate
+from roughline.paper.laws import converged_stiffness, exponent_estimate
 from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
 from roughline.statistics.planes import at_depths, at_levels
@@ -45,7 +45,7 @@ def exponent_of_means(
     realisations touch.
     """
     if fixed == "force":
-        stiffness, _ = converged_stiffness(data, window)
+        stiffness = converged_stiffness(data, window)
         return exponent_estimate(
             fit_power_law(data.force_bar.values, stiffness, window, averaging=averaging)
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from roughline.plot.style import dimension_label
@@ -16,29 +17,74 @@ if TYPE_CHECKING:
     from roughline.paper.windows import Window
     from roughline.statistics.bootstrap import IntervalEstimate
 
-    Numbers = Mapping[str, IntervalEstimate]
-
 ENOUGH_LOADS = "three loads or more across this range"
 
 
-def claim_about_every_dimension(
-    statement: str,
-    found: str,
-    basis: str,
-    numbers: Numbers,
-    allowed: Range,
-    form: str = ".3f",
-    needed: str = ENOUGH_LOADS,
-) -> Claim:
-    """Return a claim about numbers that are judged by the range that the statement allows.
+@dataclass(frozen=True)
+class Numbers:
+    """The same number at several fractal dimensions."""
 
-    In what was found they stand in the place of "{}". Where none is known, the data lack what is
-    needed.
-    """
-    if not known(numbers):
-        return not_judged(statement, basis, needed)
-    told = found.replace("{}", listed_with_places(numbers, form))
-    return Claim.of(statement, told, intervals(numbers, form), judged(numbers, allowed), basis)
+    by_place: Mapping[str, IntervalEstimate]  # such as "at D_f = 2.0"
+    form: str = ".3f"  # in which they are told
+
+    @classmethod
+    def of(
+        cls,
+        laws: Iterable[DimensionLaws],
+        number: Callable[[DimensionLaws], IntervalEstimate],
+        form: str = ".3f",
+    ) -> Numbers:
+        """Return a number of the laws of each fractal dimension."""
+        return cls({at(each.fractal_dimension): number(each) for each in laws}, form)
+
+    @property
+    def known(self) -> Mapping[str, IntervalEstimate]:
+        """Those that are known."""
+        return {where: each for where, each in self.by_place.items() if math.isfinite(each.value)}
+
+    def __str__(self) -> str:
+        return ", ".join(f"{each.value:{self.form}}" for each in self.known.values())
+
+    @property
+    def with_places(self) -> str:
+        """The numbers, and which fractal dimensions they are of."""
+        return f"{self} {places(self.known)}"
+
+    @property
+    def intervals(self) -> str:
+        """Their intervals."""
+        return ", ".join(
+            f"{each.low:{self.form}} to {each.high:{self.form}}" if math.isfinite(each.low) else "-"
+            for each in self.known.values()
+        )
+
+    def judged(self, allowed: Range) -> list[Case]:
+        """Judge each by the range that a statement allows."""
+        return [
+            Case(
+                where,
+                verdict(each.low, each.high, *allowed) if math.isfinite(each.value) else None,
+            )
+            for where, each in self.by_place.items()
+        ]
+
+    def claim(
+        self,
+        statement: str,
+        found: str,
+        basis: str,
+        allowed: Range,
+        needed: str = ENOUGH_LOADS,
+    ) -> Claim:
+        """Return a claim about them, by the range that the statement allows for each.
+
+        In what was found they stand in the place of "{}". Where none is known, the data lack what
+        is needed.
+        """
+        if not self.known:
+            return not_judged(statement, basis, needed)
+        told = found.replace("{}", self.with_places)
+        return Claim.of(statement, told, self.intervals, self.judged(allowed), basis)
 
 
 def not_judged(statement: str, basis: str, needed: str) -> Claim:
@@ -59,47 +105,9 @@ def exact_claim(
     return Claim(statement, found, interval, basis, on_it, f"{on_it}{remark}")
 
 
-def judged(numbers: Numbers, allowed: Range) -> list[Case]:
-    """Judge each number by the range that a statement allows."""
-    return [
-        Case(where, verdict(each.low, each.high, *allowed) if math.isfinite(each.value) else None)
-        for where, each in numbers.items()
-    ]
-
-
-def by_dimension(
-    laws: Iterable[DimensionLaws], number: Callable[[DimensionLaws], IntervalEstimate]
-) -> Numbers:
-    """Return a number of the laws by where it is, such as "at D_f = 2.0"."""
-    return {at(each.fractal_dimension): number(each) for each in laws}
-
-
 def at(dimension: float) -> str:
     """Name the place of a fractal dimension."""
     return f"at D_f = {dimension_label(dimension)}"
-
-
-def known(numbers: Numbers) -> Numbers:
-    """Return the numbers that are known."""
-    return {where: each for where, each in numbers.items() if math.isfinite(each.value)}
-
-
-def listed(numbers: Numbers, form: str = ".3f") -> str:
-    """List the numbers of all fractal dimensions."""
-    return ", ".join(f"{each.value:{form}}" for each in known(numbers).values())
-
-
-def listed_with_places(numbers: Numbers, form: str = ".3f") -> str:
-    """List the numbers of all fractal dimensions, and which dimensions these are."""
-    return f"{listed(numbers, form)} {places(known(numbers))}"
-
-
-def intervals(numbers: Numbers, form: str = ".3f") -> str:
-    """List the intervals of all fractal dimensions."""
-    return ", ".join(
-        f"{each.low:{form}} to {each.high:{form}}" if math.isfinite(each.low) else "-"
-        for each in known(numbers).values()
-    )
 
 
 def basis_in(window: Window, *bodies: xarray.Dataset, averaged: str = "k") -> str:

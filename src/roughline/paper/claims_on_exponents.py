@@ -7,20 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.paper.claim import (
-    ENOUGH_LOADS,
-    basis_in,
-    bodies_of,
-    by_dimension,
-    claim_about_every_dimension,
-    exact_claim,
-    intervals,
-    judged,
-    known,
-    listed_with_places,
-    not_judged,
-)
-from roughline.paper.exponents import exponent_estimate
+from roughline.paper.claim import ENOUGH_LOADS, Numbers, basis_in, bodies_of, exact_claim, not_judged
+from roughline.paper.laws import exponent_estimate
 from roughline.paper.stated import (
     ENDS_OF_REDUCED,
     EXPONENT_TOLERANCE,
@@ -38,8 +26,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-    from roughline.paper.exponents import LocalExponents
-    from roughline.paper.laws import DimensionLaws
+    from roughline.paper.laws import DimensionLaws, LocalExponents
     from roughline.paper.results import PaperResults
     from roughline.paper.windows import Window
     from roughline.statistics.bootstrap import IntervalEstimate
@@ -119,9 +106,8 @@ class _Model:
     ) -> Claim:
         """Return a claim about a number of its laws, at some or at every fractal dimension."""
         laws = [each for each in self.laws if of(each.fractal_dimension)]
-        numbers = by_dimension(laws, lambda each: number(self, each))
-        said = f"{self.label}: {said}"
-        return claim_about_every_dimension(said, found, self.basis, numbers, allowed, form, needed)
+        numbers = Numbers.of(laws, lambda each: number(self, each), form)
+        return numbers.claim(f"{self.label}: {said}", found, self.basis, allowed, needed)
 
     @property
     def basis(self) -> str:
@@ -145,15 +131,14 @@ def _constant(model: _Model, said: str) -> Claim:
     """Judge whether the exponent stays the same from the lowest loads to medium ones."""
     lowest = min(model.local(laws).lowest for laws in model.laws)
     carriers = "springs" if model.label == "1D" else "cells"
-    return claim_about_every_dimension(
+    drifts = Numbers.of(model.laws, lambda laws: model.local(laws).drift, "+.3f")
+    return drifts.claim(
         f"{model.label}: a power law {said}",
         "α in the lowest decade less α in the highest (in the two halves of a range below two "
         "decades): {}",
         f"F̄ = {lowest:.2g} (ten {carriers} touch in every body) to {MEDIUM_FORCE:g}; mean k at "
         f"fixed F̄; {bodies_of(model.data)}",
-        by_dimension(model.laws, lambda laws: model.local(laws).drift),
         _NO_CHANGE,
-        "+.3f",
         f"three loads in each half of the range from where ten {carriers} touch to "
         f"F̄ = {MEDIUM_FORCE:g}",
     )
@@ -163,17 +148,17 @@ def _ends_of_reduced(model: _Model) -> Claim:
     """Judge whether the reduced model has the paper's exponents at D_f = 2 and 3."""
     statement = "1D: α from 0.5 to 0.75 as D_f goes from 2 to 3 (§6)"
     at_ends = [laws for laws in model.laws if laws.fractal_dimension in ENDS_OF_REDUCED]
-    ends = by_dimension(at_ends, model.exponent)
-    if not known(ends):
+    ends = Numbers.of(at_ends, model.exponent)
+    if not ends.known:
         return not_judged(statement, model.basis, "D_f = 2 or 3 with loads across this range")
-    off = by_dimension(
+    off = Numbers.of(
         at_ends, lambda laws: model.exponent(laws) - ENDS_OF_REDUCED[laws.fractal_dimension]
     )
-    found = listed_with_places(ends)
+    found = ends.with_places
     elsewhere = [law.exponent for law in at_ends[-1].reduced_elsewhere if law.points]
     if elsewhere:
         found += f"; in other windows {min(elsewhere):.3f} to {max(elsewhere):.3f} at the latter"
-    return Claim.of(statement, found, intervals(ends), judged(off, _NO_CHANGE), model.basis)
+    return Claim.of(statement, found, ends.intervals, off.judged(_NO_CHANGE), model.basis)
 
 
 def _great_accuracy(model: _Model) -> Claim:
@@ -217,22 +202,18 @@ def _agreement(results: PaperResults) -> list[Claim]:
     """Judge whether exponent and stiffness of both models are the same, with the same waves."""
     bodies = [each for each in (results.full, results.matched) if each is not None]
     return [
-        claim_about_every_dimension(
+        Numbers.of(results.laws, lambda laws: laws.models_apart, "+.3f").claim(
             "The same power-law behaviour in both models (abstract)",
             "α 3D less α 1D with the same waves: {}",
             basis_in(results.windows.full, *bodies),
-            by_dimension(results.laws, lambda laws: laws.models_apart),
             _NO_CHANGE,
-            "+.3f",
             _BOTH_MODELS,
         ),
-        claim_about_every_dimension(
+        Numbers.of(results.laws, lambda laws: laws.agreement, ".2f").claim(
             "Excellent agreement of the stiffness of the two models (abstract, §6)",
             "k / (E* L), 3D over 1D with the same waves: {}",
             f"{basis_in(WINDOW_AGREEMENT, *bodies)}; all loads weighted equally",
-            by_dimension(results.laws, lambda laws: laws.agreement),
             around(1, STIFFNESS_TOLERANCE),
-            ".2f",
             _BOTH_MODELS,
         ),
     ]

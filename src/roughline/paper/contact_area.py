@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.contact import scaling
-from roughline.paper.exponents import covers
-from roughline.paper.windows import WINDOW_AREA
+from roughline.paper.windows import WINDOW_AREA, covers
 from roughline.statistics import bootstrap
 from roughline.statistics.bootstrap import NO_ESTIMATE, IntervalEstimate
 from roughline.statistics.power_law import exponent_weights
@@ -26,20 +25,12 @@ SATURATED = 0.9
 
 @dataclass(frozen=True)
 class AreaLaw:
-    """The real area over the force, eq. 4, for one way to measure the area.
+    """The real area over the force, eq. 4, for one way to measure the area."""
 
-    Attributes
-    ----------
-    kappa : IntervalEstimate
-        A E* rms_slope / F, geometric mean over the window: every load has the same weight. [1]
-    kappa_ends : tuple of float
-        κ at the first and at the last load of the window. [1]
-    exponent : IntervalEstimate
-        Exponent of the area over the force, by least squares of the logarithms.
-    """
-
+    # A E* rms_slope / F, geometric mean over the window: every load has the same weight [1]
     kappa: IntervalEstimate
-    kappa_ends: tuple[float, float]
+    kappa_ends: tuple[float, float]  # κ at the first and at the last load of the window [1]
+    # exponent of the area over the force, by least squares of the logarithms
     exponent: IntervalEstimate
 
 

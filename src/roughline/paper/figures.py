@@ -1,28 +1,32 @@
-"""The paper's figures, drawn from the results of a study."""
+"""The figures of the page, drawn to files with their captions: the paper's, and others beside."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import cycle
+from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from roughline.contact import scaling
+from roughline.paper import added_figures
 from roughline.paper.mean_curve import mean_curve
 from roughline.plot.style import (
     COLUMN,
     FORCE_LABEL,
-    MARKERS,
     PAGE,
     SHADE,
     colours,
     dimension_label,
     label_decades,
     legend_dimensions,
+    looks,
     new_figure,
+    save,
+    styled,
 )
+from roughline.report.page import Picture
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
 
 if TYPE_CHECKING:
@@ -30,12 +34,105 @@ if TYPE_CHECKING:
 
     from roughline.computing.arrays import Mask, Real
     from roughline.paper.laws import DimensionLaws
+    from roughline.paper.results import PaperResults
     from roughline.paper.windows import Window
 
 _INDENTED = 1  # which body of the gallery Figure 2 shows
+_OPEN_MARKS = (
+    " Bands are the standard error of the mean; dashed or open where, in at least one realisation, "
+    "fewer than ten springs or cells are in contact, so that the grid decides. The shaded range "
+    "is the window of the fit."
+)
+_COUNTS = ("no", "one", "two", "three", "four")
+_CAPTIONS = {
+    "figure_1": (
+        "Figure 1",
+        "Fractal surfaces of {bodies}: rough line, topography, real contact area "
+        "and deflection of the half-space under the force F̄ = {force_bar:g}. Line and surface of "
+        "a row are one realisation each, with random phases that all rows share.",
+    ),
+    "figure_2": (
+        "Figure 2",
+        "The indented line. Springs under the parts above the level are in contact (black bars); "
+        "their total length gives the stiffness, the shaded area the force.",
+    ),
+    "figure_3": (
+        "Figure 3",
+        "Dimensionless stiffness over force in the reduced model, mean at fixed force."
+        + _OPEN_MARKS,
+    ),
+    "figure_4": (
+        "Figure 4",
+        "Dimensionless stiffness over force in the full model, mean at fixed force, normalised "
+        "by the paper's 1.1419." + _OPEN_MARKS,
+    ),
+    "figure_5": (
+        "Figure 5",
+        "Exponent α over fractal dimension with 95 % intervals from resampled realisations, and "
+        "the two predictions. The windows of the two models differ, as their grids do.",
+    ),
+    "area_law": (
+        "Area law",
+        "Left: real contact area over force, corrected for the steps of its outline, dashed where "
+        "fewer than ten cells touch. Right: κ of eq. 4 with 95 % intervals, of the corrected "
+        "area and of the cells in contact; all loads of the shaded window are weighted equally. "
+        "The slope is that of the grid (forward differences).",
+    ),
+    "models_compared": (
+        "Both models",
+        "Left: raw stiffness k / (E* L); open marks where fewer than ten cells touch. The lines "
+        "have the waves of the surfaces and no shorter ones. Right: relative difference of the "
+        "means with 95 % intervals. Near saturation the models must differ, by 15.2 % (dotted).",
+    ),
+    "grid_convergence": (
+        "The influence of the grid",
+        "One surface for each fractal dimension, computed on several grids: every grid carries all "
+        "waves down to its own spacing, so a finer one shows more roughness as well as less error. "
+        "Heights are scaled to rms 1 on each grid.",
+    ),
+}
 
 
-def figure_1(gallery: xarray.Dataset) -> Figure:
+def draw_pictures(results: PaperResults, folder: Path) -> list[Picture]:
+    """Draw every figure that the results allow, and write it to a folder as PNG and PDF."""
+    folder.mkdir(parents=True, exist_ok=True)
+    told: dict[str, object] = {}
+    if (gallery := results.gallery) is not None:
+        count = gallery.sizes["fractal_dimension"]
+        told["force_bar"] = gallery.attrs["force_bar"]
+        told["bodies"] = f"{_COUNTS[count]} fractal dimension{'s' if count > 1 else ''}"
+    pictures = []
+    with styled():
+        for file_name, draw in _drawings(results).items():
+            png, _ = save(draw(), folder, file_name)
+            name, caption = _CAPTIONS[file_name]
+            pictures.append(Picture(png, name, caption.format(**told)))
+    return pictures
+
+
+def _drawings(results: PaperResults) -> dict[str, Callable[[], Figure]]:
+    """How each figure is drawn, by the name of its file and in the order of the page."""
+    reduced, full, gallery, laws = results.reduced, results.full, results.gallery, results.laws
+    windows = results.windows
+    dimensions = full.fractal_dimension.values
+    drawings: dict[str, Callable[[], Figure]] = {}
+    if gallery is not None:
+        drawings["figure_1"] = lambda: _figure_1(gallery)
+        drawings["figure_2"] = lambda: _figure_2(gallery)
+    drawings["figure_3"] = lambda: _figure_3(reduced, dimensions, windows.reduced)
+    drawings["figure_4"] = lambda: _figure_4(full, windows.full)
+    drawings["figure_5"] = lambda: _figure_5(results.exponents, laws, windows.full)
+    drawings["area_law"] = lambda: added_figures.area_law_figure(full, laws)
+    matched = results.matched
+    if matched is not None and np.isin(dimensions, matched.fractal_dimension).any():
+        drawings["models_compared"] = lambda: added_figures.both_models_figure(full, matched)
+    if results.grids:
+        grids = results.grids | {int(full.attrs["n"]): full}
+        drawings["grid_convergence"] = lambda: added_figures.grid_convergence_figure(grids)
+    return drawings
+
+
+def _figure_1(gallery: xarray.Dataset) -> Figure:
     """Draw rough line, surface, real contact area and deflection for each fractal dimension."""
     rows = gallery.sizes["fractal_dimension"]
     figure = new_figure(PAGE, 1.75 * rows)
@@ -71,7 +168,7 @@ def figure_1(gallery: xarray.Dataset) -> Figure:
     return figure
 
 
-def figure_2(gallery: xarray.Dataset) -> Figure:
+def _figure_2(gallery: xarray.Dataset) -> Figure:
     """Draw the indented line: springs in contact, and the force as the area above the level."""
     figure = new_figure(COLUMN, 2.4)
     axes = figure.add_subplot()
@@ -105,7 +202,7 @@ def figure_2(gallery: xarray.Dataset) -> Figure:
     return figure
 
 
-def figure_3(reduced: xarray.Dataset, dimensions: Real, window: Window) -> Figure:
+def _figure_3(reduced: xarray.Dataset, dimensions: Real, window: Window) -> Figure:
     """Draw the stiffness over force of the reduced model, k / (E* L).
 
     Fractal dimensions are those of the surfaces, as far as the lines have them, or else all.
@@ -117,7 +214,7 @@ def figure_3(reduced: xarray.Dataset, dimensions: Real, window: Window) -> Figur
     return figure
 
 
-def figure_4(full: xarray.Dataset, window: Window) -> Figure:
+def _figure_4(full: xarray.Dataset, window: Window) -> Figure:
     """Draw the stiffness over force of the full model, k / (1.1419 E* L)."""
     label = r"stiffness $\bar k_{3D} = k\,/\,(1.1419\,E^* \sqrt{A_0})$"
     figure = _stiffness_figure(full, scaling.PAPER_PUNCH, label, window)
@@ -134,7 +231,7 @@ def figure_4(full: xarray.Dataset, window: Window) -> Figure:
     return figure
 
 
-def figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws], window: Window) -> Figure:
+def _figure_5(exponents: xarray.Dataset, laws: list[DimensionLaws], window: Window) -> Figure:
     """Draw the exponent over fractal dimension: both models and the two predictions."""
     figure = new_figure(COLUMN, 3.2)
     axes = figure.add_subplot()
@@ -202,11 +299,6 @@ def _stiffness_figure(data: xarray.Dataset, punch: float, label: str, window: Wi
     label_decades(axes)
     legend_dimensions(axes, dimensions)
     return figure
-
-
-def looks(dimensions: Real) -> Iterator[tuple[float, Any, str]]:
-    """Return fractal dimensions with their colours and marks."""
-    return zip(dimensions, colours(dimensions.size), cycle(MARKERS), strict=False)
 
 
 def _draw_topography(axes: Any, heights: Real) -> None:

@@ -16,25 +16,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class MeanCurve:
-    """Mean stiffness of one fractal dimension over force.
+    """Mean stiffness of one fractal dimension over force, all of shape (loads,)."""
 
-    Attributes
-    ----------
-    force_bar : ndarray, shape (loads,)
-        Dimensionless force F / (E* h L). [1]
-    mean : ndarray, shape (loads,)
-        Mean of k / (punch E* L) over the realisations that converged. [1]
-    low, high : ndarray, shape (loads,)
-        One standard error below and above the mean. [1]
-    resolved : ndarray of bool, shape (loads,)
-        Whether ten springs or cells or more touch in every realisation.
-    """
-
-    force_bar: Real
-    mean: Real
-    low: Real
+    force_bar: Real  # dimensionless force F / (E* h L) [1]
+    mean: Real  # of k / (punch E* L) over the realisations that converged [1]
+    low: Real  # one standard error below the mean, and one above it [1]
     high: Real
-    resolved: Mask
+    resolved: Mask  # whether ten springs or cells or more touch in every realisation
 
 
 def mean_curve(

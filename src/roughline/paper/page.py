@@ -5,24 +5,30 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from roughline.campaign.export import mean_table, write_netcdf
 from roughline.paper.claims import claims_section, judge_claims
-from roughline.paper.pictures import draw_pictures
+from roughline.paper.figures import draw_pictures
+from roughline.paper.laws import law_of
+from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_MATCHED, ENSEMBLE_REDUCED
 from roughline.paper.roles import departures
-from roughline.paper.sensitivity import sensitivities
-from roughline.paper.tables import (
-    automatic_windows_table,
-    constant_table,
-    exponent_table,
-    sensitivity_table,
-    settings_table,
-    two_grids_table,
-    write_data,
-)
-from roughline.paper.windows import WINDOW_AREA
-from roughline.report.page import Section, render
+from roughline.paper.sensitivity import sensitivity_section
+from roughline.paper.tables import constant_table, estimate_cell, exponent_table, number_cell
+from roughline.paper.windows import MEDIUM_FORCE, WINDOW_AREA
+from roughline.plot.style import dimension_label
+from roughline.report.page import Section, Table, render
+from roughline.statistics.averages import relative_difference
+from roughline.statistics.bootstrap import IntervalEstimate
 
 if TYPE_CHECKING:
+    import xarray
+
     from roughline.paper.results import PaperResults
+    from roughline.paper.windows import Window
+    from roughline.statistics.verdict import Claim
+
+_GRID_FORCES = (0.01, 0.1, 1.0)  # at which surfaces on two grids are compared
 
 
 def write_page(results: PaperResults, out: Path) -> Path:
@@ -37,7 +43,7 @@ def compose(results: PaperResults, out: Path) -> tuple[str, str, list[Section]]:
     """Draw the figures and write the data of a study; return title, lead and sections."""
     claims = judge_claims(results)
     pictures = draw_pictures(results, out / "figures")
-    write_data(out / "data", results, claims)
+    _write_data(out / "data", results, claims)
     title = "The paper, recomputed: reduction method and 3D boundary elements"
     lead = (
         f"Normal contact of fractal rough surfaces in two models, recomputed with roughline "
@@ -48,7 +54,7 @@ def compose(results: PaperResults, out: Path) -> tuple[str, str, list[Section]]:
     sections = [
         claims_section(claims),
         _exponents_section(results),
-        _sensitivity_section(results),
+        sensitivity_section(results),
         *_other_grid_sections(results),
         Section("Figures", pictures=pictures),
         _methods_section(results),
@@ -88,29 +94,6 @@ def _completeness(results: PaperResults) -> str:
     )
 
 
-def _sensitivity_section(results: PaperResults) -> Section:
-    dimensions = results.full.fractal_dimension.values
-    found = {
-        "1D": sensitivities(results.reduced, dimensions, results.windows.all_reduced),
-        "3D": sensitivities(results.full, dimensions, results.windows.all_full),
-    }
-    return Section(
-        "How much α depends on the window and on the averaging",
-        [
-            "Exponents by least squares of the logarithms: of the arithmetic mean of k at "
-            "fixed force, of its geometric mean, and of the means of k and of F at fixed "
-            "level of the rigid plane, where the highest realisations dominate. The automatic "
-            "window is the longest in which a power law is not rejected: neither a parabola "
-            "nor a cubic improves on it beyond the scatter of resampled realisations; loads "
-            "with fewer than ten springs or cells in some realisation are not in it."
-        ],
-        tables=[
-            *(sensitivity_table(model, rows) for model, rows in found.items() if rows),
-            automatic_windows_table(found),
-        ],
-    )
-
-
 def _other_grid_sections(results: PaperResults) -> list[Section]:
     """Return the section about another grid, if the study has surfaces on one."""
     if results.other_grid is None:
@@ -123,7 +106,7 @@ def _other_grid_sections(results: PaperResults) -> list[Section]:
                 "95 % intervals, from resampled pairs; α of the mean in the window of the full "
                 "model."
             ],
-            tables=[two_grids_table(results.full, results.other_grid, results.windows.full)],
+            tables=[_two_grids_table(results.full, results.other_grid, results.windows.full)],
         )
     ]
 
@@ -141,7 +124,7 @@ def _methods_section(results: PaperResults) -> Section:
             *_departures(results),
             *_hours(results),
         ],
-        tables=[settings_table(results)],
+        tables=[_settings_table(results)],
         note=(
             f"To repeat: {results.command} (these data: version {results.version}). "
             "The numbers behind every figure are in the folder data, as NetCDF and CSV."
@@ -172,3 +155,103 @@ def _hours(results: PaperResults) -> list[str]:
         f"{computing.cores} cores of a machine with the processor {computing.processor}; the "
         "founding paper speaks of several weeks."
     ]
+
+
+def _two_grids_table(full: xarray.Dataset, other: xarray.Dataset, window: Window) -> Table:
+    """Return ratios of the same surfaces on two grids, the finer over the coarser."""
+    coarse, fine = sorted((full, other), key=lambda data: int(data.attrs["n"]))
+    n, n_fine = (data.attrs["n"] for data in (coarse, fine))
+    header = ["D_f", "surfaces"]
+    shared = np.intersect1d(coarse.force_bar, fine.force_bar)
+    forces = [force for force in _GRID_FORCES if np.isclose(force, shared, rtol=1e-3).any()]
+    of_area = [force for force in forces if force == MEDIUM_FORCE]
+    header += [f"k, {n_fine}² over {n}², F̄ = {force:g}" for force in forces]
+    header += [f"α, {n}²", f"α, {n_fine}²"]
+    header += [f"A, {n_fine}² over {n}², F̄ = {force:g}" for force in of_area]
+    rows = []
+    for dimension in np.intersect1d(coarse.fractal_dimension, fine.fractal_dimension):
+        count = min(coarse.sizes["realisation"], fine.sizes["realisation"])
+        finer, coarser = (
+            data.sel(fractal_dimension=dimension, force_bar=shared).isel(realisation=slice(count))
+            for data in (fine, coarse)
+        )
+        laws = [law_of(data, window) for data in (coarser, finer)]
+        areas = [data.area_fraction_corrected for data in (finer, coarser)]
+        rows.append(
+            [
+                dimension_label(dimension),
+                f"{count}",
+                *(_ratio_cell(finer.stiffness, coarser.stiffness, force) for force in forces),
+                *(number_cell(law.exponent) for law in laws),
+                *(_ratio_cell(areas[0], areas[1], force) for force in of_area),
+            ]
+        )
+    return Table(header, rows, numbers=range(len(header)))
+
+
+def _ratio_cell(fine: xarray.DataArray, coarse: xarray.DataArray, force_bar: float) -> str:
+    """Write the ratio of the means of pairs at a load, with its interval."""
+    nearest = {"force_bar": [force_bar]}
+    values = (each.sel(nearest, method="nearest").values for each in (fine, coarse))
+    (ratio,), (low,), (high,) = relative_difference(*values, paired=True)
+    return estimate_cell(IntervalEstimate(1 + ratio, 1 + low, 1 + high))
+
+
+def _settings_table(results: PaperResults) -> Table:
+    """Return what was computed: an ensemble in each row."""
+    reduced, matched, computing = results.reduced, results.matched, results.computing
+    ensembles = [
+        (ENSEMBLE_REDUCED, "reduced", reduced),
+        (ENSEMBLE_MATCHED, "reduced, with the waves of the surfaces", matched),
+        (ENSEMBLE_FULL, "full", results.full),
+        ("coarse-surfaces", "full, on another grid", results.other_grid),
+        *((f"grids-n{n}", f"full, {n}²", data) for n, data in sorted(results.grids.items())),
+    ]
+    rows = []
+    for ensemble, name, data in ensembles:
+        if data is None or (ensemble == ENSEMBLE_MATCHED and matched is reduced):
+            continue
+        # the exponents may come from more fractal dimensions than the lines that are kept
+        dimensions = (results.exponents if data is reduced else data).fractal_dimension.values
+        n, forces = data.attrs["n"], data.force_bar.values
+        rows.append(
+            (
+                name,
+                f"{dimensions.size}, from {dimensions[0]:g} to {dimensions[-1]:g}",
+                f"{data.sizes['realisation']}",
+                f"{n}" if data.attrs["model"] == "reduced" else f"{n} × {n}",
+                f"{forces.size}, F̄ = {forces[0]:g} to {forces[-1]:g}",
+                f"SeedSequence({data.attrs['seed']}, spawn_key=(i,))",
+                *([f"{computing.core_seconds[ensemble]:.3g} s"] if computing else []),
+            )
+        )
+    header = ("Model", "Fractal dimensions", "Realisations each", "Points", "Loads", "Seed of i")
+    return Table((*header, "One body, one core") if computing else header, rows)
+
+
+def _write_data(folder: Path, results: PaperResults, claims: list[Claim]) -> None:
+    """Write the ensembles and the gallery as NetCDF, mean curves and tables as CSV."""
+    import pandas as pd  # here because it loads slowly
+
+    folder.mkdir(parents=True, exist_ok=True)
+    ensembles = {
+        "reduced": results.reduced,
+        "full": results.full,
+        "matched": results.matched,
+        "other_grid": results.other_grid,
+        **{f"grid_{n}": data for n, data in results.grids.items()},
+    }
+    for name, data in ensembles.items():
+        if data is None:
+            continue
+        write_netcdf(data, folder / f"{name}.nc")
+        mean_table(data).to_csv(folder / f"{name}.csv", index=False)
+    if results.gallery is not None:
+        results.gallery.to_netcdf(folder / "gallery.nc", engine="h5netcdf")
+    for name, table in (
+        ("exponents", exponent_table(results.laws)),
+        ("constants", constant_table(results.laws)),
+    ):
+        frame = pd.DataFrame(table.rows, columns=list(table.header))
+        frame.to_csv(folder / f"{name}.csv", index=False)
+    pd.DataFrame([vars(claim) for claim in claims]).to_csv(folder / "claims.csv", index=False)

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 
 from roughline.campaign.layout import CASE_STATUS, PENDING
 from roughline.errors import StoreError
-from roughline.paper.exponents import at_dimension, exponents_of
-from roughline.paper.laws import DimensionLaws, dimension_laws
+from roughline.paper.laws import DimensionLaws, at_dimension, dimension_laws, exponents_of
 from roughline.paper.roles import roles_of
 from roughline.paper.windows import Windows
 
@@ -27,66 +26,35 @@ _GRIDS = (128, 256, 512, 1024)
 
 @dataclass(frozen=True)
 class Computing:
-    """What a study took, on which machine.
+    """What a study took, on which machine."""
 
-    Attributes
-    ----------
-    processor : str
-        Name of the processor.
-    cores : int
-        How many of its cores computed.
-    hours : float
-        All ensembles of the study together, with the map, on these cores. [h]
-    core_seconds : dict of float
-        One body with all its loads on one core, on the average, by its ensemble. [s]
-    """
-
-    processor: str
-    cores: int
-    hours: float
+    processor: str  # name of the processor
+    cores: int  # how many of its cores computed
+    hours: float  # all ensembles of the study together, with the map, on these cores [h]
+    # one body with all its loads on one core, on the average, by its ensemble [s]
     core_seconds: dict[str, float]
 
 
 @dataclass(frozen=True, eq=False)
 class PaperResults:
-    """Ensembles of the paper's study.
+    """Ensembles of the paper's study."""
 
-    Attributes
-    ----------
-    name : str
-        Which study this is, such as "at the quick scale"; the lead of the page ends with it.
-    command : str
-        The command that repeats the study.
-    reduced, full : Dataset
-        Lines and surfaces, over the fractal dimensions of the surfaces at least.
-    matched : Dataset or None
-        Lines with the waves of the surfaces and no shorter ones, at the loads of the surfaces.
-    exponents : Dataset
-        The reduced model's exponent over all fractal dimensions, of
-        :func:`roughline.paper.exponents.exponents_of`.
-    gallery : Dataset or None
-        Single bodies for Figures 1 and 2.
-    grids : dict of Dataset
-        One of the surfaces of `full` on other grids, by points along a side.
-    other_grid : Dataset or None
-        The surfaces of `full` on another grid, with the waves that it carries.
-    computing : Computing or None
-        What the study took; None if it is not known.
-    windows : Windows
-        Where exponents are fitted.
-    """
-
+    # which study this is, such as "at the quick scale"; the lead of the page ends with it
     name: str
-    command: str
+    command: str  # the command that repeats the study
+    # lines and surfaces, over the fractal dimensions of the surfaces at least
     reduced: xarray.Dataset
     full: xarray.Dataset
+    # lines with the waves of the surfaces and no shorter ones, at the loads of the surfaces
     matched: xarray.Dataset | None
-    exponents: xarray.Dataset
-    gallery: xarray.Dataset | None = None
+    exponents: xarray.Dataset  # of the reduced model over all fractal dimensions (exponents_of)
+    gallery: xarray.Dataset | None = None  # single bodies for Figures 1 and 2
+    # one of the surfaces of `full` on other grids, by points along a side
     grids: dict[int, xarray.Dataset] = field(default_factory=dict)
+    # the surfaces of `full` on another grid, with the waves that it carries
     other_grid: xarray.Dataset | None = None
-    computing: Computing | None = None
-    windows: Windows = field(default_factory=Windows)
+    computing: Computing | None = None  # what the study took; None if it is not known
+    windows: Windows = field(default_factory=Windows)  # where exponents are fitted
 
     @property
     def version(self) -> str:

@@ -12,29 +12,19 @@ import numpy as np
 from roughline.errors import InputError
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_REDUCED
 
-Settings = Mapping[str, Any]
-"""Settings of an ensemble, as a plan and the attributes of its results have them."""
+_Settings = Mapping[str, Any]
+"""_Settings of an ensemble, as a plan and the attributes of its results have them."""
 
 
 @dataclass(frozen=True)
-class Roles:
-    """Names of the ensembles that a report is made of.
+class _Roles:
+    """Names of the ensembles that a report is made of."""
 
-    Attributes
-    ----------
-    full, reduced : str
-        Surfaces and lines.
-    matched : str or None
-        Lines with the waves and the loads of the surfaces; the same as `reduced` where there are
-        no others.
-    other_grid : str or None
-        The surfaces on another grid.
-    """
-
-    full: str
-    reduced: str
+    full: str  # surfaces
+    reduced: str  # lines
+    # lines with the waves and the loads of the surfaces; those of `reduced` if there are no others
     matched: str | None
-    other_grid: str | None
+    other_grid: str | None  # the surfaces on another grid
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -43,7 +33,7 @@ class Roles:
         return tuple(dict.fromkeys(name for name in named if name is not None))
 
 
-def roles_of(ensembles: Mapping[str, Settings]) -> Roles:
+def roles_of(ensembles: Mapping[str, _Settings]) -> _Roles:
     """Choose the ensembles of a report by their settings; both surfaces and lines are needed.
 
     Of several that fit, those with the names of the paper's own plan are taken, then elastic
@@ -64,7 +54,7 @@ def roles_of(ensembles: Mapping[str, Settings]) -> Roles:
     others = {name: lines[name] for name in lines if name not in alike} or lines
     reduced = max(others, key=lambda name: _likeness(name, ENSEMBLE_REDUCED, others[name]))
     grids = [name for name in surfaces if _differs_in_grid(surfaces[name], surfaces[full])]
-    return Roles(
+    return _Roles(
         full,
         reduced,
         matched=max(alike, key=lambda name: lines[name]["n"], default=None),
@@ -72,7 +62,7 @@ def roles_of(ensembles: Mapping[str, Settings]) -> Roles:
     )
 
 
-def departures(settings: Settings) -> list[str]:
+def departures(settings: _Settings) -> list[str]:
     """Say in words where an ensemble is not as the paper's."""
     words = []
     if settings["boundary"] == "periodic":
@@ -86,18 +76,18 @@ def departures(settings: Settings) -> list[str]:
     return words
 
 
-def _likeness(name: str, paper_name: str, settings: Settings) -> tuple[bool, int, int]:
+def _likeness(name: str, paper_name: str, settings: _Settings) -> tuple[bool, int, int]:
     """How like the paper's an ensemble is; larger is more like it."""
     return name == paper_name, -len(departures(settings)), settings["n"]
 
 
-def _cutoff(settings: Settings) -> float:
+def _cutoff(settings: _Settings) -> float:
     """q_high / q_0 of an ensemble."""
     cutoff = settings["cutoff_ratio"]
     return settings["n"] / 2 if cutoff == "grid" else float(cutoff)
 
 
-def _has_same_waves(line: Settings, surface: Settings) -> bool:
+def _has_same_waves(line: _Settings, surface: _Settings) -> bool:
     """Whether lines have the waves and the loads of surfaces."""
     forces = np.array(line["force_bars"]), np.array(surface["force_bars"])
     return (
@@ -108,7 +98,7 @@ def _has_same_waves(line: Settings, surface: Settings) -> bool:
     )
 
 
-def _differs_in_grid(one: Settings, other: Settings) -> bool:
+def _differs_in_grid(one: _Settings, other: _Settings) -> bool:
     """Whether surfaces differ from others in their grid, and perhaps in their loads, alone."""
     same = ("boundary", "roll_off_ratio", "cutoff_ratio", "seed")
     return (

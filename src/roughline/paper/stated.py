@@ -26,21 +26,11 @@ ENDS_OF_REDUCED = {2.0: 0.5, 3.0: 0.75}
 
 @dataclass(frozen=True)
 class StatedExponent:
-    """An exponent that the paper states.
-
-    Attributes
-    ----------
-    value : float
-        The exponent.
-    tolerance : float
-        How near another must come to be the same.
-    where : str
-        The formula or number, and where it stands in the paper.
-    """
+    """An exponent that the paper states."""
 
     value: float
-    tolerance: float
-    where: str
+    tolerance: float  # how near another must come to be the same
+    where: str  # the formula or number, and where it stands in the paper
 
     def verdict(self, found: IntervalEstimate) -> Verdict:
         """Judge an exponent that was found, by its interval."""

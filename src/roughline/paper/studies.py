@@ -12,81 +12,42 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class StudyCurve:
-    """A curve or a row of marks.
+    """A curve or a row of marks."""
 
-    Attributes
-    ----------
-    name : str
-        What the legend says; empty for curves that it leaves out.
-    x, y : sequence of float
-        Points.
-    low, high : sequence of float
-        Ends of their 95 % intervals; empty where none are drawn.
-    colour : int
-        Place in the ramp of six colours; -1 for the colour of text.
-    dash : {"solid", "dashed", "dotted"}
-        Of the line.
-    marks : bool
-        Whether points are marked, and not joined by a line.
-    """
-
-    name: str
+    name: str  # what the legend says; empty for curves that it leaves out
     x: Sequence[float]
     y: Sequence[float]
-    low: Sequence[float] = ()
+    low: Sequence[float] = ()  # ends of the 95 % intervals of y; empty where none are drawn
     high: Sequence[float] = ()
-    colour: int = -1
-    dash: str = "solid"
-    marks: bool = False
+    colour: int = -1  # place in the ramp of six colours; -1 for the colour of text
+    dash: str = "solid"  # of the line
+    marks: bool = False  # whether points are marked, and not joined by a line
 
 
 @dataclass(frozen=True)
 class StudyPanel:
-    """A panel of a figure.
-
-    Attributes
-    ----------
-    title, x_label, y_label : str
-        What it shows.
-    x_range, y_range : sequence of float
-        Ends of the axes.
-    curves : sequence of StudyCurve
-        What is drawn.
-    is_log : bool
-        Whether the x axis is logarithmic; the y axis is linear.
-    """
+    """A panel of a figure."""
 
     title: str
     x_label: str
     y_label: str
-    x_range: Sequence[float]
+    x_range: Sequence[float]  # ends of the axis
     y_range: Sequence[float]
     curves: Sequence[StudyCurve]
-    is_log: bool = True
+    is_log: bool = True  # whether the x axis is logarithmic; the y axis is linear
 
 
 @dataclass(frozen=True)
 class StudySummary:
-    """What a study found.
+    """What a study found."""
 
-    Attributes
-    ----------
-    name : str
-        Name of its page and of its folder.
-    title, answer : str
-        Its question, and the answer in a few sentences.
-    header, rows : sequence
-        The table of its verdicts; a verdict begins with confirmed, refuted or undecided.
-    panels : sequence of StudyPanel
-        Its figure.
-    """
-
-    name: str
-    title: str
-    answer: str
+    name: str  # name of its page and of its folder
+    title: str  # its question
+    answer: str  # in a few sentences
+    # the table of its verdicts; a verdict begins with confirmed, refuted or undecided
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
-    panels: Sequence[StudyPanel]
+    panels: Sequence[StudyPanel]  # its figure
 
 
 @cache

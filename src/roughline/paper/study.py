@@ -20,26 +20,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Study:
-    """The paper's study, or another one of both models.
+    """The paper's study, or another one of both models."""
 
-    Attributes
-    ----------
-    plan : Plan or None
-        What is computed; None for a store that is finished.
-    store : Path
-        Folder of its results. If it holds a part of the same study, only the rest is computed.
-    name : str
-        Which study this is, such as "at the quick scale"; the lead of the page ends with it.
-    command : str
-        The command that repeats it.
-    windows : Windows
-        Where exponents are fitted, as far as the loads reach.
-    """
-
-    plan: Plan | None
+    plan: Plan | None  # what is computed; None for a store that is finished
+    # folder of its results. If it holds a part of the same study, only the rest is computed
     store: Path
+    # which study this is, such as "at the quick scale"; the lead of the page ends with it
     name: str
-    command: str
+    command: str  # the command that repeats it
+    # where exponents are fitted, as far as the loads reach
     windows: Windows = field(default_factory=Windows)
 
 

@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from roughline.statistics.window import inside_window
+
 if TYPE_CHECKING:
     from roughline.computing.arrays import Real
 
@@ -23,19 +27,16 @@ WINDOW_AREA: Window = (10**-1.5, 10**-0.5)
 OTHER_WINDOWS_REDUCED: tuple[Window, ...] = ((1e-3, 1e-1), (1e-2, 0.3))
 """Further ranges, which show how much the exponent of the reduced model depends on its window."""
 WINDOWS_REDUCED: tuple[Window, ...] = (WINDOW_REDUCED, *OTHER_WINDOWS_REDUCED)
+MEDIUM_FORCE = 0.1
+"""Largest F̄ that counts as a medium force."""
 _WINDOWS_FULL: tuple[Window, ...] = ((1e-3, 1e-2), WINDOW_FULL, (1e-2, 0.3))
 
 
 @dataclass(frozen=True)
 class Windows:
-    """The ranges of F̄ in which the exponents of a study are fitted.
+    """The ranges of F̄ in which the exponents of a study are fitted."""
 
-    Attributes
-    ----------
-    reduced, full : tuple of float
-        Range of each model; both models with the same waves are compared in that of the full one.
-    """
-
+    # of each model; both models with the same waves are compared in that of the full one
     reduced: Window = WINDOW_REDUCED
     full: Window = WINDOW_FULL
 
@@ -59,5 +60,8 @@ def _overlap(window: Window, force_bar: Real) -> Window:
     return (low, high) if low < high else window
 
 
-MEDIUM_FORCE = 0.1
-"""Largest F̄ that counts as a medium force."""
+def covers(force_bar: Real, window: Window) -> bool:
+    """Whether loads reach both ends of a window, and three of them or more lie in it."""
+    inside = np.count_nonzero(inside_window(force_bar, window))
+    reached = inside_window(np.array(window), (float(force_bar[0]), float(force_bar[-1])))
+    return bool(inside >= 3 and reached.all())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import cycle
 from pathlib import Path
 from typing import Any
 
@@ -78,6 +79,11 @@ def colours(count: int) -> list[tuple[float, float, float, float]]:
     """Return colours that differ in lightness too (viridis, without its palest end)."""
     ramp = mpl.colormaps["viridis"]
     return [ramp(0.88 * i / max(count - 1, 1)) for i in range(count)]
+
+
+def looks(dimensions: NDArray[np.float64]) -> Iterator[tuple[float, Any, str]]:
+    """Return fractal dimensions with their colours and marks."""
+    return zip(dimensions, colours(dimensions.size), cycle(MARKERS), strict=False)
 
 
 def save(figure: Figure, folder: Path, name: str) -> list[Path]:

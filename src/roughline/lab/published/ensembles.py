@@ -15,7 +15,7 @@ from roughline.contact import scaling
 from roughline.lab.controls import ControlError, Texts, usable
 from roughline.lab.published.controls import MODELS, WINDOWS, ModelLabel
 from roughline.lab.published.state import PublishedState, Window, state_of
-from roughline.paper.exponents import converged_stiffness
+from roughline.paper.laws import converged_stiffness
 from roughline.paper.mean_curve import MeanCurve, mean_curve
 from roughline.paper.results import published_dataset
 from roughline.statistics.averages import Averaging
@@ -111,7 +111,7 @@ def _law(
     model: ModelLabel, fractal_dimension: float, window: Window, averaging: Averaging
 ) -> PowerLaw:
     one = one_dimension(model, fractal_dimension)
-    stiffness, _ = converged_stiffness(one, window)
+    stiffness = converged_stiffness(one, window)
     return fit_power_law(one.force_bar.values, stiffness, window, averaging=averaging)
 
 

@@ -21,7 +21,7 @@ from roughline.lab.published.ensembles import (
 from roughline.lab.published.state import PublishedState
 from roughline.lab.server.tasks import Progress
 from roughline.paper.claim import at
-from roughline.paper.exponents import exponent_estimate, prefactor_estimate
+from roughline.paper.laws import exponent_estimate, prefactor_estimate
 from roughline.paper.stated import (
     EXPONENT_TOLERANCE,
     SMALL_DISCREPANCY,
