@@ -6,9 +6,9 @@
 >>> data = campaign.Store("plan.zarr").dataset("lines")
 """
 
+from roughline.campaign.dispatch import Summary
 from roughline.campaign.plan import Ensemble, Gallery, Plan
 from roughline.campaign.plan_file import plan_from, read_plan
-from roughline.campaign.progress import Summary
 from roughline.campaign.run import run
 from roughline.campaign.store import Store
 

@@ -60,21 +60,11 @@ _CAMPAIGN_AT_IMPORT = 77  # exit code of a process in which to import a script s
 
 @dataclass(frozen=True)
 class Cluster:
-    """A cluster that is ready to compute.
+    """A cluster that is ready to compute."""
 
-    Attributes
-    ----------
-    client : distributed.Client
-        The connection to it.
-    dashboard : str
-        Address of the page that shows what it does.
-    restore : callable
-        Starts new workers in place of those that were lost.
-    """
-
-    client: Any
-    dashboard: str
-    restore: Callable[[], object]
+    client: Any  # the connection to it
+    dashboard: str  # address of the page that shows what it does
+    restore: Callable[[], object]  # starts new workers in place of those that were lost
 
     def cores(self) -> int:
         """Return how many cases it can compute at a time now."""
@@ -84,13 +74,7 @@ class Cluster:
 
 @contextmanager
 def local(workers: int) -> Iterator[Cluster]:
-    """Start workers on this machine, each for one case at a time; they end with the context.
-
-    Raises
-    ------
-    ClusterError
-        If they do not start.
-    """
+    """Start workers on this machine, each for one case at a time; they end with the context."""
     import dask  # here because they load slowly
     from distributed import Client, LocalCluster
 
@@ -137,13 +121,7 @@ def _wait_for_starting_workers(cluster: Any, client: Any) -> None:
 
 @contextmanager
 def remote(address: str) -> Iterator[Cluster]:
-    """Connect to the scheduler of a cluster.
-
-    Raises
-    ------
-    ClusterError
-        If it does not answer, has no workers, or its workers have another version of roughline.
-    """
+    """Connect to the scheduler of a cluster with workers of this version of roughline."""
     from distributed import Client
 
     with _quiet():
@@ -170,13 +148,7 @@ def remote(address: str) -> Iterator[Cluster]:
 
 
 def refuse_senseless(address: str) -> None:
-    """Refuse a text that cannot be the address of a scheduler.
-
-    Raises
-    ------
-    InputError
-        If it has no host, no port, or a scheme of something else.
-    """
+    """Refuse a text without host or port, or with a scheme that is none of a scheduler's."""
     try:
         parts = urlsplit(address if "://" in address else f"tcp://{address}")
         if parts.scheme in _SCHEMES and parts.hostname and parts.port and not parts.path:
@@ -295,11 +267,6 @@ def refuse_unguarded_script() -> None:
 
     A trial process imports the script first. If it reaches this function there, it ends with an
     exit code of its own.
-
-    Raises
-    ------
-    InputError
-        If the trial process ended so, or if there is no file to import.
     """
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         sys.exit(_CAMPAIGN_AT_IMPORT)

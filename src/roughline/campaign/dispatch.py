@@ -1,11 +1,13 @@
-"""Sending batches to workers, and writing what comes back."""
+"""Sending batches to workers, writing what comes back, and telling of it."""
 
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import suppress
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -14,8 +16,8 @@ from roughline.campaign.batch import Batch, BatchResult, VersionError, evaluate
 from roughline.campaign.cluster import Cluster, interrupts_held_back
 from roughline.campaign.gallery import evaluate_gallery
 from roughline.campaign.plan import Plan
-from roughline.campaign.progress import EnsembleProgress, Summary
 from roughline.campaign.writer import Writer
+from roughline.contact.status import Status
 from roughline.errors import ClusterError
 
 _BATCHES_PER_CORE = 4  # that are sent out at a time, so that no core waits for work
@@ -23,19 +25,45 @@ _CHECK_INTERVAL = 5.0  # between two looks at the cluster [s]
 _LONGEST_WITHOUT_WORKERS = 60.0  # [s]
 _GONE = "the Dask scheduler is gone; what is done is kept: start it again and repeat the command"
 
+EnsembleProgress = Callable[[str, int, int, int], None]
+"""Called with (ensemble, cases done, cases failed, cases in all)."""
 
-class Dispatch:
-    """One run of a campaign: batches go out as workers ask for more, results are written.
+
+@dataclass
+class Summary:
+    """What one run did.
 
     Attributes
     ----------
-    summary : Summary
-        What was done so far.
-    cores : int
-        Cases that the cluster computes at a time.
-    threads : int
-        Threads for each case.
+    done, failed : Counter
+        Cases by ensemble, in this run.
+    core_seconds : dict
+        Time of the workers by ensemble. [s]
+    reasons : Counter
+        Number of failed cases by reason.
+    unconverged : int
+        Number of loads that were not solved to the tolerance, of cases that are done; they are NaN.
     """
+
+    done: Counter[str] = field(default_factory=Counter)
+    failed: Counter[str] = field(default_factory=Counter)
+    core_seconds: dict[str, float] = field(default_factory=dict)
+    reasons: Counter[str] = field(default_factory=Counter)
+    unconverged: int = 0
+
+    def add(self, batch: Batch, result: BatchResult) -> None:
+        """Count a batch that was written."""
+        name, failed = batch.ensemble.name, len(result.failures)
+        self.done[name] += len(batch.cells) - failed
+        self.failed[name] += failed
+        self.core_seconds[name] = self.core_seconds.get(name, 0.0) + result.core_seconds
+        self.reasons.update(result.failures.values())
+        if "status" in result.results:
+            self.unconverged += int((result.results["status"] > Status.CONVERGED).sum())
+
+
+class Dispatch:
+    """One run of a campaign: batches go out as workers ask for more, results are written."""
 
     def __init__(
         self,
@@ -47,13 +75,14 @@ class Dispatch:
         report: EnsembleProgress,
     ) -> None:
         self._plan, self._writer, self._cluster = plan, writer, cluster
-        self.threads, self._missing, self._report = threads, missing, report
-        self.summary = Summary()
+        self._missing, self._report = missing, report
+        self.threads = threads  # for each case
+        self.summary = Summary()  # of what was done so far
         self._pending: dict[Any, Batch | None] = {}
         # cases of batches whose workers died: each is computed alone, to find the one that fails
         self._suspects: list[Batch] = []
         self._alone = False
-        self.cores = cluster.cores()
+        self.cores = cluster.cores()  # cases that the cluster computes at a time
         self._checked = self._last_with_workers = time.monotonic()
 
     def work(self, batches: dict[str, list[Batch]], with_gallery: bool) -> None:

@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from roughline._version import __version__
 from roughline.campaign.batch import Results, check_version
-from roughline.campaign.groups import codecs
-from roughline.campaign.layout import GALLERY, GALLERY_DONE
-from roughline.campaign.mending import read_or_none
+from roughline.campaign.layout import GALLERY, GALLERY_DONE, codecs
 from roughline.campaign.plan import Gallery
+from roughline.campaign.store import read_or_none
 from roughline.computing import fft
 from roughline.computing.cores import available_cores
 from roughline.contact.press import press

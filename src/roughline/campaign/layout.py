@@ -7,6 +7,7 @@ attributes of the root say which version made the store.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -114,3 +115,10 @@ def variables_of(ensemble: Ensemble) -> list[Variable]:
         if (ensemble.model == "full" or each.of_lines)
         and (ensemble.hardness_bar is not None or not each.of_yielding)
     ]
+
+
+def codecs() -> dict[str, Any]:
+    """Return how chunks are compressed, and that they carry checksums."""
+    from zarr.codecs import Crc32cCodec, ZstdCodec
+
+    return {"compressors": (ZstdCodec(level=1), Crc32cCodec())}

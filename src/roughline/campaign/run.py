@@ -12,9 +12,8 @@ from pathlib import Path
 from roughline._version import __version__
 from roughline.campaign import cluster as clusters
 from roughline.campaign.cost import cost_of, refuse_beyond_disk, refuse_countless, workers_that_fit
-from roughline.campaign.dispatch import Dispatch
+from roughline.campaign.dispatch import Dispatch, EnsembleProgress, Summary
 from roughline.campaign.plan import Plan
-from roughline.campaign.progress import EnsembleProgress, Summary
 from roughline.campaign.writer import writing
 from roughline.computing.cores import available_cores, processor_name
 from roughline.errors import InputError

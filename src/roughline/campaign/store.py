@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from roughline._version import __version__
 from roughline.campaign.layout import (
@@ -101,13 +102,7 @@ def _in_order(data: xarray.Dataset, names: Sequence[str]) -> xarray.Dataset:
 
 
 def opened(path: Path, mode: Literal["r", "r+"]) -> Any:
-    """Open the root group of a store, for reading or for writing too.
-
-    Raises
-    ------
-    StoreError
-        If it does not exist, was not made by this version of roughline, or is damaged.
-    """
+    """Open the root group of a store of this version, for reading or for writing too."""
     import zarr  # here because it loads slowly
 
     if not path.is_dir():
@@ -138,3 +133,11 @@ def damaged_or_foreign(path: Path) -> StoreError:
         else "is not a store of roughline"
     )
     return StoreError(f"{path} {what}; choose another folder for the campaign")
+
+
+def read_or_none(array: Any) -> NDArray[Any] | None:
+    """Return the values of an array, or None if a chunk is damaged."""
+    try:
+        return array[:]
+    except (OSError, ValueError, RuntimeError):
+        return None

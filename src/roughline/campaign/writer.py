@@ -7,8 +7,9 @@ damaged later are found and emptied before a campaign goes on, and their cases a
 
 from __future__ import annotations
 
+import json
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from itertools import product
 from pathlib import Path
@@ -19,12 +20,24 @@ from numpy.typing import NDArray
 
 from roughline._version import __version__
 from roughline.campaign.batch import Batch, BatchResult, Results
+from roughline.campaign.cost import chunk_shape
 from roughline.campaign.gallery import gallery_is_whole, write_gallery
-from roughline.campaign.groups import prepared_group, refuse_other_settings
-from roughline.campaign.layout import CASE_STATUS, DONE, FAILED, FORMAT, GALLERY_DONE
-from roughline.campaign.mending import mend
+from roughline.campaign.layout import (
+    CASE_STATUS,
+    COORDINATES,
+    DONE,
+    FAILED,
+    FORMAT,
+    GALLERY_DONE,
+    PENDING,
+    VARIABLES,
+    Variable,
+    codecs,
+    variables_of,
+)
 from roughline.campaign.plan import Ensemble, Gallery, Plan
-from roughline.campaign.store import damaged_or_foreign, opened
+from roughline.campaign.store import damaged_or_foreign, opened, read_or_none
+from roughline.contact.status import Status
 from roughline.errors import StoreError
 
 
@@ -36,7 +49,7 @@ class Writer:
         self._root = opened(path, "r+")
         try:
             for ensemble in plan.ensembles:
-                refuse_other_settings(self._root, ensemble, path)
+                _refuse_other_settings(self._root, ensemble, path)
             if (
                 plan.gallery is not None
                 and self.has_gallery
@@ -44,12 +57,12 @@ class Writer:
             ):
                 self._root.attrs[GALLERY_DONE] = False
             self._groups = {
-                ensemble.name: prepared_group(self._root, ensemble) for ensemble in plan.ensembles
+                ensemble.name: _prepared_group(self._root, ensemble) for ensemble in plan.ensembles
             }
             # kept open: to open an array takes longer than to write a chunk
             self._arrays = {name: dict(group.arrays()) for name, group in self._groups.items()}
             for arrays in self._arrays.values():
-                mend(arrays)
+                _mend(arrays)
         except (ValueError, KeyError, TypeError) as error:
             raise damaged_or_foreign(path) from error
 
@@ -172,3 +185,136 @@ def _unwritable(path: Path, error: OSError) -> StoreError:
         f"cannot write to {path} ({error.strerror or error}): make room or choose another "
         "folder; what is done is kept"
     )
+
+
+def _refuse_other_settings(root: Any, ensemble: Ensemble, path: Path) -> None:
+    """Refuse a store that holds results under an ensemble's name but with other settings.
+
+    Where nothing was computed under that name yet, its group is removed instead.
+    """
+    if ensemble.name not in root:
+        return
+    # of elastic bodies, neither the settings nor what is stored names a hardness
+    wanted = {"hardness_bar": None, **json.loads(json.dumps(ensemble.identity()))}
+    group = root[ensemble.name]
+    stored = group.attrs
+    if {key: stored.get(key) for key in wanted} == wanted:
+        return
+    if CASE_STATUS.name not in group or (group[CASE_STATUS.name][:] == PENDING).all():
+        del root[ensemble.name]
+        return
+    for key, value in wanted.items():
+        if stored.get(key) != value:
+            raise StoreError(
+                f"{path} holds an ensemble {ensemble.name!r} with other settings: its {key} "
+                f"is {_short(stored.get(key))}, the plan's is {_short(value)}; rename the "
+                "ensemble, or choose another folder"
+            )
+
+
+def _prepared_group(root: Any, ensemble: Ensemble) -> Any:
+    """Return the group of an ensemble, made or enlarged; nothing that is there changes."""
+    if ensemble.name not in root:
+        attributes = {
+            **json.loads(json.dumps(ensemble.identity())),
+            **_descriptions(ensemble),
+            "fractal_dimensions": [],
+            "failures": {},
+        }
+        root.create_group(ensemble.name, attributes=attributes)
+    group = root[ensemble.name]
+    before = list(group.attrs["fractal_dimensions"])
+    known = before + [value for value in ensemble.fractal_dimensions if value not in before]
+    if known != before:
+        group.attrs["fractal_dimensions"] = known
+    stored = group[CASE_STATUS.name].shape[1] if CASE_STATUS.name in group else 0
+    realisations = max(ensemble.realisations, stored)
+    shape = (len(known), realisations, len(ensemble.force_bars))
+    chunks = (*chunk_shape(ensemble), len(ensemble.force_bars))
+    for variable in (*variables_of(ensemble), CASE_STATUS):
+        rank = len(variable.dims)
+        _prepared_array(group, variable, shape[:rank], tuple(map(min, chunks, shape[:rank])))
+    values = (np.array(known), np.arange(realisations), np.array(ensemble.force_bars))
+    for coordinate, value in zip(COORDINATES, values, strict=True):
+        array = _prepared_array(group, coordinate, value.shape, value.shape)
+        stored_value = read_or_none(array)
+        if stored_value is None or not np.array_equal(stored_value, value):
+            array[:] = value
+    return group
+
+
+def _prepared_array(
+    group: Any, variable: Variable, shape: tuple[int, ...], chunks: tuple[int, ...]
+) -> Any:
+    """Return an array of the group, made or enlarged where needed."""
+    if variable.name not in group:
+        return group.create_array(
+            variable.name,
+            shape=shape,
+            chunks=chunks,
+            dtype=variable.dtype,
+            fill_value=variable.fill,
+            dimension_names=variable.dims,
+            attributes={"long_name": variable.meaning, "units": "1"},
+            **codecs(),
+        )
+    array = group[variable.name]
+    if array.shape != shape:
+        array.resize(shape)
+    return array
+
+
+def _descriptions(ensemble: Ensemble) -> dict[str, Any]:
+    """Return what a reader wants to know besides the settings themselves."""
+    end = "pi / spacing" if ensemble.cutoff_ratio is None else "cutoff_ratio * 2 pi / L"
+    return {
+        "roughline_version": __version__,
+        "heights": "random phases, fixed moduli, scaled to rms 1; length L = 1, E* = 1",
+        "spectrum": f"self-affine from roll_off_ratio * 2 pi / L to {end}, flat below",
+    }
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _mend(arrays: Mapping[str, Any]) -> None:
+    """Empty chunks that cannot be read, and mark all cases that are not whole as not done."""
+    values = {name: _read_mended(array) for name, array in arrays.items()}
+    marks = values[CASE_STATUS.name]
+    whole = np.ones(marks.shape, dtype=bool)
+    for name, variable in VARIABLES.items():
+        if name not in arrays:
+            continue
+        if variable.per_body:
+            whole &= np.isfinite(values[name])
+        elif variable.dtype == "f8":
+            solved = values["status"] == Status.CONVERGED
+            # a periodic surface in full contact is infinitely stiff
+            whole &= (np.isnan(values[name]) != solved).all(axis=-1)
+        else:
+            whole &= (values[name] >= 0).all(axis=-1)
+    lost = (marks == DONE) & ~whole
+    if lost.any():
+        marks[lost] = PENDING
+        arrays[CASE_STATUS.name][:] = marks
+
+
+def _read_mended(array: Any) -> NDArray[Any]:
+    """Return the values of an array; chunks that cannot be read get their fill value again."""
+    values = read_or_none(array)
+    if values is not None:
+        return values
+    steps = [range(0, size, chunk) for size, chunk in zip(array.shape, array.chunks, strict=True)]
+    for corner in product(*steps):
+        region = tuple(slice(a, a + b) for a, b in zip(corner, array.chunks, strict=True))
+        try:
+            array[region]
+        except (OSError, ValueError, RuntimeError):
+            shape = [
+                min(chunk, size - start)
+                for start, chunk, size in zip(corner, array.chunks, array.shape, strict=True)
+            ]
+            array[region] = np.full(shape, array.fill_value, dtype=array.dtype)
+    return array[:]

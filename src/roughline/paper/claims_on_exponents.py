@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from roughline.paper.claim import ENOUGH_LOADS, Numbers, basis_in, bodies_of, exact_claim, not_judged
+from roughline.paper.claim import (
+    ENOUGH_LOADS,
+    Numbers,
+    basis_in,
+    bodies_of,
+    exact_claim,
+    not_judged,
+)
 from roughline.paper.laws import exponent_estimate
 from roughline.paper.stated import (
     ENDS_OF_REDUCED,

@@ -13,7 +13,7 @@ from roughline.errors import InputError
 from roughline.paper.plan import ENSEMBLE_FULL, ENSEMBLE_REDUCED
 
 _Settings = Mapping[str, Any]
-"""_Settings of an ensemble, as a plan and the attributes of its results have them."""
+"""Settings of an ensemble, as a plan and the attributes of its results have them."""
 
 
 @dataclass(frozen=True)

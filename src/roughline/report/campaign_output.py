@@ -11,7 +11,7 @@ from rich.console import Console
 from roughline.report.terminal import print_table
 
 if TYPE_CHECKING:
-    from roughline.campaign.progress import Summary
+    from roughline.campaign.dispatch import Summary
     from roughline.campaign.store import Store
 
 
