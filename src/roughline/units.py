@@ -63,19 +63,8 @@ def _registry() -> pint.UnitRegistry[float]:
 def in_si(text: str, unit: str, name: str) -> float:
     """Read a quantity such as "110 GPa" and return its value in an SI unit.
 
-    Parameters
-    ----------
-    text : str
-        Number and unit.
-    unit : str
-        SI unit of the result: one of those with an example in this module.
-    name : str
-        Name of the quantity, for the message.
-
-    Raises
-    ------
-    UnitError
-        If there is no unit, or one of another dimension, or a decimal comma.
+    The SI unit is one of those with an example in this module. Without a unit, with one of another
+    dimension, or with a decimal comma, it raises a UnitError about the name.
     """
     example = example_of(unit, name)
     refuse_decimal_comma(text, name)
@@ -161,23 +150,10 @@ def engineering(value: float, unit: str, digits: int = MOST_DIGITS) -> str:
 
 
 def prefix(value: float, unit: str, digits: int = MOST_DIGITS) -> tuple[float, str]:
-    """Choose a prefix for an SI value that is written with a number of digits.
+    """Return the factor from a unit such as "N/m" or "m²" to one with a prefix, and that unit.
 
-    Parameters
-    ----------
-    value : float
-        Value in the unit.
-    unit : str
-        Without prefix, such as "N/m" or "m²".
-    digits : int, optional
-        Significant digits; a value that rounds to 1000 gets the next prefix.
-
-    Returns
-    -------
-    factor : float
-        From the unit to the prefixed one.
-    prefixed : str
-        The unit with its prefix.
+    The prefix suits a value that is written with some digits: one that rounds to 1000 gets the
+    next.
     """
     sign = _SIGNS.get(unit, unit)
     if value == 0 or not math.isfinite(value):
@@ -195,16 +171,8 @@ def supported_digits(
     """Return with how many significant digits a value is written: with those that are known.
 
     The last digit is that of a third of the shorter side of its interval, so that rounding moves
-    the value by a sixth of that side at most, unless a single digit is left.
-
-    Parameters
-    ----------
-    value : float
-        The value.
-    ends : tuple of float, or None
-        Both ends of its interval; None where it is not known.
-    most : int, optional
-        Digits of a value that is known better, or whose interval is not known.
+    the value by a sixth of that side at most, unless a single digit is left. A value that is known
+    better, or whose interval is not known, has the most.
     """
     sides = [abs(value - end) for end in ends or () if math.isfinite(end)]
     sides = [side for side in sides if side > _ROUNDING * abs(value)]

@@ -9,7 +9,7 @@ from typing import Literal, get_args
 from roughline.errors.checks import between, one_of, positive
 from roughline.errors.public import public
 from roughline.spectra.response import Pixels
-from roughline.topography.files.scale import Sizes
+from roughline.topography.files.measurement import Sizes
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MOUNTING, Settings
 from roughline.units import metres_per

@@ -6,10 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Real = NDArray[np.float64]  # numbers in double precision
-Complex = NDArray[np.complex128]  # complex numbers in double precision
 Single = NDArray[np.float32]  # numbers in single precision
 Indices = NDArray[np.intp]  # positions in another array
 Mask = NDArray[np.bool_]  # true for what is chosen
 Floats = NDArray[np.floating]  # numbers in single or double precision
-ComplexFloats = NDArray[np.complexfloating]  # complex numbers in single or double precision
 Integers = NDArray[np.integer]  # whole numbers of any width

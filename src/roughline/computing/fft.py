@@ -14,11 +14,15 @@ from typing import Any
 
 import ducc0.fft
 import numpy as np
+from numpy.typing import NDArray
 
-from roughline.computing.arrays import Complex, ComplexFloats, Real
+from roughline.computing.arrays import Real
 from roughline.computing.cores import available_cores
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
+
+_Complex = NDArray[np.complex128]
+_ComplexFloats = NDArray[np.complexfloating]  # in single or double precision
 
 _threads = available_cores()
 
@@ -90,12 +94,12 @@ def good_size(n: int, factor: int = 2) -> int:
     return factor * ducc0.fft.good_size(-(-n // factor))
 
 
-def fft_rows(rows: ComplexFloats, *, forward: bool) -> None:
+def fft_rows(rows: _ComplexFloats, *, forward: bool) -> None:
     """Transform each row in place."""
     ducc0.fft.c2c(rows, axes=(1,), forward=forward, out=rows, nthreads=1)
 
 
-def fft_columns(columns: ComplexFloats, *, forward: bool) -> None:
+def fft_columns(columns: _ComplexFloats, *, forward: bool) -> None:
     """Transform each column in place."""
     ducc0.fft.c2c(columns, axes=(0,), forward=forward, out=columns, nthreads=1)
 
@@ -111,17 +115,17 @@ def cosine_spectrum(quarter: Real) -> None:
     share_out_blocks(lambda a, b: transform(quarter[:, a:b], 0), ny, LINES_AT_A_TIME)
 
 
-def analyse(values: Real) -> Complex:
+def analyse(values: Real) -> _Complex:
     """Return the full spectrum of real values over a plane."""
     return ducc0.fft.c2c(values.astype(np.complex128), axes=(0, 1), forward=True, nthreads=1)
 
 
-def half_spectrum(values: Real) -> Complex:
+def half_spectrum(values: Real) -> _Complex:
     """Return the spectrum of real values over a plane, for q >= 0 on the last axis."""
     return ducc0.fft.r2c(values, axes=(0, 1), nthreads=1)
 
 
-def synthesise(half_spectrum: Complex, n: int) -> Real:
+def synthesise(half_spectrum: _Complex, n: int) -> Real:
     """Return the real values of a Hermitian spectrum that is stored for q >= 0 on the last axis."""
     axes = tuple(range(half_spectrum.ndim))
     return ducc0.fft.c2r(half_spectrum, axes=axes, lastsize=n, forward=False, nthreads=1)

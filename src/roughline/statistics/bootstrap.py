@@ -56,24 +56,14 @@ NO_ESTIMATE = IntervalEstimate(math.nan, math.nan, math.nan)
 
 @dataclass(frozen=True, eq=False)
 class Resampled:
-    """A statistic of an ensemble and of its resamples, each with its standard error.
+    """A statistic of an ensemble and of its resamples, each with its standard error."""
 
-    Attributes
-    ----------
-    value, error : ndarray, shape (...)
-        The statistic of the ensemble and its standard error.
-    values, errors : ndarray, shape (rounds, ...)
-        The same of the resamples; NaN where a resample has none.
-    freedom : ndarray, shape (...)
-        Degrees of freedom of the error: the number of realisations less 1. For a difference of
-        two ensembles, Welch's number.
-    """
-
-    value: Real
+    value: Real  # of the ensemble, shape (...)
     error: Real
-    values: Real
+    values: Real  # of the resamples, shape (rounds, ...); NaN where one has none
     errors: Real
     freedom: Real
+    """Degrees of freedom of the error: realisations less 1, or Welch's number for a difference."""
 
     def log(self) -> Resampled:
         """Return the logarithm of the statistic; differences of logarithms are ratios."""
@@ -131,17 +121,10 @@ class Resampled:
 
 
 def means(values: Real, rng: int = 0) -> Resampled:
-    """Resample the mean over realisations; values that are not finite are left out.
+    """Resample the mean over the first axis, realisations; what is not finite is left out.
 
     Two ensembles with the same number of realisations, resampled with the same seed, draw the
     same realisations.
-
-    Parameters
-    ----------
-    values : ndarray, shape (realisations, ...)
-        One entry for each realisation.
-    rng : int, optional
-        Seed of the resampling.
     """
     count = values.shape[0]
     flat = values.reshape(count, -1)
@@ -169,14 +152,7 @@ def means(values: Real, rng: int = 0) -> Resampled:
 def function_of_means(values: Real, statistic: _Statistic, rng: int = 0) -> Resampled:
     """Resample a smooth function of the means, with its linearised standard error.
 
-    Parameters
-    ----------
-    values : ndarray, shape (realisations, loads)
-        One row for each realisation, all finite.
-    statistic : callable
-        The function and its gradient.
-    rng : int, optional
-        Seed of the resampling.
+    Values, shape (realisations, loads), are all finite.
     """
     count = values.shape[0]
     weights = _weights(count, rng)
@@ -200,16 +176,7 @@ def sum_of_log_means(
 ) -> Resampled:
     """Resample a weighted sum over loads of the logarithm of the mean, such as an exponent.
 
-    Parameters
-    ----------
-    values : ndarray, shape (realisations, loads)
-        Positive values.
-    weights : ndarray, shape (loads,)
-        One weight for each load; values at loads of weight zero are not used.
-    geometric : bool, optional
-        Whether the mean is the geometric one.
-    rng : int, optional
-        Seed of the resampling.
+    Values, shape (realisations, loads), are positive; those at loads of weight zero are not used.
     """
     used = weights != 0
     factors = weights[used]

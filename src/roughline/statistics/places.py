@@ -13,29 +13,26 @@ _AGREED = 0.99  # of places that are alike
 
 
 @dataclass(frozen=True, eq=False)
-class PlaceAverage:
-    """Mean of a positive quantity over the places of a part, at each load.
-
-    Attributes
-    ----------
-    mean : ndarray, shape (loads,)
-        Geometric mean; NaN without a place, and where some values are zero or infinite and others
-        are not.
-    scatter : ndarray, shape (loads,)
-        Geometric standard deviation, a factor of at least 1: two of three places lie between mean /
-        scatter and mean * scatter. NaN for fewer than two places.
-    low, high : ndarray, shape (loads,)
-        Ends of the interval of the mean over all places. NaN for fewer than two places, and where
-        all values are the same and nothing else is open.
-    count : ndarray of int, shape (loads,)
-        Places that have a value, neither zero nor infinite.
-    """
+class _PlaceAverage:
+    """Mean of a positive quantity over the places of a part, at each load."""
 
     mean: Real
+    """Geometric mean; NaN without a place, and where some values alone are zero or infinite."""
+
     scatter: Real
+    """Geometric standard deviation, a factor of at least 1; NaN for fewer than two places.
+
+    Two of three places lie between mean / scatter and mean * scatter.
+    """
+
     low: Real
     high: Real
-    count: Indices
+    """Ends of the interval of the mean over all places.
+
+    NaN for fewer than two places, and where all values are the same and nothing else is open.
+    """
+
+    count: Indices  # places that have a value, neither zero nor infinite
 
 
 def average_of_places(
@@ -44,7 +41,7 @@ def average_of_places(
     high: Real,
     whole: tuple[Real, Real] | None = None,
     confidence: float = 0.95,
-) -> PlaceAverage:
+) -> _PlaceAverage:
     """Average a positive quantity over a few places, chosen at random, of many.
 
     Such quantities scatter by factors, so logarithms are averaged. A resistance and its conductance
@@ -54,17 +51,9 @@ def average_of_places(
     not average out. A whole of which the places are parts may differ from their mean, by an amount
     whose bounds are known alone; they are added.
 
-    Parameters
-    ----------
-    values : ndarray, shape (places, loads)
-        Not negative; NaN where there is no value.
-    low, high : ndarray, shape (places, loads)
-        Ends of each value's own interval; NaN where there is none, which counts as no width.
-    whole : tuple of ndarray, shape (places, loads), optional
-        What the value of each place would become at both bounds, if the whole differed from the
-        mean as much; NaN where nothing is known, which counts as no difference.
-    confidence : float, optional
-        Level of the interval.
+    Values, shape (places, loads), are not negative, and NaN where there is none. Their own ends
+    count as no width where they are NaN. `whole` holds what they would become at both bounds, if
+    the whole differed from the mean as much; NaN counts as no difference.
     """
     from scipy.special import stdtrit  # here because it loads slowly
 
@@ -92,7 +81,7 @@ def average_of_places(
         ]
     alike = (values == values[:1]).all(axis=0) & extreme
     mean = np.where(alike, values[0], np.exp(centre))
-    return PlaceAverage(mean, np.exp(deviation), ends[0], ends[1], count)
+    return _PlaceAverage(mean, np.exp(deviation), ends[0], ends[1], count)
 
 
 def _median_distance(distances: Real, known: Mask) -> Real:
@@ -104,24 +93,12 @@ def _median_distance(distances: Real, known: Mask) -> Real:
 
 @dataclass(frozen=True)
 class Agreement:
-    """Whether places differ by more than parts of one place do.
+    """Whether places differ by more than parts of one place do."""
 
-    Attributes
-    ----------
-    between : float
-        Standard deviation of the means of places.
-    within : float
-        That which independent parts of a place explain.
-    ratio : float
-        Variance between places over that which their parts explain.
-    chance : float
-        Ratio that chance does not exceed in 99 of 100 cases if all places are alike.
-    """
-
-    between: float
-    within: float
-    ratio: float
-    chance: float
+    between: float  # standard deviation of the means of places
+    within: float  # that which independent parts of a place explain
+    ratio: float  # variance between places over that which their parts explain
+    chance: float  # ratio that it does not exceed in 99 of 100 cases if all places are alike
 
     @property
     def of_places(self) -> float:
@@ -139,17 +116,9 @@ def agreement(values: Real) -> Agreement | None:
 
     Parts that are independent of each other scatter about the mean of their place as the means of
     places do about that of all, times the root of their number. What differs between places beyond
-    that belongs to the places.
-
-    Parameters
-    ----------
-    values : ndarray, shape (places, parts)
-        On a scale on which they scatter evenly, such as logarithms.
-
-    Returns
-    -------
-    Agreement or None
-        None for fewer than two places or parts, and where parts do not differ.
+    that belongs to the places. Values, shape (places, parts), are on a scale on which they scatter
+    evenly, such as logarithms. None for fewer than two places or parts, and where parts do not
+    differ.
     """
     from scipy.special import fdtri  # here because it loads slowly
 

@@ -11,29 +11,16 @@ from roughline.computing.arrays import Real
 def at_levels(
     force_bar: ArrayLike, depth: ArrayLike, stiffness: ArrayLike, highest: ArrayLike, levels: int
 ) -> tuple[Real, Real]:
-    """Force and stiffness of every realisation at common levels of the rigid plane.
+    """Force and stiffness of every realisation, shape (realisations, levels), at common levels.
 
-    The level is the height of the plane above the mean of the heights. A realisation whose
-    highest point lies below the plane carries no force. An ensemble that is averaged at fixed
-    level shows other exponents than at fixed force, because its highest realisations dominate.
+    The level is the height of the rigid plane above the mean of the heights, from the highest to
+    the lowest that all realisations reach. Forces rise; depths since touch and stiffness are over
+    (realisation, load). Depths and the height of each highest point above the mean are over h.
 
-    Parameters
-    ----------
-    force_bar : array_like, shape (loads,)
-        Rising dimensionless forces.
-    depth, stiffness : array_like, shape (realisations, loads)
-        Depth since touch, over h, and stiffness under these forces.
-    highest : array_like, shape (realisations,)
-        Height of the highest point of each realisation above the mean, over h.
-    levels : int
-        Number of levels, evenly spaced over those that all realisations reach.
-
-    Returns
-    -------
-    force, stiffness : ndarray, shape (realisations, levels)
-        From the highest level to the lowest. Zero where a realisation does not touch. Between
-        touch and the smallest load they follow the power laws of the depth that the first two
-        loads determine.
+    A realisation whose highest point lies below the plane carries no force. Between touch and its
+    smallest load it follows the power laws of the depth that its first two loads determine. An
+    ensemble that is averaged at fixed level shows other exponents than at fixed force, because its
+    highest realisations dominate.
     """
     depths = np.asarray(depth, dtype=np.float64)
     highest_points = np.asarray(highest, dtype=np.float64)[:, np.newaxis]
@@ -47,19 +34,8 @@ def at_depths(
 ) -> tuple[Real, Real]:
     """Force and stiffness of every realisation at common depths since its first touch.
 
-    Parameters
-    ----------
-    force_bar, depth, stiffness
-        As for :func:`at_levels`.
-    depths : int
-        Number of depths, evenly spaced logarithms, from the smallest that a realisation has to the
-        largest that all have.
-
-    Returns
-    -------
-    force, stiffness : ndarray, shape (realisations, depths)
-        From the smallest depth to the largest. Below a realisation's smallest load they follow the
-        power laws of the depth that its first two loads determine.
+    They rise with even logarithms from the smallest that a realisation has to the largest that all
+    have; the rest is as for :func:`at_levels`.
     """
     known = np.asarray(depth, dtype=np.float64)
     common = np.geomspace(known[:, 0].min(), known[:, -1].min(), depths)

@@ -58,23 +58,15 @@ def joint_verdict(verdicts: Iterable[Verdict]) -> Verdict:
 
 @dataclass(frozen=True)
 class Case:
-    """One of the cases that a claim is about.
+    """One of the cases that a claim is about."""
 
-    Attributes
-    ----------
-    where : str
-        Which case, with its preposition: "at D_f = 2.0". Neighbours that differ in the last word
-        alone are told together.
-    verdict : Verdict or None
-        On it; None where the data do not tell the number.
-    enough : float
-        Realisations that would decide where the sample does not; infinite where finer grids would,
-        NaN where it is not known.
-    """
-
-    where: str
-    verdict: Verdict | None
+    where: str  # which case, with its preposition: "at D_f = 2.0"
+    verdict: Verdict | None  # on it; None where the data do not tell the number
     enough: float = math.nan
+    """Realisations that would decide where the sample does not.
+
+    Infinite where finer grids would, NaN where it is not known.
+    """
 
     @classmethod
     def together(cls, where: str, parts: Sequence[Case]) -> Case:
@@ -86,30 +78,14 @@ class Case:
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement beside the same number here, and the verdict.
+    """A statement beside the same number here, and the verdict."""
 
-    Attributes
-    ----------
-    statement : str
-        What is said, and where.
-    found : str
-        The same number here.
-    interval : str
-        Its 95 % interval, or why it has none.
-    basis : str
-        What the number is of: window, averaging, grid.
-    verdict : Verdict
-        On the statement as a whole: one refuted case refutes it.
-    cases : str
-        The verdict in words, case by case where the cases differ.
-    """
-
-    statement: str
-    found: str
-    interval: str
-    basis: str
-    verdict: Verdict
-    cases: str
+    statement: str  # what is said, and where
+    found: str  # the same number here
+    interval: str  # its 95 % interval, or why it has none
+    basis: str  # what the number is of: window, averaging, grid
+    verdict: Verdict  # on the statement as a whole: one refuted case refutes it
+    cases: str  # the verdict in words, case by case where the cases differ
 
     @classmethod
     def of(

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal, TypeVar
 
@@ -25,23 +24,22 @@ from roughline.topography.heights import (
 )
 from roughline.topography.notebook import described, html_of_body
 from roughline.topography.settings import (
-    AS_RECORDED,
+    NOTHING_RECORDED,
+    PERIODIC,
+    PIECE,
     TILT_REMOVED,
     Settings,
     checked_cut_out,
-    checked_settings,
     checked_trend,
     read_only,
     record_of_tilt,
 )
-from roughline.topography.surfacetopography import fields_of_topography
 from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
-
-_NOT_GIVEN = (math.nan, math.nan)  # sizes
+from roughline.units import metres_per
 
 
 @public
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Surface:
     """Heights of a rough surface on a rectangle.
 
@@ -85,29 +83,38 @@ class Surface:
     """
 
     heights: Real
-    sizes: tuple[float, float] = _NOT_GIVEN
-    unit: str | None = None
-    settings: Settings = field(default_factory=dict, repr=False)
-    is_cut_out: bool = field(default=AS_RECORDED, kw_only=True)
-    removed_trend: Trend = field(default=AS_RECORDED, kw_only=True)
+    sizes: tuple[float, float]
+    unit: str | None
+    settings: Settings
+    is_cut_out: bool
+    removed_trend: Trend
 
     __repr__ = described
     _repr_html_ = html_of_body
 
-    def __post_init__(self) -> None:
-        if hasattr(self.heights, "physical_sizes"):
-            has_sizes = self.sizes is not _NOT_GIVEN
-            _set(self, **fields_of_topography(self.heights, has_sizes, self.unit, self.settings))
-        if self.sizes is _NOT_GIVEN:
+    def __init__(
+        self,
+        heights: Any,
+        sizes: tuple[float, float] | None = None,
+        unit: str | None = None,
+        settings: Settings = NOTHING_RECORDED,
+        *,
+        is_cut_out: bool | None = None,
+        removed_trend: Trend | None = None,
+    ) -> None:
+        if hasattr(heights, "physical_sizes"):
+            heights, sizes, unit, settings = _of_topography(heights, sizes, unit, settings)
+        if sizes is None:
             raise InputError("no sizes are given; give the sides of the surface, (Lx, Ly)")
-        heights = checked_heights(self.heights, dimensions=2)
+        heights = checked_heights(heights, dimensions=2)
         if heights.size < 2:
             raise InputError(
                 f"the surface has {heights.shape[0]} x {heights.shape[1]} points; at least 1 x 2 "
                 "are needed: give more points"
             )
-        checked_settings(self.settings)
-        _freeze(self, heights=heights, sizes=checked_sides(self.sizes))
+        settings = read_only(settings)
+        _set(self, heights=heights, sizes=checked_sides(sizes))
+        _set_recorded(self, unit, settings, is_cut_out, removed_trend)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -207,7 +214,7 @@ class Surface:
 
 
 @public
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Line:
     """Heights of a rough line.
 
@@ -250,22 +257,33 @@ class Line:
 
     heights: Real
     length: float
-    unit: str | None = None
-    settings: Settings = field(default_factory=dict, repr=False)
-    kind: Literal["reduced", "profile"] = "reduced"
-    is_cut_out: bool = field(default=AS_RECORDED, kw_only=True)
-    removed_trend: Trend = field(default=AS_RECORDED, kw_only=True)
+    unit: str | None
+    settings: Settings
+    kind: Literal["reduced", "profile"]
+    is_cut_out: bool
+    removed_trend: Trend
 
     __repr__ = described
     _repr_html_ = html_of_body
 
-    def __post_init__(self) -> None:
-        heights = checked_heights(self.heights, dimensions=1)
+    def __init__(
+        self,
+        heights: Any,
+        length: float,
+        unit: str | None = None,
+        settings: Settings = NOTHING_RECORDED,
+        kind: Literal["reduced", "profile"] = "reduced",
+        *,
+        is_cut_out: bool | None = None,
+        removed_trend: Trend | None = None,
+    ) -> None:
+        heights = checked_heights(heights, dimensions=1)
         if heights.size < 2:
             raise InputError(f"the line has {heights.size} points; at least 2 are needed")
-        one_of("kind", self.kind, ("reduced", "profile"))
-        checked_settings(self.settings)
-        _freeze(self, heights=heights, length=checked_length(self.length))
+        one_of("kind", kind, ("reduced", "profile"))
+        settings = read_only(settings)
+        _set(self, heights=heights, length=checked_length(length), kind=kind)
+        _set_recorded(self, unit, settings, is_cut_out, removed_trend)
 
     @property
     def spacing(self) -> float:
@@ -336,19 +354,36 @@ def _set(body: Body, **fields: Any) -> None:
         object.__setattr__(body, name, value)
 
 
-def _freeze(body: Body, heights: Real, **fields: Any) -> None:
-    """Set checked fields at birth; the settings become read-only."""
-    settings = body.settings
-    is_cut_out = checked_cut_out(body.is_cut_out, settings)
-    if is_cut_out is None:
-        borders = borders_of(heights)
-        is_cut_out, settings = borders.jump, {**settings, **borders.record}
-    _set(
-        body,
-        **fields,
-        heights=heights,
-        unit=checked_unit(body.unit),
-        is_cut_out=is_cut_out,
-        removed_trend=checked_trend(body.removed_trend, settings),
-        settings=read_only(settings),
-    )
+def _set_recorded(
+    body: Body,
+    unit: str | None,
+    settings: Settings,
+    is_cut_out: bool | None,
+    removed_trend: Trend | None,
+) -> None:
+    """Set fields of a body with heights, as given, or as its record or its borders say."""
+    if (decided := checked_cut_out(is_cut_out, settings)) is None:
+        borders = borders_of(body.heights)
+        decided, settings = borders.jump, read_only({**settings, **borders.record})
+    _set(body, unit=checked_unit(unit), is_cut_out=decided)
+    _set(body, removed_trend=checked_trend(removed_trend, settings), settings=settings)
+
+
+def _of_topography(
+    topography: Any, sizes: object, unit: str | None, settings: Settings
+) -> tuple[Real, tuple[float, float], str | None, Settings]:
+    """Fields of a Surface from a map of SurfaceTopography, in metres if it states its unit."""
+    if topography.dim != 2:
+        raise InputError("the topography is a line scan; a Surface needs a map: make a Line of it")
+    if sizes is not None:
+        raise InputError("the topography has its own sizes; leave sizes out")
+    origin = PERIODIC if topography.is_periodic else PIECE
+    factor, heights = 1.0, topography.heights()
+    if topography.unit:
+        if unit:
+            raise InputError(f"the topography states its unit, {topography.unit}; leave unit out")
+        factor, unit = metres_per(topography.unit), "m"
+        settings = {"file_unit": topography.unit, **settings}
+    x, y = (factor * float(size) for size in topography.physical_sizes)
+    settings = {"origin": origin, **settings}
+    return heights if factor == 1 else heights * factor, (x, y), unit, settings

@@ -35,7 +35,7 @@ class _Body(Protocol):
 
 
 @dataclass(frozen=True)
-class Borders:
+class _Borders:
     """The step of heights across opposite borders, compared with ordinary steps."""
 
     # across the borders over the ordinary one between neighbours, along the side where it is least
@@ -66,7 +66,7 @@ class Borders:
         return f"{'unclear: ' if self.are_unclear else ''}{borders} are {how_far} apart"
 
 
-def borders_of(heights: Real) -> Borders:
+def borders_of(heights: Real) -> _Borders:
     """Compare the step across opposite borders with ordinary steps.
 
     Heights that are repeated periodically have no border: the step across is a step as any other.
@@ -76,7 +76,7 @@ def borders_of(heights: Real) -> Borders:
     The chance of the step across follows from it. A slope of the whole and a piece of a larger
     surface both raise the step across.
     """
-    least = Borders(0.0, 1.0)
+    least = _Borders(0.0, 1.0)
     rounding = _ROUNDING * float(max(heights.max(), -heights.min()))
     for axis, n in enumerate(heights.shape):
         if n < _LEAST:
@@ -87,11 +87,11 @@ def borders_of(heights: Real) -> Borders:
     return least
 
 
-def decided(body: _Body) -> Borders | None:
+def decided(body: _Body) -> _Borders | None:
     """Return what was seen at the borders of a body; None if its heights did not decide."""
     if _CHANCE not in body.settings:
         return None
-    borders = Borders(float(body.settings[_STEP]), float(body.settings[_CHANCE]))
+    borders = _Borders(float(body.settings[_STEP]), float(body.settings[_CHANCE]))
     # a body of which its owner said otherwise since is as that says
     return borders if borders.jump == body.is_cut_out else None
 
@@ -119,7 +119,7 @@ def _borders_of_a(body: _Body) -> str:
     return "opposite borders" if body.heights.ndim == 2 else "its ends"
 
 
-def _along(rows: Real, rounding: float) -> Borders:
+def _along(rows: Real, rounding: float) -> _Borders:
     """Compare the step from the last row to the first with those between neighbouring rows."""
     n, across = rows.shape
     places = min(n - 1, max(_PLACES, _STEPS // across))
@@ -128,9 +128,9 @@ def _along(rows: Real, rounding: float) -> Borders:
     jump = np.abs(rows[0] - rows[-1])
     largest = float(max(steps.max(), jump.max()))
     if jump.max() <= rounding:
-        return Borders(0.0, 1.0)
+        return _Borders(0.0, 1.0)
     if steps.max() <= rounding:
-        return Borders(math.inf, 0.0)
+        return _Borders(math.inf, 0.0)
     within = np.sqrt(steps / largest).mean(axis=1) ** 4
     over_borders = float(np.sqrt(jump / largest).mean() ** 4)
     from scipy import special  # here because it loads slowly
@@ -139,8 +139,8 @@ def _along(rows: Real, rounding: float) -> Borders:
     variance = max(float(within.var(ddof=1)) / mean**2, _EVEN)
     ratio = over_borders / mean
     chance = float(special.gammaincc(1 / variance, ratio / variance))
-    return Borders(math.sqrt(ratio), chance)
+    return _Borders(math.sqrt(ratio), chance)
 
 
-def _step(borders: Borders) -> float:
+def _step(borders: _Borders) -> float:
     return borders.step

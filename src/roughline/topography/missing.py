@@ -79,28 +79,14 @@ class Missing:
 
 @dataclass(frozen=True, eq=False)
 class MissingPattern:
-    """Where points of a topography are missing.
+    """Where points of a topography are missing."""
 
-    Attributes
-    ----------
-    count : int
-        Number of missing points.
-    share : float
-        Their share of all points. [1]
-    regions, largest : int
-        Groups of neighbouring missing points, and the points of the largest.
-    at_border : int
-        Missing points in groups that reach the border.
-    cells : ndarray, shape (columns, rows) or (columns,)
-        Share of missing points in equal pieces of the topography, along x and y. [1]
-    """
-
-    count: int
-    share: float
-    regions: int
-    largest: int
-    at_border: int
-    cells: Real
+    count: int  # of missing points
+    share: float  # of them among all points [1]
+    regions: int  # groups of neighbouring missing points
+    largest: int  # points of the largest group
+    at_border: int  # missing points in groups that reach the border
+    cells: Real  # their share in equal pieces, shape (columns, rows) or (columns,) [1]
 
     def __str__(self) -> str:
         if not self.count:

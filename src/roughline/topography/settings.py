@@ -1,7 +1,7 @@
 """Settings of a body: the record of where its heights come from and of what was done to them.
 
-The record is stored with every result. Typed fields of the body decide how it is treated; where
-they are not given, they follow from the record.
+The record is stored with every result. Typed fields of the body decide how it is treated; they
+follow from the record where they are not given at birth.
 """
 
 from __future__ import annotations
@@ -20,22 +20,19 @@ from roughline.topography.trend import Trend, slopes_of_plane
 Settings = Mapping[str, str | int | float]
 
 
-def checked_settings(given: Any) -> Settings:
-    """Return settings as they are given."""
-    if not isinstance(given, Mapping):
-        refuse("settings", given, "a mapping of names to texts and numbers is needed")
-    return given
+NOTHING_RECORDED: Settings = MappingProxyType({})
 
 
-def read_only(settings: Settings) -> MappingProxyType[str, str | int | float]:
-    """Return a copy of the settings that cannot be changed."""
+def read_only(settings: Any) -> MappingProxyType[str, str | int | float]:
+    """Return a copy of settings that cannot be changed."""
+    if not isinstance(settings, Mapping):
+        refuse("settings", settings, "a mapping of names to texts and numbers is needed")
     return MappingProxyType(dict(settings))
 
 
 # so that bodies, and curves with them, travel between processes
 copyreg.pickle(MappingProxyType, lambda settings: (read_only, (dict(settings),)))
 
-AS_RECORDED: Any = None  # default of a typed field: it follows from the settings
 MEASURED = "instrument file"  # origin of what an instrument measured
 PIECE = "topography"
 """Origin of a topography of SurfaceTopography that is not periodic, so a piece of a larger one."""

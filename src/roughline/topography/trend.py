@@ -12,8 +12,7 @@ from roughline.errors.checks import one_of
 
 Trend = Literal["none", "mean", "tilt", "curvature"]
 
-DEGREES: dict[str, int] = {"none": -1, "mean": 0, "tilt": 1, "curvature": 2}
-"""Degree of the polynomial of each name."""
+_DEGREES = {"none": -1, "mean": 0, "tilt": 1, "curvature": 2}  # of the polynomial of each
 
 _BLOCK = 2**16  # heights changed together
 _ROUNDING = 1e-13  # of the largest height, below which what is left is of rounding alone
@@ -31,7 +30,7 @@ def remove_trend(heights: Real, trend: Trend) -> None:
 
     Heights that are such a polynomial become zero, without the rounding of the subtraction.
     """
-    degree = DEGREES[trend]
+    degree = _DEGREES[trend]
     if degree < 0:
         return
     if not heights.flags.c_contiguous:
@@ -80,7 +79,7 @@ def slopes_of_plane(heights: Real, spacings: Sequence[float]) -> tuple[float, ..
 
 def refuse_unknown_trend(trend: str) -> None:
     """Refuse an unknown name of a trend."""
-    one_of("trend", trend, DEGREES)
+    one_of("trend", trend, _DEGREES)
 
 
 def polynomials(n: int, degree: int) -> Real:

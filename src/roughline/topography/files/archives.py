@@ -11,6 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 
 _LARGE = 2**26  # unpacked; smaller ones do no harm [bytes]
@@ -32,7 +33,15 @@ _OF_DAMAGED_PARTS = (ValueError, OSError, EOFError, RuntimeError)  # one has a p
 _FEW_ROWS, _SPARSE = 1000, 20  # rows of a table, and rows for each of its cells, that do no harm
 
 
-def refuse_bombs(path: Path, name: str) -> None:
+def refuse_hollow(path: Path, name: str) -> None:
+    """Refuse a file of any format that says that it holds far more than its size."""
+    _refuse_bombs(path, name)
+    refuse_empty_datasets(path, name)
+    _refuse_empty_images(path, name)
+    _refuse_many_datasets(path, name)
+
+
+def _refuse_bombs(path: Path, name: str) -> None:
     """Refuse an archive, such as X3P or XLSX, whose parts are too large for a measurement.
 
     One is too large if it unpacks to more than 64 MiB and to more than 200 times its size, if a
@@ -110,7 +119,7 @@ def _refuse_more_than(most: int, stated: list[bytes], what: str, name: str) -> N
             )
 
 
-def refuse_many_datasets(path: Path, name: str) -> None:
+def _refuse_many_datasets(path: Path, name: str) -> None:
     """Refuse a file of easyScan that lists more datasets than it has bytes."""
     with path.open("rb") as file:
         if file.read(len(_DATASETS)) != _DATASETS:
@@ -121,7 +130,7 @@ def refuse_many_datasets(path: Path, name: str) -> None:
     _refuse_more_than(size, _COUNTS.findall(head), what, name)
 
 
-def refuse_empty_images(path: Path, name: str) -> None:
+def _refuse_empty_images(path: Path, name: str) -> None:
     """Refuse a file of TIFF one of whose images it is too small to hold, or unpacks to too much.
 
     An image, or a tile of it, may have 200 numbers for each byte of the file, and images may unpack
@@ -214,10 +223,16 @@ def _too_small(points: tuple[int, ...], size: int, name: str) -> InputError:
     )
 
 
-def refuse_too_few_bytes(points: tuple[int, ...], path: Path, name: str) -> None:
-    """Refuse a file that is too small for the points that it declares, before they are read.
+def refuse_points(
+    points: tuple[int, ...],
+    path: Path,
+    name: str,
+    bytes_each: int = 16,
+    advice: str = "take a smaller piece",
+) -> None:
+    """Refuse points that a file declares, before they are read, if it or memory is too small.
 
-    It may have 200 points for each byte, and has at least two.
+    A file may have 200 points for each byte, and has at least two.
     """
     count, declared = math.prod(points), " x ".join(map(str, points))
     if count < 2:
@@ -225,3 +240,4 @@ def refuse_too_few_bytes(points: tuple[int, ...], path: Path, name: str) -> None
     size = path.stat().st_size
     if count > _RATIO * size:
         raise _too_small(points, size, name)
+    refuse_beyond_memory(bytes_each * count, f"reading the {declared} points of {name}", advice)

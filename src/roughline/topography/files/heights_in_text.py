@@ -8,17 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Indices, Mask, Real
 from roughline.errors import InputError
 from roughline.topography.files.instrument import read_instrument
 from roughline.topography.files.measurement import Measurement
-from roughline.topography.files.points import is_grid, line_of, map_of
-from roughline.topography.files.text import (
-    Table,
-    is_even,
-    refuse_positions_beside_heights,
-    table_of,
-)
+from roughline.topography.files.text import Table, table_of
 from roughline.topography.settings import MEASURED
 from roughline.units import metres_per
 
@@ -43,6 +37,8 @@ _OF_HEIGHTS = re.compile(r"(?:value|height|z)[- _]?units?", re.IGNORECASE)
 _MORE_THAN_A_LIST = 6  # columns; a list of points has x, y, z and little more
 _NEARLY = 0.98  # of the length that a line scan states
 _AXES = ("x", "y", "z")
+_NEAR = 0.15  # of a step: positions nearer to each other are one, and nearer to a node are on it
+_SPARSE = 20  # nodes of the grid for each point of a list, at most
 
 
 def read_text(path: Path, channel: int | str | None, name: str) -> Measurement | None:
@@ -65,7 +61,7 @@ def read_text(path: Path, channel: int | str | None, name: str) -> Measurement |
     _refuse_unnamed_list(table, titles, name)
     if len(table.rows) == 2:
         raise InputError(f"{name} has two rows of numbers: write a line scan as lines of x z")
-    refuse_positions_beside_heights(table.rows, name)
+    _refuse_positions_beside_heights(table.rows, name)
     if any(_STATED.search(line) for line in table.head):
         return read_instrument(path, channel, name, _as_matrix(table))
     return _measured(name, kind="surface", heights=table.rows.T)
@@ -102,9 +98,9 @@ def _of_points(
     if y is not None and (along := _along_a_line(x, y)) is not None:
         x, y = along, None
     if y is not None:
-        heights, sides = map_of(x, y, z, name)
+        heights, sides = _map_of(x, y, z, name)
         return _measured(name, kind="surface", heights=heights, sizes=sides, unit=unit)
-    heights, positions, length = line_of(x, z, name)
+    heights, positions, length = _line_of(x, z, name)
     _refuse_shorter_scan(table, unit, length, name)
     return _measured(
         name, kind="profile", heights=heights, sizes=(length,), unit=unit, positions=positions
@@ -115,7 +111,7 @@ def _along_a_line(x: Real, y: Real) -> Real | None:
     """Positions along a straight line of points; None if they are spread over a map."""
     if x[0] == x[-1] and y[0] == y[-1]:
         return None
-    if is_even(x, 1e-9) and abs(x[1] - x[0]) == 1 and x[0] in (0, 1) and len(np.unique(y)) > 2:
+    if _is_even(x, 1e-9) and abs(x[1] - x[0]) == 1 and x[0] in (0, 1) and len(np.unique(y)) > 2:
         return y  # the first column counts the points
     dx, dy = x - x[0], y - y[0]
     length = float(np.hypot(dx[-1], dy[-1]))  # not 0: the ends differ
@@ -162,7 +158,7 @@ def _refuse_unnamed_list(table: Table, titles: list[list[str]], name: str) -> No
     if columns > _MORE_THAN_A_LIST or rows < columns**2:
         return
     x, y = table.rows[:, 0], table.rows[:, 1]
-    if is_grid(x, y):
+    if _is_grid(x, y):
         raise InputError(
             f"{name} has {columns} columns, and the first two are positions on a grid: keep x, y "
             "and z alone, or call the columns so in a line above them"
@@ -238,3 +234,124 @@ def _refuse_shorter_scan(table: Table, unit: str | None, length: float, name: st
                     f'{name} says "{line[:40]}" and ends at {length:g} {unit}: it was cut short; '
                     "export it again"
                 )
+
+
+def _is_even(positions: Real, tolerance: float = 0.01) -> bool:
+    """Whether positions are as far apart as each other, within a share of their distance."""
+    even = np.linspace(positions[0], positions[-1], positions.size)
+    step = abs(even[1] - even[0])
+    return bool(step > 0 and np.abs(positions - even).max() <= tolerance * step)
+
+
+def _refuse_positions_beside_heights(rows: Real, name: str) -> None:
+    """Refuse a matrix whose first row or column holds positions or counts, not heights."""
+    for what, table in (("row", rows), ("column", rows.T)):
+        first, second = table[0, 1:], table[1, 1:]
+        if min(first.size, 8) == 8 and _is_even(first, 1e-4) and not _is_even(second, 1e-4):
+            raise InputError(
+                f"{name} has numbers that rise or fall evenly in its first {what}, as positions "
+                f"do: delete that {what}, and give the sizes instead"
+            )
+
+
+def _line_of(x: Real, z: Real, name: str) -> tuple[Real, Real | None, float]:
+    """Return the heights of a line in order, the positions if they are uneven, and the length."""
+    if x.size < 2:
+        raise InputError(f"{name} lists {x.size} point: at least 2 are needed; it was cut short")
+    if x[0] > x[-1]:
+        x, z = x[::-1], z[::-1]
+    steps = np.diff(x)
+    if not (steps > 0).all():
+        i = int((steps <= 0).argmax())
+        raise InputError(
+            f"{name} lists positions that do not rise from point to point: {x[i]:g} stands before "
+            f"{x[i + 1]:g}; a line scan has each position once, in order"
+        )
+    if _is_even(x):
+        return z, None, float((x[-1] - x[0]) / (x.size - 1) * x.size)
+    return z, x, float(x[-1] - x[0])
+
+
+def _map_of(x: Real, y: Real, z: Real, name: str) -> tuple[Real, tuple[float, float]]:
+    """Return the heights of a list of points on their grid, and the sides of the map.
+
+    Nodes of the grid that the list leaves out are NaN.
+
+    Refused are points on no regular grid, two heights at one place, and a last row that alone lacks
+    its end, as in a file that was cut short.
+    """
+    (i, dx), (j, dy) = (_nodes(positions, name, axis) for positions, axis in ((x, "x"), (y, "y")))
+    if dx == 0 or dy == 0:
+        raise _irregular(name, "they have one position along a side")
+    shape = (int(i.max()) + 1, int(j.max()) + 1)
+    if shape[0] * shape[1] > _SPARSE * z.size:
+        raise _irregular(name, f"{z.size} points would lie on a grid of {shape[0]} x {shape[1]}")
+    heights = np.full(shape, np.nan)
+    heights[i, j] = z
+    twice = ~((heights[i, j] == z) | np.isnan(z))
+    if twice.any():
+        k = int(twice.argmax())
+        raise InputError(
+            f"{name} lists two heights at x = {x[k]:g}, y = {y[k]:g}: delete one of them"
+        )
+    listed = np.zeros(shape, dtype=bool)
+    listed[i, j] = True
+    if not listed.all():
+        _refuse_cut_list(i, j, listed, name)
+    return heights, (dx * shape[0], dy * shape[1])
+
+
+def _is_grid(x: Real, y: Real) -> bool:
+    """Whether points lie on a regular grid, one at nearly each node."""
+    try:
+        (i, _), (j, _) = _nodes(x, "", "x"), _nodes(y, "", "y")
+    except InputError:
+        return False
+    columns, rows = int(i.max()) + 1, int(j.max()) + 1
+    return min(columns, rows) > 1 and x.size <= columns * rows < 1.2 * x.size
+
+
+def _nodes(positions: Real, name: str, axis: str) -> tuple[Indices, float]:
+    """The node of each position along an axis, from 0, and the distance of nodes."""
+    values, inverse = np.unique(positions, return_inverse=True)
+    gaps = np.diff(values)
+    if not gaps.size:
+        return np.zeros(positions.size, np.intp), 0.0
+    # rounding makes gaps far smaller than the steps between columns
+    is_step = gaps > _NEAR * np.median(gaps[gaps > 0.1 * gaps.max()])
+    column = np.concatenate([[0], np.cumsum(is_step)])
+    centres = np.bincount(column, values) / np.bincount(column)
+    steps = np.diff(centres)
+    nodes = np.concatenate([[0], np.cumsum(np.rint(steps / np.median(steps)))])
+    if nodes.size > 2:
+        step = float(np.polyfit(nodes, centres, 1)[0]) if nodes[-1] else 0.0
+    else:
+        step = float(steps[0])
+    offsets = values - centres[0] - step * nodes[column]
+    if step <= 0 or (np.diff(nodes) < 1).any() or np.ptp(offsets) > 2 * _NEAR * step:
+        raise _irregular(name, f"positions along {axis} are {gaps.min():.3g} to {gaps.max():.3g}")
+    return nodes.astype(np.intp)[column][inverse], step
+
+
+def _irregular(name: str, why: str) -> InputError:
+    return InputError(
+        f"{name} lists points that lie on no regular grid ({why}): interpolate them to one first"
+    )
+
+
+def _refuse_cut_list(i: Indices, j: Indices, listed: Mask, name: str) -> None:
+    """Refuse a list whose last row alone, in the order of the file, lacks its end."""
+    rising = [bool((np.diff(each) >= 0).all() or (np.diff(each) <= 0).all()) for each in (i, j)]
+    if not any(rising):
+        return  # in no order that an instrument measures in
+    slow, fast, rows = (i, j, listed) if rising[0] else (j, i, listed.T)
+    others = np.delete(rows, slow[-1], axis=0)
+    in_last, before = fast[slow == slow[-1]], fast[slow != slow[-1]]
+    last_two = in_last if in_last.size > 1 or before.size < 2 else before
+    rises = last_two.size < 2 or last_two[1] > last_two[0]
+    end = rows.shape[1] - 1 if rises else 0
+    if in_last[-1] != end and others.size and others[:, end].all():
+        raise InputError(
+            f"{name} ends within a row of its grid of {listed.shape[0]} x {listed.shape[1]} "
+            "points, as a file that was cut short: export it again, or list missing points as NaN"
+        )

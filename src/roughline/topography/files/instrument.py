@@ -14,9 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, RoughlineError
-from roughline.topography.files.archives import refuse_too_few_bytes
+from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.text import READ_AS_TEXT, TEXT_SUFFIXES
 from roughline.topography.settings import MEASURED
@@ -45,13 +44,9 @@ def read_instrument(
         with _silence(), opened() as reader:
             _refuse_guessed_format(reader, path)
             chosen = _channel_of(reader, channel, name)
-            refuse_too_few_bytes(chosen.nb_grid_pts, path, name)
+            advice = "crop it with the instrument's software"
+            refuse_points(chosen.nb_grid_pts, path, name, _BYTES_PER_POINT, advice)
             _refuse_long_arrays(reader, chosen, name)
-            refuse_beyond_memory(
-                _BYTES_PER_POINT * math.prod(chosen.nb_grid_pts),
-                f"reading the {' x '.join(map(str, chosen.nb_grid_pts))} points of {name}",
-                "crop it with the instrument's software",
-            )
             return _measurement_of(reader, chosen, name)
     except (RoughlineError, MemoryError):
         raise

@@ -1,69 +1,49 @@
-"""Heights as a file holds them, before any processing."""
+"""Heights as a file holds them, before any processing, and their scale."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
 
 from roughline.computing.arrays import Mask, Real
-from roughline.errors import InputError
+from roughline.errors import InputError, UnitError
+from roughline.errors.checks import shown
+from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.crop import Crop, points_between, points_in, settings_of_piece
 from roughline.topography.effects import effect_of_trend
-from roughline.topography.files.scale import Scale, Sizes
 from roughline.topography.heights import rms_deviation
 from roughline.topography.missing import Missing
-from roughline.topography.settings import AS_RECORDED, Settings, checked_trend, record_of_tilt
+from roughline.topography.settings import Settings, checked_trend, record_of_tilt
 from roughline.topography.trend import Trend, remove_trend
+from roughline.units import in_si, metres_per, refuse_decimal_comma
+
+Sizes = float | str | Sequence[float | str]
+"""Sides of a file as a caller gives them: one length makes a square; texts have their own units."""
 
 
 @dataclass(frozen=True, eq=False)
 class Measurement:
-    """Heights as a file holds them, and what the file states about them.
+    """Heights as a file holds them, and what the file states about them."""
 
-    Attributes
-    ----------
-    file : str
-        Name of the file, for messages.
-    heights : array or masked array, shape (nx, ny) or (n,)
-        Heights; unknown ones are masked or not finite. [unit of the file]
-    unit : str or None
-        Unit of all lengths; None if the file states none.
-    sizes : tuple of float or None
-        Sides of the map, or length of the line; None if the file states none. [unit of the file]
-    kind : {"surface", "profile", "reduced"}
-        A map, a line scan, or a line made for the reduced model.
-    by_roughline : bool
-        Whether roughline wrote the file; its heights are kept as they were written.
-    channel : str
-        Name of the channel; empty where the file has no names.
-    channels : tuple of str
-        All channels of the file, with their numbers.
-    positions : ndarray, shape (n,), or None
-        Positions of the points of a line whose spacing is not even. [unit of the file]
-    settings : mapping
-        Where the heights come from.
-    is_cut_out, removed_trend
-        As for :class:`roughline.Surface`, where the file states them.
-    is_piece : bool
-        Whether it is a piece of what the file holds.
-    """
-
-    file: str
-    heights: Any
-    unit: str | None
-    sizes: tuple[float, ...] | None
+    file: str  # its name, for messages
+    heights: Any  # shape (nx, ny) or (n,); unknown ones are masked or not finite [unit of the file]
+    unit: str | None  # of all lengths; None if the file states none
+    sizes: tuple[float, ...] | None  # of the sides, if the file states them [unit of the file]
     kind: Literal["surface", "profile", "reduced"]
-    by_roughline: bool = False
-    channel: str = ""
-    channels: tuple[str, ...] = ()
-    positions: Real | None = None
-    settings: Settings = field(default_factory=dict)
-    is_cut_out: bool = AS_RECORDED
-    removed_trend: Trend = AS_RECORDED
-    is_piece: bool = False
+    by_roughline: bool = False  # if it wrote the file; heights are kept as they were written
+    channel: str = ""  # its name, where the file has names
+    channels: tuple[str, ...] = ()  # all channels of the file, with their numbers
+    positions: Real | None = None  # of the points of an uneven line [unit of the file]
+    settings: Settings = field(default_factory=dict)  # where the heights come from
+    is_cut_out: bool | None = None  # as of a body, where the file states it
+    removed_trend: Trend | None = None  # likewise
+    is_piece: bool = False  # whether it is a piece of what the file holds
 
     @property
     def unknown(self) -> Mask:
@@ -75,22 +55,19 @@ class Measurement:
 
         What is missing elsewhere does not count, and the heights elsewhere fill nothing in it.
         """
-        scale = self._scale(unit, sizes)
+        scale = _Scale(self, unit, sizes)
         for obstacle in scale.obstacles():
             raise obstacle
         if self.positions is None:
-            kept = points_in(crop, scale.sides, self.heights.shape, "m")
-        else:
-            kept = points_between(crop, scale.metres * (self.positions - self.positions[0]))
-        positions = None if self.positions is None else self.positions[kept]
-        lengths = (
-            [
+            kept, positions = points_in(crop, scale.sides, self.heights.shape, "m"), None
+            lengths = [
                 side * (each.stop - each.start) / n
                 for side, each, n in zip(scale.sides, kept, self.heights.shape, strict=True)
             ]
-            if positions is None
-            else [scale.metres * (positions[-1] - positions[0])]
-        )
+        else:
+            kept = points_between(crop, scale.metres * (self.positions - self.positions[0]))
+            positions = self.positions[kept]
+            lengths = [scale.metres * (positions[-1] - positions[0])]
         is_whole = self.heights[kept].size == self.heights.size
         return replace(
             self,
@@ -106,11 +83,13 @@ class Measurement:
         self, unit: str | None, sizes: Sizes | None, missing: Missing
     ) -> list[InputError]:
         """List what is still needed before there is a body: a unit, sizes, more known points."""
-        return self._obstacles(self._scale(unit, sizes), missing)
+        name = f"the piece of {self.file}" if self.is_piece else self.file
+        too_many = missing.too_many(self.unknown, name)
+        return [*self.scale_obstacles(unit, sizes), *([too_many] if too_many else [])]
 
     def scale_obstacles(self, unit: str | None, sizes: Sizes | None) -> list[InputError]:
         """List what is still needed of the scale; arguments and errors as :meth:`obstacles`."""
-        return self._scale(unit, sizes).obstacles()
+        return _Scale(self, unit, sizes).obstacles()
 
     def body(
         self,
@@ -126,9 +105,9 @@ class Measurement:
         The measurement is not changed, so that another body with another filling can follow from
         it; `in_place` gives that up.
         """
-        scale = self._scale(unit, sizes)
-        for obstacle in self._obstacles(scale, missing):
+        for obstacle in self.obstacles(unit, sizes, missing):
             raise obstacle
+        scale = _Scale(self, unit, sizes)
         sides = scale.sides
         heights, filling = missing.completed(self.heights, self.file)
         settings = {**self.settings, **filling}
@@ -148,7 +127,13 @@ class Measurement:
             remove_trend(heights, removed)
             settings["detrended"] = removed
             settings |= effect_of_trend(before, rms_deviation(heights))
-        return self._body(heights, sides, settings, removed)
+        of_both: dict[str, Any] = {
+            "is_cut_out": self.is_cut_out,
+            "removed_trend": self.removed_trend if self.by_roughline else removed,
+        }
+        if self.kind == "surface":
+            return Surface(heights, (sides[0], sides[1]), "m", settings, **of_both)
+        return Line(heights, sides[0], "m", settings, self.kind, **of_both)
 
     def _trend_to_remove(self, wanted: Trend) -> Trend:
         """The trend of what an instrument measured; from a piece of ours, what the whole lacks."""
@@ -156,41 +141,94 @@ class Measurement:
             return wanted
         return checked_trend(self.removed_trend, self.settings) if self.is_piece else "none"
 
-    def _body(
-        self,
-        heights: Real,
-        sides: tuple[float, ...],
-        settings: Settings,
-        removed: Trend,
-    ) -> Body:
-        removed_trend = self.removed_trend if self.by_roughline else removed
-        if self.kind == "surface":
-            return Surface(
-                heights,
-                (sides[0], sides[1]),
-                "m",
-                settings,
-                is_cut_out=self.is_cut_out,
-                removed_trend=removed_trend,
+
+@dataclass(frozen=True, eq=False)
+class _Scale:
+    """Unit and sides of a measurement; each is stated by its file or given by the caller."""
+
+    of: Measurement
+    unit: str | None  # given, of all lengths
+    sizes: Sizes | None  # given; numbers are in the given unit, and in metres without one
+
+    def obstacles(self) -> list[InputError]:
+        """List what neither the file nor the caller states: the unit, the sizes."""
+        obstacles: list[InputError] = []
+        if self.of.unit or self.unit:
+            _ = self.metres
+        else:
+            obstacles.append(self._unit_needed())
+        if self.of.sizes is not None and self.sizes is not None:
+            raise InputError(f"{self.of.file} states its sizes; leave {called('sizes')} out")
+        if self.of.sizes is None and self.sizes is None:
+            obstacles.append(self._sizes_needed())
+        return obstacles
+
+    @cached_property
+    def metres(self) -> float:
+        """Metres in the unit of the file."""
+        if self.of.unit and self.unit:
+            raise UnitError(
+                f"{self.of.file} states its unit, {self.of.unit}; leave unit = {self.unit} out"
             )
-        return Line(
-            heights,
-            sides[0],
-            "m",
-            settings,
-            self.kind,
-            is_cut_out=self.is_cut_out,
-            removed_trend=removed_trend,
+        unit = self.of.unit or self.unit
+        if not unit:
+            raise self._unit_needed()
+        return metres_per(unit)
+
+    @property
+    def sides(self) -> tuple[float, ...]:
+        """Sides of the map, or length of the line. [m]"""
+        if self.of.sizes is not None:
+            return tuple(self.metres * float(size) for size in self.of.sizes)
+        given = self.sizes
+        if given is None:
+            raise self._sizes_needed()
+        if isinstance(given, str):
+            refuse_decimal_comma(given, "sizes")
+            given = given.split(",")
+        lengths = np.atleast_1d(np.array(given, object))
+        factor = self.metres if self.unit else 1.0
+        try:
+            sides = tuple(
+                in_si(length, "m", "sizes") if isinstance(length, str) else factor * float(length)
+                for length in lengths
+            )
+        except TypeError:
+            sides = ()
+        points = self.of.heights.shape
+        if len(sides) == 1 and len(set(points)) == 1:
+            sides *= len(points)
+        if len(sides) != len(points) or not all(0 < side < math.inf for side in sides):
+            raise self._sizes_refused()
+        return sides
+
+    @property
+    def _points_and_example(self) -> tuple[str, str]:
+        points = self.of.heights.shape
+        return " x ".join(map(str, points)), "1 mm, 0.5 mm" if len(points) == 2 else "1 mm"
+
+    def _unit_needed(self) -> UnitError:
+        return UnitError(
+            f"{self.of.file} states no unit; give the unit of its lengths, such as "
+            f"{called('unit', 'um')}"
         )
 
-    def _scale(self, unit: str | None, sizes: Sizes | None) -> Scale:
-        return Scale(self.file, self.heights.shape, self.unit, unit, self.sizes, sizes)
+    def _sizes_needed(self) -> InputError:
+        points, example = self._points_and_example
+        return InputError(
+            f"{self.of.file} states no sizes for its {points} points; give them, such as "
+            f"{called('sizes', example)}"
+        )
 
-    def _obstacles(self, scale: Scale, missing: Missing) -> list[InputError]:
-        obstacles = scale.obstacles()
-        name = f"the piece of {self.file}" if self.is_piece else self.file
-        too_many = missing.too_many(self.unknown, name)
-        return [*obstacles, too_many] if too_many else obstacles
+    def _sizes_refused(self) -> InputError:
+        points, example = self._points_and_example
+        axes = self.of.heights.ndim
+        lengths = "a positive length" if axes == 1 else f"{axes} positive lengths"
+        return InputError(
+            f"is {shown(self.sizes)}; {self.of.file} has {points} points: give {lengths}, such "
+            f'as "{example}"; numbers without a unit are in {self.unit or "m"}',
+            "sizes",
+        )
 
 
 def _changeable(heights: Real, is_free: bool) -> Real:

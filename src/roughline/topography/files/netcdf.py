@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
 from roughline.computing.disk import write_dataset
-from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError, RoughlineError, StoreError
 from roughline.errors.public import public
 from roughline.topography.body import Body, Surface
-from roughline.topography.files.archives import refuse_too_few_bytes
+from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
-from roughline.topography.settings import AS_RECORDED
-from roughline.topography.trend import DEGREES
+from roughline.topography.trend import Trend
 
 _FORMAT = "roughline body 1"
 
@@ -102,8 +99,8 @@ def read_body_file(path: Path, name: str) -> Measurement | None:
         by_roughline=True,
         settings={**settings, "file": name},
         # files of earlier versions state both in their settings alone
-        is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else AS_RECORDED,
-        removed_trend=attrs.get("removed_trend", AS_RECORDED),
+        is_cut_out=bool(attrs["is_cut_out"]) if "is_cut_out" in attrs else None,
+        removed_trend=attrs.get("removed_trend"),
     )
 
 
@@ -113,13 +110,7 @@ def _heights_in(file: Any, path: Path, name: str) -> Any:
         raise InputError(
             f"{name} is a damaged file of roughline: it holds no heights; write it again"
         )
-    points = file["heights"].shape
-    refuse_too_few_bytes(points, path, name)
-    refuse_beyond_memory(
-        2 * 8 * math.prod(points),
-        f"reading the {' x '.join(map(str, points))} points of {name}",
-        "take a smaller piece",
-    )
+    refuse_points(file["heights"].shape, path, name)
     return file["heights"][:]
 
 
@@ -131,7 +122,7 @@ def _refuse_damaged(attrs: dict[str, Any], heights: Any, name: str) -> None:
         "kind": kinds.get(str(attrs.get("kind"))) != heights.ndim,
         "sizes": sizes.shape != (heights.ndim,) or sizes.dtype.kind not in "if",
         "unit": not isinstance(attrs.get("unit"), str),
-        "removed_trend": str(attrs.get("removed_trend", "none")) not in DEGREES,
+        "removed_trend": str(attrs.get("removed_trend", "none")) not in get_args(Trend),
         "heights": heights.dtype.kind not in "if",
     }
     if not wrong["sizes"]:

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from roughline.computing.memory import refuse_beyond_memory
 from roughline.errors import InputError
 from roughline.errors.checks import shortened
 from roughline.errors.public import public
@@ -15,18 +14,15 @@ from roughline.errors.words import called
 from roughline.topography.body import Body, Surface
 from roughline.topography.crop import Crop
 from roughline.topography.files.archives import (
-    refuse_bombs,
     refuse_empty_datasets,
-    refuse_empty_images,
-    refuse_many_datasets,
-    refuse_too_few_bytes,
+    refuse_hollow,
+    refuse_points,
 )
 from roughline.topography.files.curves import curve_in
 from roughline.topography.files.heights_in_text import read_text
 from roughline.topography.files.instrument import read_instrument
-from roughline.topography.files.measurement import Measurement
+from roughline.topography.files.measurement import Measurement, Sizes
 from roughline.topography.files.netcdf import read_body_file
-from roughline.topography.files.scale import Sizes
 from roughline.topography.missing import Filling, Missing
 from roughline.topography.settings import MEASURED
 from roughline.topography.trend import Trend, refuse_unknown_trend
@@ -144,13 +140,7 @@ def _measurement(path: Path, channel: int | str | None, name: str) -> Measuremen
     if measured is None:
         measured = read_text(path, channel, name)
     if measured is None:
-        for refuse in (
-            refuse_bombs,
-            refuse_empty_datasets,
-            refuse_empty_images,
-            refuse_many_datasets,
-        ):
-            refuse(path, name)
+        refuse_hollow(path, name)
         return read_instrument(path, channel, name)
     if channel is not None and not measured.channels:
         raise InputError(f"{name} has one channel only; leave {called('channel')} out")
@@ -169,12 +159,7 @@ def _read_array(path: Path, name: str) -> Measurement:
         raise InputError(
             f"{name} holds no array of real heights ({reason}): save one or two dimensions"
         ) from error
-    refuse_too_few_bytes(stored.shape, path, name)
-    refuse_beyond_memory(
-        2 * 8 * stored.size,
-        f"reading the {' x '.join(map(str, stored.shape))} points of {name}",
-        "take a smaller piece",
-    )
+    refuse_points(stored.shape, path, name)
     return Measurement(
         file=name,
         heights=np.array(stored, dtype=np.float64),

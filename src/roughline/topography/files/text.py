@@ -314,21 +314,3 @@ def _without_stand_ins(rows: Real, name: str) -> Real:
                 "instead if it stands for missing points"
             )
     return rows
-
-
-def is_even(positions: Real, tolerance: float = 0.01) -> bool:
-    """Whether positions are as far apart as each other, within a share of their distance."""
-    even = np.linspace(positions[0], positions[-1], positions.size)
-    step = abs(even[1] - even[0])
-    return bool(step > 0 and np.abs(positions - even).max() <= tolerance * step)
-
-
-def refuse_positions_beside_heights(rows: Real, name: str) -> None:
-    """Refuse a matrix whose first row or column holds positions or counts, not heights."""
-    for what, table in (("row", rows), ("column", rows.T)):
-        first, second = table[0, 1:], table[1, 1:]
-        if min(first.size, 8) == 8 and is_even(first, 1e-4) and not is_even(second, 1e-4):
-            raise InputError(
-                f"{name} has numbers that rise or fall evenly in its first {what}, as positions "
-                f"do: delete that {what}, and give the sizes instead"
-            )
