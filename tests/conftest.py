@@ -1,13 +1,14 @@
 """What several test folders share."""
 
 import sys
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
+import typer
 
 import roughline as rl
-from dask_processes import start_scheduler, start_worker
 from lab_in_browser import WANTED, chromium_of, launched
 from roughline import cli
 from validation import hold
@@ -117,20 +118,13 @@ def holed(tmp_path):
     return tmp_path / "holed.npy", "--unit", "m", "--size", "1 mm"
 
 
-@pytest.fixture(scope="session")
-def two_workers(tmp_path_factory):
-    """Address of a scheduler with two workers, for campaigns whose own processes do not matter."""
-    scheduler, address = start_scheduler(tmp_path_factory.mktemp("two_workers"))
-    workers = [start_worker(address, "--nthreads", "1") for _ in range(2)]
-    yield address
-    for process in (*workers, scheduler):
-        process.kill()
-        process.wait()
+_command_of = cache(typer.main.get_command)  # which takes most of the time of a short command
 
 
 @pytest.fixture
 def invoke(monkeypatch, capsys):
     """Run the command line in this process; returns exit code, output and errors."""
+    monkeypatch.setattr(typer.main, "get_command", _command_of)
 
     def run(*arguments):
         monkeypatch.setattr(sys, "argv", ["roughline", *map(str, arguments)])
@@ -148,3 +142,22 @@ def published_results():
     from roughline.paper import results
 
     return results.published_results()
+
+
+@pytest.fixture
+def only_drawn(monkeypatch):
+    """Give what leaves figures blank, but for those of some names: where their page is judged."""
+    from matplotlib.figure import Figure  # load slowly, so only here
+    from PIL import Image
+
+    def blank_but(*names):
+        def save(figure, path, **options):
+            if path.stem in names:
+                return drawn(figure, path, **options)
+            width, height = (round(20 * side) for side in figure.get_size_inches())
+            return Image.new("L", (width, height), 255).save(path, dpi=(20, 20))
+
+        monkeypatch.setattr(Figure, "savefig", save)
+
+    drawn = Figure.savefig
+    return blank_but

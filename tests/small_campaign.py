@@ -15,7 +15,7 @@ seed = 5
 name = "lines"
 model = "reduced"
 fractal_dimensions = [2.0, 2.4, 3.0]
-points = 16384
+points = 4096
 realisations = 60
 force_bars = { from = 1e-4, to = 10, per_decade = 6 }
 

@@ -61,3 +61,14 @@ def dask_cluster(tmp_path):
     for process in (*workers, scheduler):
         process.kill()
         process.wait()
+
+
+@pytest.fixture(scope="package")
+def two_workers(tmp_path_factory):
+    """Address of a scheduler with two workers, for campaigns whose own processes do not matter."""
+    scheduler, address = start_scheduler(tmp_path_factory.mktemp("two_workers"))
+    workers = [start_worker(address, "--nthreads", "1") for _ in range(2)]
+    yield address
+    for process in (*workers, scheduler):
+        process.kill()
+        process.wait()

@@ -53,7 +53,7 @@ def test_a_case_is_what_the_library_gives(plan, finished):
     assert one.highest.item() == pytest.approx(surface.heights.max())
     assert (data.status == 0).all()
     assert (data.case_status == 1).all()
-    line = spectrum.line(16384, np.random.SeedSequence(5, spawn_key=(59,)))
+    line = spectrum.line(4096, np.random.SeedSequence(5, spawn_key=(59,)))
     curve = rl.press(line, E_star=1.0, forces=plan.ensemble("lines").force_bars)
     one = campaign.Store(finished).dataset("lines").sel(fractal_dimension=2.4, realisation=59)
     assert (one.stiffness.values == curve.stiffness).all()

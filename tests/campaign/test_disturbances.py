@@ -57,9 +57,13 @@ def workers_of(process):
     ]
 
 
-def test_a_worker_killed(plan, undisturbed, tmp_path):
+def test_workers_killed_and_another_campaign_on_the_same_store(plan, undisturbed, tmp_path, invoke):
     store = tmp_path / "store"
     process = start(plan, store)
+    wait_for_results(store, process, 1)
+    code, _, err = invoke("campaign", "run", plan, "--store", store)
+    assert code == 2
+    assert "is in use by another campaign: wait for it to end" in err
     for count in (2, 5):
         wait_for_results(store, process, count)
         workers_of(process)[0].kill()
@@ -113,7 +117,7 @@ def test_ctrl_c_in_a_script_ends_in_one_line(plan, tmp_path):
     script.write_text(
         "from roughline import campaign\n"
         'if __name__ == "__main__":\n'
-        f"    campaign.run(campaign.read_plan({str(plan)!r}), {str(store)!r})\n"
+        f"    campaign.run(campaign.read_plan({str(plan)!r}), {str(store)!r}, workers=1)\n"
     )
     process = subprocess.Popen(
         [sys.executable, str(script)],
@@ -193,17 +197,6 @@ def test_a_write_that_was_broken_off(finished, resume, tmp_path):
     resume(store)
 
 
-def test_two_campaigns_on_one_store(plan, undisturbed, tmp_path, invoke):
-    store = tmp_path / "store"
-    first = start(plan, store)
-    wait_for_results(store, first, 1)
-    code, _, err = invoke("campaign", "run", plan, "--store", store)
-    assert code == 2
-    assert "is in use by another campaign: wait for it to end" in err
-    assert finish(first)[0] == 0
-    assert tree(store) == undisturbed
-
-
 def test_a_disk_that_is_full(plan, resume, tmp_path):
     """A file system of its own, which somebody else fills up; room is made later."""
     disk = tmp_path / "disk"
@@ -213,7 +206,7 @@ def test_a_disk_that_is_full(plan, resume, tmp_path):
         pytest.skip("no rights to mount a small disk")
     try:
         store = disk / "store"
-        process = start(plan, store)
+        process = start(plan, store, "--workers", 1)
         wait_for_results(store, process)
         with contextlib.suppress(OSError), (disk / "filler").open("wb", buffering=0) as filler:
             while True:
@@ -237,7 +230,7 @@ def test_files_that_may_not_grow(few_plan_file, few_undisturbed, two_workers, tm
         resource.setrlimit(resource.RLIMIT_FSIZE, (1500, 1500))
 
     store = tmp_path / "store"
-    code, _, err = run(few_plan_file, store, preexec_fn=limit)
+    code, _, err = run(few_plan_file, store, "--workers", 1, preexec_fn=limit)
     assert code == 2
     assert "cannot write to" in err
     assert "what is done is kept" in err
@@ -246,7 +239,7 @@ def test_files_that_may_not_grow(few_plan_file, few_undisturbed, two_workers, tm
 
 def test_a_script_without_a_guard(few_plan_file, tmp_path):
     script, store = tmp_path / "study.py", tmp_path / "store"
-    run = f"campaign.run(campaign.read_plan({str(few_plan_file)!r}), {str(store)!r})\n"
+    run = f"campaign.run(campaign.read_plan({str(few_plan_file)!r}), {str(store)!r}, workers=1)\n"
     script.write_text(f"from roughline import campaign\n{run}")
     done = subprocess.run(
         [sys.executable, script], capture_output=True, text=True, timeout=60, check=False
@@ -269,7 +262,9 @@ def test_a_prompt_and_a_notebook(few_plan_file, few_undisturbed, tmp_path):
 import asyncio
 from roughline import campaign
 async def cell():
-    campaign.run(campaign.read_plan({str(few_plan_file)!r}), {str(tmp_path / "store")!r})
+    campaign.run(
+        campaign.read_plan({str(few_plan_file)!r}), {str(tmp_path / "store")!r}, workers=1
+    )
 asyncio.run(cell())
 """
     command = [sys.executable, "-c", script]

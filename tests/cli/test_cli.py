@@ -117,7 +117,8 @@ def test_the_table_is_in_si_units(surface_file, invoke):
     assert f"{curve.area_fraction[0]:.3%}" in row
 
 
-def test_the_first_real_surface(topographies, invoke, tmp_path):
+def test_the_first_real_surface(topographies, invoke, only_drawn, tmp_path):
+    only_drawn()
     code, out, _ = invoke(
         *("press", topographies / "al3d-1.al3d", "--modulus", "110 GPa"),
         *("--loads", 20, "--out", tmp_path / "al3d"),
@@ -230,8 +231,9 @@ def test_a_load_that_fails_is_said_and_exit_1(surface_file, invoke, monkeypatch)
 
 @pytest.mark.parametrize("where", ["--out", "--report"])
 def test_ctrl_c_keeps_the_loads_that_were_solved(
-    surface_file, invoke, monkeypatch, tmp_path, where
+    surface_file, invoke, only_drawn, monkeypatch, tmp_path, where
 ):
+    only_drawn()
     original = load_cases.press
 
     def press(*arguments, progress, **named):
@@ -260,7 +262,10 @@ def test_ctrl_c_keeps_the_loads_that_were_solved(
         assert np.isfinite(data.stiffness.values[:3]).all()
 
 
-def test_a_report_with_loads_that_failed_says_so(surface_file, invoke, monkeypatch, tmp_path):
+def test_a_report_with_loads_that_failed_says_so(
+    surface_file, invoke, only_drawn, monkeypatch, tmp_path
+):
+    only_drawn()
     original = load_cases.press
     monkeypatch.setattr(load_cases, "press", lambda *a, **k: original(*a, **k, max_iterations=1))
     code, out, err = invoke(

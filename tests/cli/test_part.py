@@ -55,7 +55,8 @@ def test_json_has_each_map_and_the_part(scans, invoke):
 
 
 @pytest.mark.slow
-def test_a_report_on_a_part_and_its_joint(scans, invoke, tmp_path):
+def test_a_report_on_a_part_and_its_joint(scans, invoke, only_drawn, tmp_path):
+    only_drawn("answers")
     folder = tmp_path / "report"
     code, _, errors = invoke(
         *("press", *scans[:2], scans[3], "--materials", METALS, "--load", "1 kN"),

@@ -200,7 +200,10 @@ def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     assert "if nothing yielded" not in out
 
 
-def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(rough, invoke, tmp_path):
+def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(
+    rough, invoke, only_drawn, tmp_path
+):
+    only_drawn()
     asked = ("press", rough, *PAIR, "--load", "10 N")
     _, screen, _ = invoke(*asked)
     rows = [line for line in table_lines(screen) if " h_c " in line or " G " in line]
@@ -218,7 +221,8 @@ def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(rough
     assert "air may carry several times what the spots do" in page
 
 
-def test_a_report_speaks_to_a_client(holed, invoke, tmp_path):
+def test_a_report_speaks_to_a_client(holed, invoke, only_drawn, tmp_path):
+    only_drawn()
     file, *options = holed
     code, _, errors = invoke(
         *("press", file, *options, *PAIR, "--load", "10 N", "--load", "1 N"),
@@ -317,8 +321,9 @@ def test_units_as_they_stand_in_tables(rough, invoke):
     )
 
 
-def test_a_curve_in_a_file_is_shown_and_is_no_topography(tmp_path, invoke, rough):
+def test_a_curve_in_a_file_is_shown_and_is_no_topography(tmp_path, invoke, only_drawn, rough):
     """As press wrote it, and as it is read in Python."""
+    only_drawn()
     code, _, errors = invoke(
         *("press", rough, "--modulus", "110 GPa", "--load", "1 N", "--load", "2 N"),
         *("--out", tmp_path / "out"),
@@ -363,7 +368,8 @@ def test_a_preparation_that_cannot_be_is_refused_in_a_line(rough, invoke, argume
         assert errors.count("\n") == 1
 
 
-def test_the_same_is_said_of_a_preparation_wherever_it_is_read(rough, invoke, tmp_path):
+def test_the_same_is_said_of_a_preparation_wherever_it_is_read(rough, invoke, only_drawn, tmp_path):
+    only_drawn()
     steps = ("--low-pass", "0.95 mm", "--resample", "64")
     said = "most of the roughness is gone, and answers are those of what is left"
     idle = "esampling to 64 x 64 points changes neither rms height nor rms slope"

@@ -128,7 +128,8 @@ def test_what_was_refused_can_be_allowed(topographies, invoke):
 
 
 @pytest.mark.parametrize("name", ["opd-1.opd", "dektak-1.csv", "mitutoyo_mock.xlsx"])
-def test_info_fits_a_screen_and_json(topographies, invoke, tmp_path, name):
+def test_info_fits_a_screen_and_json(topographies, invoke, only_drawn, tmp_path, name):
+    only_drawn("roughness")
     code, out, _ = invoke("info", topographies / name, "--out", tmp_path / "out")
     assert code == 0
     assert len(out.splitlines()) < 40
@@ -297,7 +298,8 @@ def test_what_laying_two_bodies_together_crops_and_resamples_is_said(tmp_path, i
     assert "second body: cropped" not in said
 
 
-def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke):
+def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke, only_drawn):
+    only_drawn()
     spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)
     for name, seed, hole in (("whole", 1, False), ("holed", 2, True)):
         heights = spectrum.surface(64, seed).heights.copy()
@@ -320,7 +322,10 @@ def test_of_two_rough_bodies_each_is_described_and_filled_twice(tmp_path, invoke
     assert "Preparation of the first body: detrended: tilt; of the second: detrended: tilt" in page
 
 
-def test_points_filled_before_are_not_said_to_matter_nothing(topographies, invoke, tmp_path):
+def test_points_filled_before_are_not_said_to_matter_nothing(
+    topographies, invoke, only_drawn, tmp_path
+):
+    only_drawn()
     code, _, errors = invoke(
         "info", topographies / "opd-1.opd", "--resample", 128, "--out", tmp_path
     )

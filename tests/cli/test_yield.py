@@ -47,7 +47,8 @@ def test_json_has_both_stiffnesses_the_scatter_and_the_elastic_answers(rough, in
         assert name not in elastic["curve"]
 
 
-def test_loads_of_a_history_are_applied_in_the_order_given(rough, invoke, tmp_path):
+def test_loads_of_a_history_are_applied_in_the_order_given(rough, invoke, only_drawn, tmp_path):
+    only_drawn()
     loads = [each for load in ("5 N", "10 N", "0 N", "7 N") for each in ("--load", load)]
     code, out, errors = invoke(
         *("press", rough, *PAIR, *loads, "--history", "--json", "--out", tmp_path)
@@ -70,7 +71,8 @@ def test_loads_of_a_history_are_applied_in_the_order_given(rough, invoke, tmp_pa
     assert json.loads(out)["curve"]["depth"][2] < found["curve"]["depth"][3]  # none came before
 
 
-def test_unloading_is_printed_in_words_and_drawn(rough, invoke, tmp_path):
+def test_unloading_is_printed_in_words_and_drawn(rough, invoke, only_drawn, tmp_path):
+    only_drawn("curve")
     code, out, errors = invoke(
         *("press", rough, *PAIR, "--load", "10 N", "--unload", "--out", tmp_path)
     )
@@ -84,7 +86,8 @@ def test_unloading_is_printed_in_words_and_drawn(rough, invoke, tmp_path):
 
 
 @pytest.mark.slow
-def test_a_report_of_metals_that_yield(holed, invoke, tmp_path):
+def test_a_report_of_metals_that_yield(holed, invoke, only_drawn, tmp_path):
+    only_drawn()
     file, *options = holed
     code, _, errors = invoke(
         *("press", file, *options, *PAIR, "--load", "10 N", "--unload", "--friction", "0.3"),

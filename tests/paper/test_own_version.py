@@ -110,7 +110,8 @@ def test_windows_reach_as_far_as_the_loads():
 
 
 @pytest.mark.slow
-def test_any_plan_of_both_models_becomes_the_report(own_store, tmp_path, invoke):
+def test_any_plan_of_both_models_becomes_the_report(own_store, tmp_path, invoke, only_drawn):
+    only_drawn()
     plan = own_store.with_suffix(".toml")
     code, _, err = invoke(
         *("paper", "--plan", plan, "--out", tmp_path / "report", "--window", "0.02, 0.2")

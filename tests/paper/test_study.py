@@ -7,12 +7,13 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 import roughline as rl
 from roughline import campaign
-from roughline.paper.plan import ENSEMBLE_FULL
+from roughline.paper import plan as plans
 from small_campaign import hear_interrupts, tree
 
 
@@ -46,17 +47,16 @@ def test_the_gallery_is_kept_and_drawn_once(finished, small_plan, tmp_path):
     assert tree(finished) == before
 
 
-def test_an_interrupt_keeps_what_is_done(tmp_path):
+def test_an_interrupt_keeps_what_is_done(tmp_path, invoke, only_drawn, monkeypatch):
     """Ctrl-C in the middle: exit code 130, no traceback, and the next call ends the work."""
-    command = [sys.executable, "-c", INTERRUPTED, str(tmp_path / "out")]
     process = subprocess.Popen(
-        command,
+        [sys.executable, "-c", IN_SMALL, "paper", "--out", str(tmp_path / "out")],
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
         preexec_fn=hear_interrupts,
     )
-    store = tmp_path / "out" / "results.zarr" / ENSEMBLE_FULL / "case_status" / "c"
+    store = tmp_path / "out" / "results.zarr" / plans.ENSEMBLE_FULL / "case_status" / "c"
     deadline = time.monotonic() + 60
     while not any(store.rglob("*")) and time.monotonic() < deadline:
         time.sleep(0.05)
@@ -66,26 +66,36 @@ def test_an_interrupt_keeps_what_is_done(tmp_path):
     assert "what is done is kept" in errors
     assert "Traceback" not in errors
     assert sum(1 for path in store.rglob("*") if path.is_file()) >= 1
-    done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
-    assert done.returncode == 0, done.stderr
+    only_drawn()
+    monkeypatch.setattr(plans, "paper_plan", in_small)
+    code, _, errors = invoke("paper", "--out", tmp_path / "out")
+    assert code == 0, errors
     assert (tmp_path / "out" / "report.html").exists()
 
 
-INTERRUPTED = """
+IN_SMALL = f"""
 import sys
-from dataclasses import replace
-from roughline.paper import plan as plans
-original = plans.paper_plan
-def slow_but_small(scale, seed):
-    plan = original(scale, seed)
-    sizes = {"lines": (2**13, 10), "lines-of-surfaces": (2**13, 10), "surfaces": (64, 8)}
-    ensembles = tuple(
-        replace(e, n=sizes[e.name][0], realisations=sizes[e.name][1], cutoff_ratio=None)
-        for e in plan.ensembles
-    )
-    return replace(plan, ensembles=ensembles, gallery=replace(plan.gallery, n=48))
-plans.paper_plan = slow_but_small
-sys.argv = ["roughline", "paper", "--out", sys.argv[1]]
+sys.path.insert(0, {str(Path(__file__).parents[1])!r})
+from paper.test_study import in_small, plans
+plans.paper_plan = in_small
 from roughline.cli import main
 main()
 """
+paper_plan = plans.paper_plan
+
+
+def in_small(scale, seed):
+    """The paper's plan on grids so small that it takes some seconds."""
+    plan = paper_plan(scale, seed)
+    sizes = {"lines": (2**13, 10), "lines-of-surfaces": (2**13, 10), "surfaces": (64, 8)}
+    ensembles = tuple(
+        replace(
+            each,
+            fractal_dimensions=each.fractal_dimensions[::2],
+            n=sizes[each.name][0],
+            realisations=sizes[each.name][1],
+            cutoff_ratio=None,
+        )
+        for each in plan.ensembles
+    )
+    return replace(plan, ensembles=ensembles, gallery=replace(plan.gallery, n=48))
