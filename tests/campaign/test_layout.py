@@ -3,8 +3,7 @@
 import numpy as np
 
 from roughline.campaign.layout import VARIABLES
-from roughline.contact.quantities import QUANTITIES
-from roughline.contact.quantity import OVER_LOADS
+from roughline.contact.quantities import OVER_LOADS, QUANTITIES
 
 
 def test_stores_keep_quantities_of_the_curve_by_their_names():

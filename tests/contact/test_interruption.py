@@ -41,7 +41,7 @@ def test_solved_loads_are_kept(throw):
 
 
 def test_an_interruption_inside_a_load_loses_that_load_alone(monkeypatch):
-    from roughline.contact import load_result
+    from roughline.contact import full
 
     calls = []
 
@@ -51,8 +51,8 @@ def test_an_interruption_inside_a_load_loses_that_load_alone(monkeypatch):
             raise KeyboardInterrupt
         return original(*arguments)
 
-    original = load_result.border_share
-    monkeypatch.setattr(load_result, "border_share", stopping)
+    original = full.overstated_cells
+    monkeypatch.setattr(full, "overstated_cells", stopping)
     with pytest.raises(rl.Interrupted) as caught:
         pressed()
     assert caught.value.curve.converged.tolist() == [True, True, False, False]

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import roughline as rl
-from roughline.contact.quantities import IN_FILES, IN_JSON, QUANTITIES
-from roughline.contact.quantity import OVER_LOADS, Quantity
+from roughline.contact.quantities import IN_FILES, IN_JSON, OVER_LOADS, QUANTITIES, Quantity
 
 OVER_THE_LOADS = [each for each in QUANTITIES.values() if each.dims == OVER_LOADS]
 ON_THE_GRID = [each for each in QUANTITIES.values() if each.dims != OVER_LOADS]

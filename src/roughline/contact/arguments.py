@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from roughline.computing.arrays import Real
 from roughline.errors import InputError
-from roughline.errors.checks import as_number, is_whole, refuse, several, shown
+from roughline.errors.checks import as_number, is_whole, refuse, several
 from roughline.errors.words import called
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.elasticity.homogeneous import Homogeneous
@@ -99,17 +98,6 @@ def checked_shape(shape: Any) -> tuple[int, int]:
             "as shape=(1024, 1024)",
         )
     return int(sides[0]), int(sides[1])
-
-
-def checked_values(name: str, values: Any) -> Real:
-    """Return one number or a list of them as an array; refuse text, and what is no number."""
-    try:
-        array = np.atleast_1d(np.ma.filled(np.ma.asarray(values), np.nan))
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name} are not numbers ({error}); give a list of numbers") from error
-    if array.size and array.dtype.kind not in "iuf":
-        raise InputError(f"{name} are not numbers ({name}={shown(values)}); give a list of numbers")
-    return array.astype(np.float64)
 
 
 def kept_loads(fields: Any, count: int) -> frozenset[int]:

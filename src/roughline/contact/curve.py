@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +17,8 @@ from roughline.contact import scaling
 from roughline.contact.arguments import checked_count
 from roughline.contact.fields import Fields, Indentation
 from roughline.contact.notebook import Column, described, html_of_loads, with_unit
-from roughline.contact.quantities import IN_FILES
-from roughline.contact.quantity import OVER_LOADS, Quantity, unit_of
-from roughline.contact.status import STATUS_FLAGS, Status
+from roughline.contact.quantities import IN_FILES, OVER_LOADS, Quantity, unit_of
+from roughline.contact.status import Status
 from roughline.errors import InputError, StoreError
 from roughline.errors.checks import refuse
 from roughline.halfspace.elasticity.half_space import HalfSpace
@@ -29,6 +28,12 @@ from roughline.topography.body import Surface, with_heights
 
 if TYPE_CHECKING:
     import xarray
+
+_STATUS_FLAGS: dict[str, Any] = {
+    "flag_values": [int(status) for status in Status],
+    "flag_meanings": " ".join(status.name.lower() for status in Status),
+}
+"""Attributes of the status in files, which say what its numbers mean."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +110,8 @@ class Curve:
         is not indented. Empty without a hardness.
     law : ContactLaw or None
         What pressures and gaps obey; None for a line.
+    control : {"forces", "depths"}
+        What was prescribed.
     """
 
     depth: Real
@@ -136,6 +143,7 @@ class Curve:
     surface: Surface | None = field(default=None, repr=False)
     dents: Sequence[Indentation | None] = field(default=(), repr=False)
     law: ContactLaw | None = field(default=None, repr=False)
+    control: Literal["forces", "depths"] = field(default="forces", repr=False)
 
     def __repr__(self) -> str:
         return described(self.force, self.status, self.unit)
@@ -156,8 +164,8 @@ class Curve:
             area = self.area_fraction_corrected, self.area_fraction_error
             columns.append(("corrected area A/A_0", *area, None))
         model = "reduced model" if self.area_fraction is None else "full model"
-        boundary = self.settings.get("boundary")
-        place = f", {boundary} half-space" if boundary else ""
+        boundary = "periodic" if self.half_space.periodic else "free"
+        place = "" if self.area_fraction is None else f", {boundary} half-space"
         title = f"Curve of the {model}{place}, E* = {with_unit(self.E_star, 'pressure', self.unit)}"
         grid_decides = ~self.resolved & (self.force != 0)
         return html_of_loads(title, columns, self.status, grid_decides, self.unit)
@@ -245,7 +253,7 @@ class Curve:
         for quantity in IN_FILES:
             values = self._values(quantity)
             if values is not None:
-                flags = STATUS_FLAGS if quantity.name == "status" else {}
+                flags = _STATUS_FLAGS if quantity.name == "status" else {}
                 attributes = quantity.attributes(self.unit) | flags
                 dims = quantity.dims
                 if dims != OVER_LOADS and self._fields_are_of_some:
@@ -264,8 +272,7 @@ class Curve:
         }
         if self.warnings:
             attrs["warnings"] = "; ".join(self.warnings)
-        prescribed = "depth" if self.settings.get("control") == "depths" else "force"
-        return xarray.Dataset(variables, attrs=attrs).swap_dims(load=prescribed)
+        return xarray.Dataset(variables, attrs=attrs).swap_dims(load=self.control.removesuffix("s"))
 
     def _values(self, quantity: Quantity) -> NDArray[Any] | None:
         """Return a quantity as files hold it, or None if this curve does not have it."""

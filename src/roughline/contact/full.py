@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import dataclasses
+import math
 from collections.abc import Callable, Iterator, Sequence, Set
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from roughline._version import __version__
 from roughline.computing import linear_algebra
-from roughline.contact.border import border_warnings, jump_warnings
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
-from roughline.contact.fields import Indentation
-from roughline.contact.load_result import LoadResult, columns
+from roughline.contact.fields import Fields, Indentation
 from roughline.contact.loads import Loads
+from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.contact.scaled_surface import ScaledSurface
 from roughline.contact.status import Status
 from roughline.errors import Interrupted
@@ -23,13 +26,21 @@ from roughline.halfspace.inverse.kept import working_memory
 from roughline.halfspace.laws.law import ContactLaw
 from roughline.halfspace.laws.unilateral import Unilateral
 from roughline.halfspace.laws.yielding import Yielding
+from roughline.halfspace.search.outline import overstated_cells
 from roughline.halfspace.search.path import solve_path
-from roughline.halfspace.search.problem import Grid, Load, Method, Problem
+from roughline.halfspace.search.problem import Contact, Grid, Load, Method, Outcome, Problem
+from roughline.halfspace.search.tangent import Response
 from roughline.topography.body import Surface
 from roughline.topography.borders import border_doubts
 from roughline.topography.effects import grave_effects
 from roughline.topography.preparation import tilt_warnings
+from roughline.topography.repetition import border_jump
 from roughline.topography.settings import as_body
+
+# A surface that was cut out of a larger one ends where the larger one continues. Where the outer
+# frame of this width carries more than this share of the force, the part beyond it is missed.
+_BORDER_WIDTH = 0.05
+_BORDER_SHARE = 0.05
 
 
 def press_surface(
@@ -47,7 +58,7 @@ def press_surface(
     values, places = loads.values, np.arange(loads.values.size)
     if law.memory == "none":
         values, places = np.unique(loads.values, return_inverse=True)
-    results: list[LoadResult] = []
+    results: list[_LoadResult] = []
     interrupted = False
     try:
         # the transforms have the cores; threads of the linear algebra would wait in busy loops
@@ -59,7 +70,7 @@ def press_surface(
                     progress(len(results), values.size)
     except KeyboardInterrupt:
         interrupted = True
-    results += [LoadResult()] * (values.size - len(results))
+    results += [_LoadResult()] * (values.size - len(results))
     results = _in_order(results, places.tolist())
     curve = _curve(surface, half_space, loads, method, results, law)
     if kept:
@@ -70,7 +81,7 @@ def press_surface(
     return curve
 
 
-def _in_order(results: Sequence[LoadResult], places: Sequence[int]) -> list[LoadResult]:
+def _in_order(results: Sequence[_LoadResult], places: Sequence[int]) -> list[_LoadResult]:
     """Return the result under each load; an equal load later on takes no convolutions."""
     ordered, met = [], set()
     for place in places:
@@ -87,7 +98,7 @@ def _results(
     method: Method,
     law: ContactLaw,
     with_fields: Set[int],
-) -> Iterator[LoadResult]:
+) -> Iterator[_LoadResult]:
     """Solve the contact under each load in turn."""
     scaled = ScaledSurface.of(surface, half_space, loads)
     if loads.control == "forces":
@@ -98,7 +109,7 @@ def _results(
         solved = solve_path(_problem(scaled, law, method), path, method)
         dents: Indentation | None = None
         for i in range(len(path)):  # no contact is held while the next is solved
-            result = LoadResult.of(*next(solved), scaled, law, with_fields=i in with_fields)
+            result = _LoadResult.of(*next(solved), scaled, law, with_fields=i in with_fields)
             if dents is not None and result.dents is not None and result.dents.equals(dents):
                 result = replace(result, dents=dents)  # one memory for all loads that add none
             dents = result.dents
@@ -122,19 +133,19 @@ def _curve(
     half_space: HalfSpace,
     loads: Loads,
     method: Method,
-    results: Sequence[LoadResult],
+    results: Sequence[_LoadResult],
     law: ContactLaw,
 ) -> Curve:
     """Put the results of all loads together, without fields."""
-    values = columns(results)
+    values = _columns(results)
     # the prescribed value is returned unchanged; its error is part of the residual
     prescribed = values[loads.control.removesuffix("s")]
     np.copyto(prescribed, loads.values, where=values["status"] == Status.CONVERGED)
     shares = np.array([result.border_share for result in results])
     at_the_border = (
-        jump_warnings(surface)
+        _jump_warnings(surface)
         if half_space.periodic
-        else border_warnings(surface, values["force"], shares)
+        else _border_warnings(surface, values["force"], shares)
     )
     return Curve(
         **values,
@@ -164,6 +175,7 @@ def _curve(
         surface=surface,
         dents=tuple(result.dents for result in results) if law.memory == "dents" else (),
         law=law,
+        control=loads.control,
     )
 
 
@@ -172,3 +184,186 @@ def _in_words(law: ContactLaw) -> dict[str, str | float]:
     if isinstance(law, Unilateral):
         return {}
     return {"hardness": law.hardness} if isinstance(law, Yielding) else {"law": type(law).__name__}
+
+
+@dataclass(frozen=True, eq=False)
+class _LoadResult:
+    """Quantities of the curve under one load by their names, and more.
+
+    The defaults are those of a load that was not solved.
+    """
+
+    status: Status = Status.INTERRUPTED
+    residual: float = math.nan
+    residual_of: str = ""
+    convolutions: int = 0
+    resolved: bool = False
+    depth: float = math.nan
+    force: float = math.nan
+    stiffness: float = math.nan
+    unloading_stiffness: float = math.nan
+    area_fraction: float = math.nan
+    area_fraction_corrected: float = math.nan
+    area_fraction_most: float = math.nan
+    plastic_fraction: float = math.nan
+    indentation: float = math.nan
+    work: float = math.nan
+    dissipated_work: float = math.nan
+    border_share: float = math.nan  # of the force
+    fields: Fields | None = None  # if they are kept
+    dents: Indentation | None = None  # if the surface is indented
+
+    @classmethod
+    def of(
+        cls,
+        contact: Contact,
+        response: Response | None,
+        scaled: ScaledSurface,
+        law: ContactLaw,
+        *,
+        with_fields: bool,
+    ) -> _LoadResult:
+        """Return what one load gives, by the contact in the units of a scaled, untouched surface.
+
+        There is no response where the contact was not certified.
+        """
+        worst, of = contact.residuals.worst, contact.residuals.worst_is_of
+        if contact.outcome is Outcome.UNKNOWN_SURFACE:
+            return cls(Status.UNKNOWN_SURFACE)
+        if response is None:
+            return cls(Status[contact.outcome.name], worst, of, contact.convolutions)
+        if not response.converged:
+            return cls(Status.NO_TANGENT, worst, of, contact.convolutions)
+        cells, nodes = int(np.count_nonzero(~contact.pulling)), contact.separation.size
+        most, overstated = _overstated(contact, scaled, law)
+        dents = _dents(contact, scaled) if law.memory == "dents" else None
+        dissipated = indented = 0.0
+        if dents is not None:
+            work = law.bounds(dents.nodes)[1] * dents.depth
+            dissipated, indented = scaled.cell_area * float(work.sum()), float(dents.depth.max())
+        k = scaled.force / scaled.height
+        return cls(
+            status=Status.CONVERGED,
+            residual=worst,
+            residual_of=of,
+            convolutions=contact.convolutions,
+            resolved=cells >= RESOLVED_FROM,
+            depth=contact.depth * scaled.height,
+            force=contact.force * scaled.force,
+            stiffness=response.loading.stiffness * k,
+            unloading_stiffness=response.unloading.stiffness * k,
+            area_fraction=cells / nodes,
+            area_fraction_corrected=cells / nodes - overstated / nodes,
+            area_fraction_most=(cells + most - overstated) / nodes,
+            plastic_fraction=float(contact.plastic.sum()) / cells if cells else 0.0,
+            indentation=indented,
+            work=_elastic_energy(contact) * scaled.force * scaled.height + dissipated,
+            dissipated_work=dissipated,
+            border_share=_border_share(contact),
+            fields=_fields(contact, scaled, dents) if with_fields else None,
+            dents=dents,
+        )
+
+
+def _columns(results: Sequence[_LoadResult]) -> dict[str, Any]:
+    """Return each quantity of the results as an array over the loads, by its name."""
+    return {
+        each.name: np.array(
+            [getattr(result, each.name) for result in results], QUANTITIES[each.name].dtype
+        )
+        for each in dataclasses.fields(_LoadResult)
+        if each.name in QUANTITIES and QUANTITIES[each.name].dims == OVER_LOADS
+    }
+
+
+def _overstated(contact: Contact, scaled: ScaledSurface, law: ContactLaw) -> tuple[float, float]:
+    """Return by how many cells the outline overstates the area, at most and as estimated.
+
+    An area that bears at most the hardness does not get below the middle between F / H and that of
+    the cells: at F / H itself all of the contact would yield. Where nothing yields, it is that of
+    elastic bodies if that is possible.
+    """
+    most, overstated = overstated_cells(contact, scaled.spacing, scaled.half_space.periodic)
+    most_of_cell = float(np.max(law.bounds(None)[1])) * scaled.cell_area
+    if math.isfinite(most_of_cell):
+        borne = contact.force * scaled.force / most_of_cell
+        possible = max(contact.nodes.size - borne, 0.0)
+        if overstated >= possible or contact.plastic.any():
+            overstated = min(overstated, possible / 2)
+    return most, overstated
+
+
+def _elastic_energy(contact: Contact) -> float:
+    """Work that the half-space gives back on unloading, in the units of the contact."""
+    separation = contact.separation.flat[contact.nodes]
+    displacement = contact.gap_at(contact.nodes) - separation + contact.depth
+    cell_area = contact.problem.operator.cell_area
+    return 0.5 * cell_area * float(contact.pressure @ displacement)
+
+
+def _dents(contact: Contact, scaled: ScaledSurface) -> Indentation | None:
+    """Return where the surface is lower than it was untouched."""
+    lower = contact.separation - scaled.separation()
+    nodes = np.flatnonzero(lower)
+    return Indentation(nodes, lower.flat[nodes] * scaled.height) if nodes.size else None
+
+
+def _fields(contact: Contact, scaled: ScaledSurface, dents: Indentation | None) -> Fields:
+    shape = contact.gap.shape
+    pressure = np.zeros(shape)
+    touching, plastic = np.zeros((2, *shape), dtype=bool)
+    pressure.flat[contact.nodes] = contact.pressure * scaled.pressure
+    touching.flat[contact.nodes] = ~contact.pulling
+    plastic.flat[contact.nodes] = contact.plastic
+    displacement = contact.gap - contact.separation
+    displacement += contact.depth
+    displacement *= scaled.height
+    indentation: Real = np.zeros(shape)
+    if dents is not None:
+        indentation.flat[dents.nodes] = dents.depth
+    return Fields(
+        pressure=pressure,
+        displacement=displacement,
+        gap=contact.gap * scaled.height,
+        contact=touching,
+        plastic=plastic,
+        indentation=indentation,
+    )
+
+
+def _border_share(contact: Contact) -> float:
+    """Share of the force that the outer frame carries. [1]"""
+    if not contact.nodes.size:
+        return 0.0
+    nx, ny = contact.separation.shape
+    x, y = np.divmod(contact.nodes, ny)
+    within = np.minimum(np.minimum(x, nx - 1 - x) / nx, np.minimum(y, ny - 1 - y) / ny)
+    borne = np.abs(contact.pressure)
+    return float(borne[within < _BORDER_WIDTH].sum() / borne.sum())
+
+
+def _border_warnings(surface: Surface, force: Real, shares: Real) -> tuple[str, ...]:
+    """Say under which forces the border of a surface that was cut out carries too large a share.
+
+    Shares are NaN where a load was not solved.
+    """
+    beyond = np.flatnonzero(shares > _BORDER_SHARE)
+    if not surface.is_cut_out or not beyond.size:
+        return ()
+    ends = [f"{end:.3g}" for end in (force[beyond].min(), force[beyond].max())]
+    unit = " N" if surface.unit == "m" else ""
+    at = f"a force of {ends[0]}" if beyond.size == 1 else f"forces of {ends[0]} to {ends[1]}"
+    return (
+        f"at {at}{unit}, up to {shares[beyond].max():.0%} of the force is carried within "
+        f"{_BORDER_WIDTH:.0%} of the border, where this surface was cut out of a larger one: the "
+        "surface beyond it would carry a part of the load, so depth, stiffness and area are those "
+        "of the piece alone, a punch with this outline. Take a larger piece, lower loads, or the "
+        "periodic half-space",
+    )
+
+
+def _jump_warnings(surface: Surface) -> tuple[str, ...]:
+    """Say how far a piece of a larger surface jumps at its borders where it is repeated."""
+    if not surface.is_cut_out or surface.rms_height == 0:
+        return ()
+    return (border_jump(surface).in_words(surface.unit),)

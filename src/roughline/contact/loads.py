@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from roughline.computing.arrays import Real
 from roughline.computing.memory import refuse_beyond_memory
-from roughline.contact.arguments import LARGEST, checked_count, checked_values
+from roughline.contact.arguments import LARGEST, checked_count
 from roughline.contact.quantities import RESOLVED_FROM
 from roughline.errors import InputError
+from roughline.errors.checks import shown
 from roughline.halfspace.elasticity.half_space import HalfSpace
 from roughline.halfspace.laws.law import ContactLaw, refuse_pulls
 from roughline.reduction.springs import Springs
@@ -117,7 +118,7 @@ def _checked_loads(given: GivenLoads) -> Loads:
         count = "no loads" if depths is None else "both depths and forces"
         raise InputError(f"{count} given; give one of depths, forces and n_loads")
     control: _Control = "forces" if depths is None else "depths"
-    values = checked_values(control, forces if depths is None else depths)
+    values = _numbers(control, forces if depths is None else depths)
     if values.ndim != 1 or values.size == 0:
         raise InputError(f"{control} have shape {values.shape}; a list of one or more is needed")
     wrong = ~np.isfinite(values)
@@ -173,3 +174,14 @@ def _refuse_beyond_precision(
             f"{loads.control}[{least}] is {reach[least]:.1g} {name}, too small to "
             f"differ from zero; give at least {_SMALLEST_REACH:g} {name}"
         )
+
+
+def _numbers(name: str, values: Any) -> Real:
+    """Return one number or a list of them as an array; refuse text, and what is no number."""
+    try:
+        array = np.atleast_1d(np.ma.filled(np.ma.asarray(values), np.nan))
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name} are not numbers ({error}); give a list of numbers") from error
+    if array.size and array.dtype.kind not in "iuf":
+        raise InputError(f"{name} are not numbers ({name}={shown(values)}); give a list of numbers")
+    return array.astype(np.float64)

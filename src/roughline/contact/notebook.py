@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from roughline.computing.arrays import Mask, Real
-from roughline.contact.quantity import unit_of
+from roughline.contact.quantities import unit_of
 from roughline.contact.status import Status
 from roughline.topography.notebook import html
 from roughline.units import digits_known, in_words

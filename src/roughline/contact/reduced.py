@@ -53,6 +53,7 @@ def press_line(line: Line, half_space: Homogeneous, given: GivenLoads) -> Curve:
             **as_body(line.settings),
         },
         warnings=(*grave_effects(line), *_end_warnings(line)),
+        control=loads.control,
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import enum
-from typing import Any
 
 
 class Status(enum.IntEnum):
@@ -28,10 +27,3 @@ class Status(enum.IntEnum):
             Status.UNKNOWN_SURFACE: "not solved: the surface as a larger load before "
             "them left it is not known",
         }[self]
-
-
-STATUS_FLAGS: dict[str, Any] = {
-    "flag_values": [int(status) for status in Status],
-    "flag_meanings": " ".join(status.name.lower() for status in Status),
-}
-"""Attributes of the status in files, which say what its numbers mean."""

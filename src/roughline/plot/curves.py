@@ -9,8 +9,7 @@ from matplotlib.axes import Axes
 
 from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
-from roughline.contact.quantities import QUANTITIES, RESOLVED_FROM
-from roughline.contact.quantity import OVER_LOADS
+from roughline.contact.quantities import OVER_LOADS, QUANTITIES, RESOLVED_FROM
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.plot.contacts import say
