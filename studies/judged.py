@@ -12,23 +12,14 @@ from roughline.statistics.verdict import Case, Claim, Range, Verdict, places, ve
 
 @dataclass(frozen=True)
 class Found:
-    """A number with its interval, widened by an error of the grid.
+    """A number with its interval, widened by an error of the grid."""
 
-    Attributes
-    ----------
-    low, high : float
-        Ends of the interval.
-    least, most : float
-        Range that the error of the grid alone leaves open for the number, within these ends.
-    count : int
-        Realisations that it is of.
-    """
-
-    low: float
+    low: float  # of the interval, as `high`
+    # range that the error of the grid alone leaves open for the number, within these ends
     least: float
     most: float
     high: float
-    count: int
+    count: int  # realisations that it is of
 
     @classmethod
     def of(cls, estimate: IntervalEstimate, count: int) -> Found:

@@ -24,18 +24,10 @@ _PACKED = {"zlib": True, "complevel": 9, "shuffle": True}
 
 @dataclass(frozen=True)
 class Reduced:
-    """What a study keeps of its store: some variables of each ensemble of its plan.
+    """What a study keeps of its store: some variables of each ensemble of its plan."""
 
-    Attributes
-    ----------
-    folder : Path
-        Folder of the study, with ``plan.toml`` and ``data.nc``.
-    variables : tuple of str
-        The variables, as far as an ensemble has them.
-    """
-
-    folder: Path
-    variables: tuple[str, ...]
+    folder: Path  # folder of the study, with ``plan.toml`` and ``data.nc``
+    variables: tuple[str, ...]  # the variables, as far as an ensemble has them
 
     @cached_property
     def plan(self) -> Plan:

@@ -20,26 +20,15 @@ DOCS = Path(__file__).parents[1] / "docs"
 
 @dataclass(frozen=True)
 class Study:
-    """A study: its folder has a plan, its numbers, its claims, and the text of its page.
+    """A study: its folder has a plan, its numbers, its claims, and the text of its page."""
 
-    Attributes
-    ----------
-    folder : Path
-        The folder; page and figures have its name.
-    verdicts : callable
-        Returns the table of its verdicts.
-    told : callable
-        Returns the numbers and tables that the text names beside the verdicts.
-    figures : mapping of str to callable
-        Draw the figures, by their file names without an ending.
-    panels : callable, optional
-        Returns the panels that the lab shows.
-    """
-
-    folder: Path
-    verdicts: Callable[[], Table]
+    folder: Path  # the folder; page and figures have its name
+    verdicts: Callable[[], Table]  # returns the table of its verdicts
+    # returns the numbers and tables that the text names beside the verdicts
     told: Callable[[], Mapping[str, object]]
+    # draw the figures, by their file names without an ending
     figures: Mapping[str, Callable[[], Figure]] = field(default_factory=dict)
+    # returns the panels that the lab shows
     panels: Callable[[], Sequence[StudyPanel]] | None = None
 
     def page(self) -> str:

@@ -46,24 +46,12 @@ _OF_HURSTS = confidence_of_each(len(HURSTS))
 
 @dataclass(frozen=True)
 class CommonLaw:
-    """kappa at a share of the area for all spectra, a line over the logarithm of Nayak's parameter.
+    """Kappa at a share of the area, of all spectra: a line over the logarithm of Nayak's parameter."""
 
-    Attributes
-    ----------
-    level : float
-        The share.
-    at_ten : IntervalEstimate
-        kappa where Nayak's parameter is 10.
-    per_decade : IntervalEstimate
-        By how much it changes to a parameter ten times as large.
-    deviation : float
-        Largest relative deviation of a mean from the line.
-    """
-
-    level: float
-    at_ten: IntervalEstimate
-    per_decade: IntervalEstimate
-    deviation: float
+    level: float  # the share
+    at_ten: IntervalEstimate  # kappa where Nayak's parameter is 10
+    per_decade: IntervalEstimate  # by how much it changes to a parameter ten times as large
+    deviation: float  # largest relative deviation of a mean from the line
 
     def __call__(self, nayak: float) -> float:
         """Evaluate the law."""

@@ -38,31 +38,16 @@ HALVES = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """Surfaces of one spectrum.
+    """Surfaces of one spectrum."""
 
-    Attributes
-    ----------
-    kind : {"main", "fine", "large"}
-        Which part of the plan.
-    band : int
-        q_high / q_roll.
-    hurst : float
-        H.
-    nayak : float
-        Nayak's parameter m_0 m_4 / m_2² of the spectrum on its lattice of wavevectors.
-    pressure : ndarray, shape (loads,)
-        p / (E* g).
-    area, cells : ndarray, shape (realisations, loads)
-        A / A_0, corrected for the steps of its outline, and counted in cells.
-    """
-
-    kind: str
-    band: int
-    hurst: float
-    nayak: float
-    pressure: Real
-    area: Real
-    cells: Real
+    kind: str  # which part of the plan
+    band: int  # q_high / q_roll
+    hurst: float  # H
+    nayak: float  # Nayak's parameter m_0 m_4 / m_2² of the spectrum on its lattice of wavevectors
+    pressure: Real  # shape (loads,): p / (E* g)
+    # shape (realisations, loads): A / A_0
+    area: Real  # corrected for the steps of its outline
+    cells: Real  # counted in cells
 
     @property
     def count(self) -> int:

@@ -36,21 +36,11 @@ PRESSURES = (0.019, 0.024, 0.03)
 
 @dataclass(frozen=True, eq=False)
 class Rings:
-    """Surfaces of two rings of waves.
+    """Surfaces of two rings of waves."""
 
-    Attributes
-    ----------
-    long_waves : tuple of int
-        Waves along a side of the long ring, from and to.
-    nayak : float
-        Nayak's parameter of the spectrum.
-    area : ndarray, shape (realisations, loads)
-        A / A_0, corrected.
-    """
-
-    long_waves: tuple[int, int]
-    nayak: float
-    area: Real
+    long_waves: tuple[int, int]  # waves along a side of the long ring, from and to
+    nayak: float  # Nayak's parameter of the spectrum
+    area: Real  # shape (realisations, loads): A / A_0, corrected
 
     def kappa(self, level: float, confidence: float = 0.95) -> IntervalEstimate:
         """Return kappa where a share of the area is in contact."""

@@ -66,37 +66,18 @@ def holm(pressure: Real, slope: float) -> Real:
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """Surfaces of one spectrum and hardness, at four pressures a decade.
+    """Surfaces of one spectrum and hardness, at four pressures a decade."""
 
-    Attributes
-    ----------
-    prefix : str
-        First part of the name of the ensemble.
-    every : int
-        Which loads were read: all, or with 2 every other one.
-    fractal_dimension, hardness_bar : float
-        D_f, and H / (E* g); infinite if elastic.
-    slope : float
-        Rms slope g, over sigma / L. It is that of each surface to some parts in 100,000.
-    pressure : ndarray, shape (pressures,)
-        p / H, or p / (E* g) of elastic bodies.
-    conductance : ndarray, shape (realisations, pressures)
-        h_c sigma / (kappa_s m). As what follows, NaN beside a load that was not solved.
-    area : ndarray, shape (realisations, pressures)
-        A / A_0.
-    plastic : ndarray, shape (realisations, pressures)
-        Share of the contact at the hardness.
-    """
-
-    prefix: str
-    every: int
-    fractal_dimension: float
-    hardness_bar: float
-    slope: float
-    pressure: Real
-    conductance: Real
-    area: Real
-    plastic: Real
+    prefix: str  # first part of the name of the ensemble
+    every: int  # which loads were read: all, or with 2 every other one
+    fractal_dimension: float  # D_f
+    hardness_bar: float  # H / (E* g); infinite if elastic
+    slope: float  # rms slope g, over sigma / L; that of each surface to some parts in 100,000
+    pressure: Real  # shape (pressures,): p / H, or p / (E* g) of elastic bodies
+    # shape (realisations, pressures), and NaN beside a load that was not solved
+    conductance: Real  # h_c sigma / (kappa_s m)
+    area: Real  # A / A_0
+    plastic: Real  # share of the contact at the hardness
 
     @property
     def elastic(self) -> bool:

@@ -38,19 +38,11 @@ ELASTIC_BANDS = tuple(BANDS)[:-1]
 
 @dataclass(frozen=True)
 class CommonLaw:
-    """One power law for all fractal dimensions.
+    """One power law for all fractal dimensions."""
 
-    Attributes
-    ----------
-    prefactor, exponent : float
-        Geometric mean of the prefactors and mean of the exponents of the single laws.
-    deviation : float
-        Largest relative deviation of a mean conductance from it in the window.
-    """
-
-    prefactor: float
-    exponent: float
-    deviation: float
+    prefactor: float  # geometric mean of those of the single laws
+    exponent: float  # mean of those of the single laws
+    deviation: float  # largest relative deviation of a mean conductance from it in the window
 
 
 def common_law(hardness_bar: float) -> CommonLaw:
@@ -152,18 +144,11 @@ def _change(
 
 @dataclass(frozen=True)
 class Heights:
-    """How Gaussian the heights are: means over the surfaces, and standard deviations.
+    """How Gaussian the heights are: means over the surfaces, and standard deviations."""
 
-    Attributes
-    ----------
-    skewness, excess_kurtosis : tuple of float
-        Mean, and standard deviation of single surfaces.
-    bearing : tuple of tuple of float
-        Share of Gaussian surfaces above a height, that of these, and its standard error.
-    """
-
-    skewness: tuple[float, float]
+    skewness: tuple[float, float]  # mean, and standard deviation of single surfaces
     excess_kurtosis: tuple[float, float]
+    # share of Gaussian surfaces above a height, that of these, and its standard error
     bearing: tuple[tuple[float, float, float], ...]
 
 

@@ -23,17 +23,10 @@ BETWEEN_THEM = 0.9
 
 @dataclass(frozen=True, eq=False)
 class LocalExponents:
-    """The exponent d ln k / d ln F of the mean stiffness, over the load.
+    """The exponent d ln k / d ln F of the mean stiffness, over the load."""
 
-    Attributes
-    ----------
-    force : ndarray, shape (loads,)
-        Loads, without the first and the last.
-    value, low, high : ndarray, shape (loads,)
-        Slope by least squares of the logarithms over three neighbouring loads, with its interval.
-    """
-
-    force: Real
+    force: Real  # shape (loads,): loads, without the first and the last
+    # slope by least squares of the logarithms over three neighbouring loads, and its interval
     value: Real
     low: Real
     high: Real
@@ -48,20 +41,12 @@ class LocalExponents:
 
 @dataclass(frozen=True)
 class Passing:
-    """The load at which the local exponent passes a value for good, with its interval.
+    """The load at which the local exponent passes a value for good, with its interval."""
 
-    Attributes
-    ----------
-    force : IntervalEstimate
-        The load. NaN where the exponent does not pass within the loads; an end is NaN where the
-        loads do not tell it.
-    always, never : bool
-        Whether the exponent is above that value at all loads, or at none.
-    """
-
+    # NaN where the exponent does not pass within the loads; an end is NaN where they do not tell it
     force: IntervalEstimate
-    always: bool
-    never: bool
+    always: bool  # whether the exponent is above that value at all loads
+    never: bool  # or at none
 
 
 def scaling_exponent_of(hurst: float) -> float:
@@ -118,28 +103,15 @@ def passing(exponents: LocalExponents, threshold: float) -> Passing:
 
 @dataclass(frozen=True)
 class CrossOver:
-    """What a sample says of the way from the power law to an exponent of 1.
+    """What a sample says of the way from the power law to an exponent of 1."""
 
-    Attributes
-    ----------
-    leaves : Passing
-        The load from which on the exponent is more than 0.05 above 1 / (1 + H).
-    halfway : Passing
-        The load from which on it is above the middle of 1 / (1 + H) and 0.9.
-    reaches : Passing
-        The load from which on it is less than 0.05 below 1.
-    gamma : IntervalEstimate
-        F / (k h) where it is largest, which is where the exponent is 1. Where it is largest under
-        the heaviest load heavier ones may show more: it is NaN there, and so is its upper end.
-    gamma_force : float
-        The load there.
-    """
-
-    leaves: Passing
-    halfway: Passing
-    reaches: Passing
+    leaves: Passing  # the load from which on the exponent is more than 0.05 above 1 / (1 + H)
+    halfway: Passing  # the load from which on it is above the middle of 1 / (1 + H) and 0.9
+    reaches: Passing  # the load from which on it is less than 0.05 below 1
+    # F / (k h) where it is largest, which is where the exponent is 1. Where it is largest under the
+    # heaviest load heavier ones may show more: it is NaN there, and so is its upper end
     gamma: IntervalEstimate
-    gamma_force: float
+    gamma_force: float  # the load there
 
 
 def cross_over(force: Real, stiffness: Real, hurst: float, confidence: float = 0.95) -> CrossOver:

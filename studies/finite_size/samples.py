@@ -44,35 +44,19 @@ _NEAR_PUNCH = 0.9
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """Bodies of one spectrum and size in one geometry, in units of a roll-off wave.
+    """Bodies of one spectrum and size in one geometry, in units of a roll-off wave."""
 
-    Attributes
-    ----------
-    geometry : {"periodic", "free", "lines"}
-        Half-space, or springs.
-    band, size : int
-        q_high / q_roll, and L / lambda_r.
-    hurst : float
-        H.
-    force : ndarray, shape (loads,)
-        F / (E* h lambda_r).
-    stiffness : ndarray, shape (realisations, loads)
-        k / (E* lambda_r); of a free surface that of its interface, 1 / (1/k - 1/k_s).
-    whole : ndarray, shape (realisations, loads)
-        The same as pressed, with the punch that a free surface is.
-    left_out : int
-        Loads of the plan that are not here: a body was not solved, or more than one of twenty have
-        fewer than ten cells or springs in contact, or free surfaces are in the mean more than 90 %
-        as stiff as the punch.
-    """
-
-    geometry: Geometry
-    band: int
-    size: int
-    hurst: float
-    force: Real
-    stiffness: Real
-    whole: Real
+    geometry: Geometry  # half-space, or springs
+    band: int  # q_high / q_roll
+    size: int  # L / lambda_r
+    hurst: float  # H
+    force: Real  # shape (loads,): F / (E* h lambda_r)
+    # shape (realisations, loads): k / (E* lambda_r)
+    stiffness: Real  # of a free surface that of its interface, 1 / (1/k - 1/k_s)
+    whole: Real  # as pressed, with the punch that a free surface is
+    # loads of the plan that are not here: a body was not solved, or more than one of twenty have
+    # fewer than ten cells or springs in contact, or free surfaces are in the mean more than 90 % as
+    # stiff as the punch
     left_out: int
 
     @property
