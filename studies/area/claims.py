@@ -46,7 +46,7 @@ _OF_HURSTS = confidence_of_each(len(HURSTS))
 
 @dataclass(frozen=True)
 class CommonLaw:
-    """Kappa at a share of the area, of all spectra: a line over the logarithm of Nayak's parameter."""
+    """Kappa at a share of the area, for all spectra: a line over the log of Nayak's parameter."""
 
     level: float  # the share
     at_ten: IntervalEstimate  # kappa where Nayak's parameter is 10

@@ -27,8 +27,7 @@ from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
 from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
-from roughline.halfspace.operators.grid_nodes import GridNodes, unit_in_single
-from roughline.halfspace.operators.loops import ROUNDING
+from roughline.halfspace.operators.grid_nodes import ROUNDING, GridNodes, unit_in_single
 from roughline.halfspace.operators.restricted import RestrictedOperators
 
 _BLOCK = 16  # cells along the side of a block, where these are square

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from roughline.computing import fft
-from roughline.computing.arrays import Real, Single
-from roughline.halfspace.operators import restricted_loops as loops
+from roughline.computing.arrays import Floats, Integers, Real, Single
+from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.grid_nodes import GridNodes
 from roughline.halfspace.operators.workspace import Workspace
@@ -48,7 +48,7 @@ class PaddedGrid:
 
     def clear(self, nodes: GridNodes, *, wrapped: bool = False) -> None:
         """Set the nodes to zero, and the margin where it was filled."""
-        loops.clear_runs(nodes.rows, nodes.columns, *nodes.runs, self.values, self.margins)
+        _clear_runs(nodes.rows, nodes.columns, *nodes.runs, self.values, self.margins)
         if wrapped:
             for values, margin in zip((self.values, self.values.T), self.margins, strict=True):
                 values[:margin] = values[-margin:] = 0
@@ -109,10 +109,10 @@ class CoarseGrid:
 
         def spread_along(first: int, last: int) -> None:
             parts = (first, last), grid.values, grid.margins, lines
-            loops.spread_along_rows(pressure, sources.listed, along, *parts)
+            _spread_along_rows(pressure, sources.listed, along, *parts)
 
         def spread_across(first: int, last: int) -> None:
-            loops.spread_across_rows(lines, place, across, first, last, spread)
+            _spread_across_rows(lines, place, across, first, last, spread)
 
         fft.share_out_blocks(spread_along, sources.rows.size, sources.rows_of(fft.VALUES_AT_A_TIME))
         fft.share_out_blocks(spread_across, len(spread), 1 + fft.VALUES_AT_A_TIME // len(spread))
@@ -143,3 +143,68 @@ def _spline_weights(ratio: int) -> Single:
     t = np.arange(ratio) / ratio
     weights = [(1 - t) ** 3, 4 - 6 * t**2 + 3 * t**3, 1 + 3 * t + 3 * t**2 - 3 * t**3, t**3]
     return (np.stack(weights, axis=1) / 6).astype(np.float32)
+
+
+@compiled
+def _spread_along_rows(
+    values: Floats,
+    nodes: tuple[Integers, Integers, Integers],
+    weights: Floats,
+    block: tuple[int, int],
+    grid: Floats,
+    margins: tuple[int, int],
+    lines: Floats,
+) -> None:
+    """Write the values of a block of rows to the grid, and spread them over the coarse columns.
+
+    Nodes are starts, columns and rows. Each of the lines gets a row, spread by the weights of the
+    four coarse columns around a column, which go by its place between two of them.
+    """
+    starts, columns, rows = nodes
+    ratio = weights.shape[0]
+    for k in range(block[0], block[1]):
+        places, line = grid[rows[k] + margins[0]], lines[k]
+        line[:] = 0
+        for i in range(starts[k], starts[k + 1]):
+            places[columns[i] + margins[1]] = values[i]
+            coarse, part = columns[i] // ratio, columns[i] % ratio
+            for a in range(4):
+                line[coarse + a] += weights[part, a] * values[i]
+
+
+@compiled
+def _clear_runs(
+    rows: Integers,
+    columns: Integers,
+    first_run: Integers,
+    runs: Integers,
+    grid: Floats,
+    margins: tuple[int, int],
+) -> None:
+    """Set a grid with margins to zero where there are runs of nodes."""
+    for k in range(rows.size):
+        places = grid[rows[k] + margins[0]]
+        for run in range(first_run[k], first_run[k + 1]):
+            start = columns[runs[run, 0]] + margins[1]
+            places[start : start + runs[run, 2]] = 0
+
+
+@compiled
+def _spread_across_rows(
+    lines: Floats, place: Integers, weights: Floats, first: int, last: int, coarse: Floats
+) -> None:
+    """Spread lines, one for each row with values, over the coarse rows from first to last.
+
+    The place of each row of the grid among the lines is -1 where it holds no value. Weights are
+    those of the four coarse rows around a row, by its place between two of them.
+    """
+    ratio = weights.shape[0]
+    for row in range(first, last):
+        total = coarse[row]
+        total[:] = 0
+        for i in range(max(0, (row - 3) * ratio), min(place.size, (row + 1) * ratio)):
+            if place[i] >= 0:
+                weight = weights[i % ratio, row - i // ratio]
+                line = lines[place[i]]
+                for j in range(line.size):
+                    total[j] += weight * line[j]

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from roughline.computing import fft
-from roughline.computing.arrays import Real
+from roughline.computing.arrays import Floats, Integers, Real
+from roughline.computing.compiled import compiled
 from roughline.halfspace.elasticity.half_space import HalfSpace
-from roughline.halfspace.operators import loops
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision, unit_in_single
 from roughline.halfspace.operators.workspace import Workspace
 
@@ -92,7 +92,7 @@ class Convolution:
             table = np.empty((last - first, ny))
             kernel_rows(first, self.spacing, table)
             part = parts[first // _ROWS_AT_A_TIME]
-            loops.add_pairs(table, first, pressure, loaded, targets.listed, part)
+            _add_pairs(table, first, pressure, loaded, targets.listed, part)
 
         fft.share_out_blocks(add, nx, _ROWS_AT_A_TIME)
         return parts.sum(axis=0, out=result)
@@ -143,7 +143,7 @@ class Convolution:
         turns = np.exp(2j * np.pi / my * np.arange(ny)).astype(modes.dtype) if odd else None
 
         def transform_rows(first: int, last: int) -> None:
-            loops.scatter_pairs(pressure, *sources.listed[:2], first, last, real_modes)
+            _scatter_pairs(pressure, *sources.listed[:2], first, last, real_modes)
             if turns is not None:
                 modes[first:last, :ny] *= turns.conj()
             fft.fft_rows(modes[first:last, :period], forward=True)
@@ -151,20 +151,20 @@ class Convolution:
         def convolve_columns(first: int, last: int) -> None:
             columns = np.empty((mx, last - first), dtype=modes.dtype)
             real_columns = columns.view(real_modes.dtype).reshape(mx, last - first, 2)
-            loops.load_columns(real_modes, period, sources.rows, first, odd, real_columns)
+            _load_columns(real_modes, period, sources.rows, first, odd, real_columns)
             fft.fft_columns(columns, forward=True)
-            loops.weigh_columns(real_columns, spectrum, first)
+            _weigh_columns(real_columns, spectrum, first)
             fft.fft_columns(columns, forward=False)
-            loops.store_columns(real_columns, rows_out, first, odd, real_modes, period)
+            _store_columns(real_columns, rows_out, first, odd, real_modes, period)
 
         def transform_rows_back(first: int, last: int) -> None:
             fft.fft_rows(modes[first:last, :period], forward=False)
             if turns is not None:
                 modes[first:last, :ny] *= turns
             if targets is None:
-                loops.gather_rows(real_modes, first, last, result)
+                _gather_rows(real_modes, first, last, result)
             else:
-                loops.gather_pairs(real_modes, *targets.listed[:2], first, last, result)
+                _gather_pairs(real_modes, *targets.listed[:2], first, last, result)
 
         # a thread does small transforms before another has begun
         at_a_time = max(mx, my) if mx * my <= 2**16 else fft.LINES_AT_A_TIME
@@ -178,3 +178,131 @@ def displacement_field(operator: Convolution, pressure: Real) -> Real:
     """Return the displacement everywhere under the pressure on each cell, shape (nx, ny)."""
     nodes = np.flatnonzero(pressure)
     return operator.displacement(pressure.flat[nodes], GridNodes.of(nodes, operator.shape))
+
+
+@compiled
+def _scatter_pairs(
+    values: Floats, starts: Integers, columns: Integers, first: int, last: int, pairs: Floats
+) -> None:
+    """Write the values of two rows each into the real and imaginary parts of one complex row.
+
+    The real rows begin at `starts` in `values`, with a column for each value. The complex rows from
+    first to last, of shape (columns, 2), are zero where there are no values.
+    """
+    for pair in range(first, last):
+        pairs[pair] = 0
+        for part in range(2):
+            row = 2 * pair + part
+            if row + 1 < starts.size:
+                for i in range(starts[row], starts[row + 1]):
+                    pairs[pair, columns[i], part] = values[i]
+
+
+@compiled
+def _gather_pairs(
+    pairs: Floats, starts: Integers, columns: Integers, first: int, last: int, values: Floats
+) -> None:
+    """Add to values what stands where _scatter_pairs would write them."""
+    for row in range(2 * first, min(2 * last, starts.size - 1)):
+        for i in range(starts[row], starts[row + 1]):
+            values[i] += pairs[row // 2, columns[i], row % 2]
+
+
+@compiled
+def _gather_rows(pairs: Floats, first: int, last: int, field: Floats) -> None:
+    """Add to a field whole rows, cropped to its columns."""
+    for row in range(2 * first, min(2 * last, field.shape[0])):
+        for column in range(field.shape[1]):
+            field[row, column] += pairs[row // 2, column, row % 2]
+
+
+@compiled
+def _load_columns(
+    pairs: Floats, period: int, rows: Integers, first: int, odd: int, columns: Floats
+) -> None:
+    """Separate two real rows from each complex one, for a block of modes, and pad with zeros.
+
+    A = (Z(k) + Z(-k)*) / 2 and B = (Z(k) - Z(-k)*) / 2i are the spectra of the real and imaginary
+    parts of z. All complex numbers come as two real ones. The real rows go to `rows` of the
+    columns, which are modes from `first` on. With `odd` one, mode j stands for the wavenumber
+    2 j + 1, so that period - 1 - j is its opposite; with zero that is period - j.
+    """
+    half, none = pairs.dtype.type(0.5), np.empty_like(columns[0])
+    columns[:] = 0
+    for pair in range((rows.size + 1) // 2):
+        z = pairs[pair]
+        a = columns[rows[2 * pair]]
+        b = columns[rows[2 * pair + 1]] if 2 * pair + 1 < rows.size else none
+        for j in range(columns.shape[1]):
+            mirror = period - odd - first - j if first + j + odd else 0
+            a[j, 0] = half * (z[first + j, 0] + z[mirror, 0])
+            a[j, 1] = half * (z[first + j, 1] - z[mirror, 1])
+            b[j, 0] = half * (z[first + j, 1] + z[mirror, 1])
+            b[j, 1] = half * (z[mirror, 0] - z[first + j, 0])
+
+
+@compiled
+def _weigh_columns(columns: Floats, quarter: Floats, first: int) -> None:
+    """Multiply a block of modes by an even spectrum of which a quarter is given.
+
+    The spectrum is rounded to the precision of the modes.
+    """
+    period, modes = columns.shape[0], columns.shape[1]
+    for i in range(period // 2 + 1):
+        row, mirror = columns[i], columns[(period - i) % period]
+        is_its_own_mirror = 2 * i % period == 0
+        for j in range(modes):
+            weight = columns.dtype.type(quarter[i, first + j])
+            row[j, 0] *= weight
+            row[j, 1] *= weight
+            if not is_its_own_mirror:
+                mirror[j, 0] *= weight
+                mirror[j, 1] *= weight
+
+
+@compiled
+def _store_columns(
+    columns: Floats, rows: Integers, first: int, odd: int, pairs: Floats, period: int
+) -> None:
+    """Join two real rows into each complex one: the inverse of _load_columns, for some rows."""
+    none = np.zeros_like(columns[0])
+    for pair in range((rows.size + 1) // 2):
+        z = pairs[pair]
+        a = columns[rows[2 * pair]]
+        b = columns[rows[2 * pair + 1]] if 2 * pair + 1 < rows.size else none
+        for j in range(columns.shape[1]):
+            mirror = period - odd - first - j if first + j + odd else 0
+            z[mirror, 0] = a[j, 0] + b[j, 1]
+            z[mirror, 1] = b[j, 0] - a[j, 1]
+            z[first + j, 0] = a[j, 0] - b[j, 1]
+            z[first + j, 1] = a[j, 1] + b[j, 0]
+
+
+@compiled
+def _add_pairs(
+    table: Floats,
+    first: int,
+    pressure: Floats,
+    sources: tuple[Integers, Integers, Integers],
+    targets: tuple[Integers, Integers, Integers],
+    result: Floats,
+) -> None:
+    """Add what pressures displace at some distances of rows, for which there is a table.
+
+    Sources are starts, columns and the places of all rows; targets starts, columns and rows.
+    """
+    source_starts, source_columns, place = sources
+    target_starts, target_columns, target_rows = targets
+    for k in range(target_rows.size):
+        for distance in range(first, first + table.shape[0]):
+            kernel = table[distance - first]
+            for side in range(2 if distance else 1):
+                row = target_rows[k] + (distance if side else -distance)
+                if 0 <= row < place.size and place[row] >= 0:
+                    source = place[row]
+                    for i in range(target_starts[k], target_starts[k + 1]):
+                        total = 0.0
+                        for j in range(source_starts[source], source_starts[source + 1]):
+                            apart = abs(target_columns[i] - source_columns[j])
+                            total += kernel[apart] * pressure[j]
+                        result[i] += total

@@ -9,11 +9,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.computing.arrays import Indices, Real
-from roughline.halfspace.operators.loops import ROUNDING, list_rows
+from roughline.computing.arrays import Indices, Integers, Real
+from roughline.computing.compiled import compiled
 
 Precision = Literal["float32", "float64"]
 
+ROUNDING = 8
+"""Columns to which runs of nodes are rounded up, and so the room they need beyond a stencil."""
 _SMALL_IN_SINGLE = 1e-20  # single precision ends at 1e-38, and transforms divide by their size
 
 
@@ -77,3 +79,23 @@ def unit_in_single(values: Real) -> float:
         return 1.0
     largest = max(float(values.max(initial=0.0)), -float(values.min(initial=0.0)))
     return largest if 0 < largest < _SMALL_IN_SINGLE else 1.0
+
+
+@compiled
+def list_rows(
+    indices: Integers, width: int, rows: Integers, starts: Integers, columns: Integers
+) -> int:
+    """List nodes of ascending flat indices row by row, and return how many rows hold any.
+
+    These rows, where they begin, and the column of each node are written; one more start follows.
+    """
+    found, begin, end = 0, 0, 0
+    for i in range(indices.size):
+        if indices[i] >= end:
+            row = indices[i] // width
+            begin, end = row * width, (row + 1) * width
+            rows[found], starts[found] = row, i
+            found += 1
+        columns[i] = indices[i] - begin
+    starts[found] = indices.size
+    return found

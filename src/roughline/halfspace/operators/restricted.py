@@ -23,13 +23,12 @@ import numpy as np
 from scipy.special import erfc
 
 from roughline.computing import fft
-from roughline.computing.arrays import Indices, Real, Single
-from roughline.halfspace.operators import restricted_loops as loops
+from roughline.computing.arrays import Floats, Indices, Integers, Real, Single
+from roughline.computing.compiled import compiled
 from roughline.halfspace.operators.coarse_grid import CoarseGrid, PaddedGrid
 from roughline.halfspace.operators.convolution import Convolution
 from roughline.halfspace.operators.even_sums import even_sums
-from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
-from roughline.halfspace.operators.loops import ROUNDING
+from roughline.halfspace.operators.grid_nodes import ROUNDING, GridNodes, Precision
 
 _WIDTH = 1.3  # of the smoothing, in cells of the coarse grid
 _RADIUS = 2.25  # of the near part, in cells of the coarse grid
@@ -110,7 +109,7 @@ class RestrictedOperator:
         def add(first: int, last: int) -> None:
             near, far = (self.taps, self.reach), (moved, self.far.weights)
             parts = grid.values, grid.margins, near, *far, nodes, (first, last), result
-            loops.add_near_and_far(*parts)
+            _add_near_and_far(*parts)
 
         # for fewer near sums, starting a thread does not pay
         rows_at_a_time = targets.rows_of(2**21 // self.taps.size)
@@ -159,3 +158,72 @@ def _ratios(operator: Convolution) -> list[tuple[tuple[int, int], float]]:
         if large and divide and radius < _REACH + 1:
             possible.append(((rx, ry), min(share, most)))
     return possible
+
+
+@compiled
+def _add_near_and_far(
+    grid: Floats,
+    margins: tuple[int, int],
+    near: tuple[Floats, Integers],
+    coarse: Floats,
+    weights: tuple[Floats, Floats],
+    nodes: tuple[Integers, Integers, Integers, Integers],
+    block: tuple[int, int],
+    result: Floats,
+) -> None:
+    """Add what near values and what the coarse grid displace, at each node of a block of rows.
+
+    The near part is the kernel by the distance in cells, each row followed by seven zeros, and the
+    columns to which each row of it reaches, to both sides. Weights are those of the coarse rows and
+    columns. Nodes are rows, columns, where the runs of each row begin, and the runs.
+    """
+    rows, columns, first_run, runs = nodes
+    ratio, radius = weights[1].shape[0], near[0].shape[0] // 2
+    far, sums = np.empty_like(coarse[0]), np.empty_like(grid[0])
+    flat, width = grid.reshape(-1), grid.shape[1]
+    for k in range(block[0], block[1]):
+        _interpolate_row(coarse, weights[0], rows[k], far)
+        above = (rows[k] + margins[0] - radius) * width
+        for run in range(first_run[k], first_run[k + 1]):
+            begin, end, length = runs[run]
+            start = columns[begin]
+            _sum_near(flat[above + start :], width, margins[1], near, sums[:length])
+            for i in range(begin, end):
+                column, part = columns[i] // ratio, columns[i] % ratio
+                value = sums[columns[i] - start]
+                for a in range(4):
+                    value += weights[1][part, a] * far[column + a]
+                result[i] = value
+
+
+@compiled
+def _interpolate_row(coarse: Floats, weights: Floats, row: int, far: Floats) -> None:
+    """Interpolate between coarse rows, for all coarse columns."""
+    ratio = weights.shape[0]
+    above, part = row // ratio, row % ratio
+    c0, c1, c2, c3 = coarse[above], coarse[above + 1], coarse[above + 2], coarse[above + 3]
+    w0, w1, w2, w3 = weights[part]
+    for j in range(far.size):
+        far[j] = w0 * c0[j] + w1 * c1[j] + w2 * c2[j] + w3 * c3[j]
+
+
+@compiled
+def _sum_near(
+    flat: Floats, width: int, margin: int, near: tuple[Floats, Integers], sums: Floats
+) -> None:
+    """Sum the near part over a run, from the first row that it reaches on."""
+    taps, reach = near
+    across = (taps.shape[1] - 8) // 2
+    sums[:] = 0
+    for di in range(taps.shape[0]):
+        groups = (2 * reach[di] + 8) // 8  # of eight taps
+        at = di * width + margin - reach[di]
+        line, tap = flat[at : at + 8 * groups + sums.size], taps[di, across - reach[di] :]
+        for g in range(0, 8 * groups, 8):
+            t0, t1, t2, t3 = tap[g], tap[g + 1], tap[g + 2], tap[g + 3]
+            t4, t5, t6, t7 = tap[g + 4], tap[g + 5], tap[g + 6], tap[g + 7]
+            p = line[g:]
+            for j in range(sums.size):  # summed in pairs, which need not wait for each other
+                sums[j] += ((t0 * p[j] + t1 * p[j + 1]) + (t2 * p[j + 2] + t3 * p[j + 3])) + (
+                    (t4 * p[j + 4] + t5 * p[j + 5]) + (t6 * p[j + 6] + t7 * p[j + 7])
+                )

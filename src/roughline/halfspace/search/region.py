@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Floats, Indices, Mask, Real
+from roughline.computing.compiled import compiled
 from roughline.halfspace.laws.bounds import Bounds
-from roughline.halfspace.operators import loops
 from roughline.halfspace.operators.corrected import CorrectedOperator
 from roughline.halfspace.operators.grid_nodes import GridNodes, Precision
 from roughline.halfspace.search.carriers import Carriers, merged
@@ -144,7 +144,7 @@ class Region:
             moved *= factor
         if approach is None:
             approach = _level(moved[places] + above, pressure, touching)
-        loops.leave_gaps(moved, self.separation, touch, approach)
+        _leave_gaps(moved, self.separation, touch, approach)
         return Trial.of(self, load, Carriers(places, pressure), approach, moved)
 
 
@@ -296,3 +296,10 @@ def _best_factor(target: Real, pressure: Real, displacement: Real) -> float:
     """Return the factor by which the pressures come closest to the target, in energy."""
     energy = float(pressure @ displacement)
     return max(float(pressure @ target) / energy, 0.0) if energy > 0 else 1.0
+
+
+@compiled
+def _leave_gaps(field: Floats, separation: Floats, touch: float, approach: float) -> None:
+    """Turn displacements into gaps, for a separation, its least value, and an approach from it."""
+    for i in range(field.size):
+        field[i] = field[i] + (separation[i] - touch) - approach
