@@ -38,7 +38,7 @@ from roughline.errors import InputError
 from roughline.errors.checks import number, refuse, whole
 from roughline.errors.public import public
 from roughline.errors.words import called
-from roughline.topography.body import Body, Line, Surface
+from roughline.topography.body import Body, Line, Surface, sides_of
 from roughline.topography.preparation import Preparation
 from roughline.units import decimal, engineering, load_in_newtons
 
@@ -341,7 +341,7 @@ class Question:
     def strains(self, body: Body) -> list[tuple[float, str]]:
         """Return how far each load strains a body: as a ratio, and in words."""
         area = nominal_area(body)
-        side = min(body.sizes) if isinstance(body, Surface) else body.length
+        side = min(sides_of(body))
         if depths := self.heights():
             what = "depth {} is {} times the shorter side of the body"
             ratios = [depth / side for depth in depths]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.assessment.assumptions import broken
-from roughline.topography.body import Surface
+from roughline.topography.body import Surface, sides_of, spacings_of
 from roughline.units import engineering, metres_per
 
 if TYPE_CHECKING:
@@ -77,10 +77,8 @@ def _rows_of_sizes(description: Description) -> list[tuple[str, str]]:
     names = ("sizes", "pixel") if content.kind == "surface" else ("length", "spacing")
     sizes: tuple[float, ...]
     spacings: tuple[float, ...]
-    if isinstance(body, Surface):
-        sizes, spacings = body.sizes, body.spacing
-    elif body is not None:
-        sizes, spacings = (body.length,), (body.spacing,)
+    if body is not None:
+        sizes, spacings = sides_of(body), spacings_of(body)
     elif content.sizes is None:
         return [(names[0], "none stated")]
     else:

@@ -11,7 +11,7 @@ from roughline._version import __version__
 from roughline.contact.quantities import IN_JSON
 from roughline.contact.status import Status
 from roughline.report.plain import plain
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, sides_of
 
 if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
@@ -175,7 +175,7 @@ def of_generated(body: Body, file: Path) -> dict[str, Any]:
 
 
 def _of_body(body: Body) -> dict[str, Any]:
-    sizes = body.sizes if isinstance(body, Surface) else [body.length]
+    sizes = sides_of(body)
     return {
         "points": list(body.heights.shape),
         "sizes": sizes,

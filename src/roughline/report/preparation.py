@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, sides_of
 from roughline.units import engineering
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def _crop(points: str, body: Body) -> str:
 
     Later steps keep the sides of the piece, so its points had the distance of side over points.
     """
-    sides = body.sizes if isinstance(body, Surface) else (body.length,)
+    sides = sides_of(body)
     kept = []
     for (axis, *ends), side in zip(_RANGE.findall(points), sides, strict=True):
         first, end = map(int, ends)

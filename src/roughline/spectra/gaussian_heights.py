@@ -11,7 +11,7 @@ from scipy import special
 from roughline.computing.arrays import Real
 from roughline.spectra.chance import Chance, Finding, score_of_square
 from roughline.spectra.coarser_selves import CoarserSelf
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, spacings_of
 from roughline.units import in_words
 
 _LEAST_VALUES = 8  # independent values, from which a skewness or a kurtosis says something
@@ -41,8 +41,8 @@ def _named(body: Body, own: CoarserSelf, what: str) -> str:
 
 def _cells(body: Body, own: CoarserSelf) -> str:
     """Name cells by their size."""
-    spacing = max(body.spacing) if isinstance(body, Surface) else body.spacing
-    return " points" if own.cell == 1 else f" cells of {in_words(own.cell * spacing, body.unit, 2)}"
+    size = own.cell * max(spacings_of(body))
+    return " points" if own.cell == 1 else f" cells of {in_words(size, body.unit, 2)}"
 
 
 def _shape(values: Real, chance: Chance, name: str, excess: float) -> Iterable[Finding]:

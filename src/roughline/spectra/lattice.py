@@ -29,7 +29,7 @@ _BLOCK = 2**20  # wavevectors summed at a time
 @public
 @dataclass(frozen=True)
 class ScaledSpectrum(ABC):
-    """Isotropic spectrum with its height.
+    """Isotropic spectrum with its height, at wavenumbers q of either sign. [1 / length]
 
     Attributes
     ----------
@@ -57,34 +57,17 @@ class ScaledSpectrum(ABC):
         return math.sqrt(self.moment(2))
 
     def C_2d(self, q: ArrayLike) -> Real:
-        """Spectrum of the surface over its wavevectors, the paper's eq. 3. [length⁴]
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
-        """
+        """Spectrum of the surface over its wavevectors, the paper's eq. 3. [length⁴]"""
         return self.C_0 * self.band.shape(np.abs(np.asarray(q, dtype=np.float64)))
 
     def C_reduced(self, q: ArrayLike) -> Real:
-        """Spectrum of the line of the reduction method, pi q C_2d(q), the paper's eq. 7. [length³]
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
-        """
+        """Spectrum pi q C_2d(q) of the reduced line, the paper's eq. 7. [length³]"""
         return np.pi * np.abs(np.asarray(q, dtype=np.float64)) * self.C_2d(q)
 
     def C_profile(self, q: ArrayLike) -> Real:
         """Spectrum of a straight cut, 2 int_q^inf C_2d(q') q' dq' / sqrt(q'² - q²). [length³]
 
         This is what a line scan measures; it is not the spectrum of the reduced line.
-
-        Parameters
-        ----------
-        q : array_like
-            Wavenumbers; the sign does not matter. [1 / length]
         """
         return self.C_0 * self.band.cut(np.abs(np.asarray(q, dtype=np.float64)))
 

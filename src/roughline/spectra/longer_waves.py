@@ -17,7 +17,7 @@ from scipy import special
 
 from roughline.computing.arrays import Real
 from roughline.spectra.fit import SelfAffineFit
-from roughline.topography.body import Body, Line, Surface
+from roughline.topography.body import Body, Line, sides_of, spacings_of
 from roughline.topography.settings import MOUNTING, TILT, TILT_REMOVED
 from roughline.topography.trend import polynomials, slopes_of_plane
 
@@ -42,11 +42,10 @@ class LongShape:
 
 def tilt_of(body: Body) -> tuple[float, ...] | None:
     """Slopes of the plane that a body had before it was levelled; None if it is not known. [1]"""
-    sides, shape = _sides(body), body.heights.shape
-    removed = [body.settings.get(name) for name in TILT_REMOVED[: len(shape)]]
-    left = slopes_of_plane(body.heights, [*(sides / shape)])
+    removed = [body.settings.get(name) for name in TILT_REMOVED[: body.heights.ndim]]
+    left = slopes_of_plane(body.heights, spacings_of(body))
     found = [slope + float(before or 0.0) for slope, before in zip(left, removed, strict=True)]
-    lies = float(np.square(found * sides).sum()) / 12
+    lies = float(np.square(np.multiply(found, sides_of(body))).sum()) / 12
     if not any(removed) and lies < _ROUNDING * body.rms_height**2:
         return None
     return tuple(found)
@@ -64,8 +63,9 @@ def long_shapes(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShap
     free, rest = counts * len(bodies), float(np.mean([each.rms_height**2 for each in level]))
     known = [tilt for body in bodies if (tilt := _own_tilt(body)) is not None]
     if len(known) == len(bodies):
-        tilts = np.square(_sides(bodies[0]) * (known - np.mean(known, axis=0) * (len(known) > 1)))
-        squares[1] = float(tilts.sum()) / 12 / max(1, len(known) - 1)
+        tilts = known - np.mean(known, axis=0) * (len(known) > 1)
+        lies = float(np.square(tilts * sides_of(bodies[0])).sum()) / 12
+        squares[1] = lies / max(1, len(known) - 1)
         free[1] -= counts[1] * (len(known) > 1)
     laws = [_expected(bodies[0], fit.hurst, roll) for roll in _rolls(fit)]
     own = slice(_OWN, _DEGREES)
@@ -88,10 +88,6 @@ def long_shapes(bodies: Sequence[Body], fit: SelfAffineFit) -> Iterator[LongShap
 def _own_tilt(body: Body) -> tuple[float, ...] | None:
     """The tilt of a body if it is known, and not its mounting's."""
     return None if body.settings.get(TILT) == MOUNTING else tilt_of(body)
-
-
-def _sides(body: Body) -> Real:
-    return np.array(body.sizes if isinstance(body, Surface) else [body.length])
 
 
 def _rolls(fit: SelfAffineFit) -> list[float]:

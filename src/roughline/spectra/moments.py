@@ -152,22 +152,12 @@ class Moments:
 
 
 def moments(roughness: SurfaceOrSpectrum) -> Moments:
-    """Moments of a surface or of a spectrum.
-
-    Parameters
-    ----------
-    roughness : Surface, SelfAffine, ContinuumSpectrum, LatticeSpectrum or IsotropicSpectrum
-        As for :func:`roughline.theory`. [length]
+    """Moments of a surface or of a spectrum, from its :func:`bands`.
 
     References
     ----------
     P. R. Nayak, "Random process model of rough surfaces", J. Lubr. Technol. 93, 398-407 (1971).
     J. I. McCool, "Comparison of models for the contact of rough surfaces", Wear 107, 37-60 (1986).
-
-    Raises
-    ------
-    InputError
-        As for :func:`bands`.
     """
     spectrum = bands(roughness)
     return Moments(

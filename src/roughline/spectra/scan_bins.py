@@ -187,10 +187,7 @@ class ScanBins(Observed):
             yield np.fft.irfft(modes, _TIMES_AS_LONG * points, norm="forward")[:points]
 
     def _drawn(self, count: int, generator: np.random.Generator) -> Iterator[_DrawnSpectrum]:
-        """Draw spectra: a law by its likelihood, its level and deviations from it at random.
-
-        They are those of the surface as the instrument sees it.
-        """
+        """Draw spectra of the surface, as the instrument sees it, as :meth:`surfaces` says."""
         laws, means = self.laws, self.means
         for which in zip(*laws.drawn(count, generator), strict=True):
             law = laws.at(*which)

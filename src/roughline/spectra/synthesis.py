@@ -100,10 +100,7 @@ def _moduli(band: Band, C_0: float, m: Real, weight: Real) -> Real:
 
 
 def _generators(rng: Seed) -> tuple[np.random.Generator, np.random.Generator]:
-    """Return the generators of phases and of amplitudes that belong to a seed.
-
-    Realisation i of an ensemble has the seed ``SeedSequence(root, spawn_key=(i,))``.
-    """
+    """Return the generators of phases and of amplitudes that belong to a seed."""
     if isinstance(rng, np.random.Generator):
         return rng, rng.spawn(1)[0]
     try:

@@ -181,14 +181,7 @@ class Surface:
             first, end = rising_pair(name, given, needed)
             if first < 0 or end > n or not all(map(is_whole, given)):
                 refuse(name, given, needed)
-        (dx, dy), heights = self.spacing, self.heights[slice(*x), slice(*y)]
-        return replace(
-            self,
-            heights=heights,
-            sizes=(dx * heights.shape[0], dy * heights.shape[1]),
-            settings=settings_of_piece(self.settings, (slice(*x), slice(*y)), self.shape),
-            is_cut_out=self.is_cut_out or heights.size < self.heights.size,
-        )
+        return piece(self, (slice(*x), slice(*y)))
 
     def coarsened(self) -> Surface:
         """Return the surface on half as many points a side, the means over two by two.
@@ -320,9 +313,33 @@ Body = Surface | Line
 BodyType = TypeVar("BodyType", Surface, Line)
 
 
+def sides_of(body: Body) -> tuple[float, ...]:
+    """Lengths along each side: both of a surface, the one of a line. [length]"""
+    return body.sizes if isinstance(body, Surface) else (body.length,)
+
+
+def spacings_of(body: Body) -> tuple[float, ...]:
+    """Distances of points along each side. [length]"""
+    return body.spacing if isinstance(body, Surface) else (body.spacing,)
+
+
 def with_heights(body: BodyType, heights: Real, **settings: Any) -> BodyType:
     """Return the body with other heights and further settings."""
     return replace(body, heights=heights, settings={**body.settings, **settings})
+
+
+def piece(body: BodyType, kept: tuple[slice, ...]) -> BodyType:
+    """Return the points of a body that are kept along each side."""
+    heights = body.heights[kept]
+    sizes = tuple(step * n for step, n in zip(spacings_of(body), heights.shape, strict=True))
+    sides: dict[str, Any] = {"sizes": sizes} if len(sizes) == 2 else {"length": sizes[0]}
+    return replace(
+        body,
+        heights=heights,
+        settings=settings_of_piece(body.settings, kept, body.heights.shape),
+        is_cut_out=body.is_cut_out or heights.size < body.heights.size,
+        **sides,
+    )
 
 
 def _scaled(body: BodyType, factor: float) -> BodyType:
@@ -335,14 +352,13 @@ def _scaled(body: BodyType, factor: float) -> BodyType:
 
 def _detrended(body: BodyType, trend: Trend) -> BodyType:
     refuse_unknown_trend(trend)
-    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
     return replace(
         body,
         heights=without_trend(body.heights, trend),
         settings={
             **body.settings,
             "detrended": trend,
-            **record_of_tilt(body.heights, spacings, trend, body.settings),
+            **record_of_tilt(body.heights, spacings_of(body), trend, body.settings),
         },
         removed_trend=trend,
     )

@@ -83,7 +83,8 @@ def borders_of(heights: Real) -> _Borders:
             continue
         found = _along(np.moveaxis(heights, axis, 0).reshape(n, -1), rounding)
         if found.chance <= least.chance:
-            least = found if found.chance < least.chance else max(found, least, key=_step)
+            alike = found.chance == least.chance
+            least = least if alike and least.step > found.step else found
     return least
 
 
@@ -140,7 +141,3 @@ def _along(rows: Real, rounding: float) -> _Borders:
     ratio = over_borders / mean
     chance = float(special.gammaincc(1 / variance, ratio / variance))
     return _Borders(math.sqrt(ratio), chance)
-
-
-def _step(borders: _Borders) -> float:
-    return borders.step

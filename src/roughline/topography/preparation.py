@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,11 +14,19 @@ from roughline.errors import InputError, PreparationWarning
 from roughline.errors.checks import as_number, is_whole, positive, refuse, several
 from roughline.errors.public import public
 from roughline.errors.words import called
-from roughline.topography.body import Body, BodyType, Surface, with_heights
-from roughline.topography.crop import Crop, points_in, settings_of_piece
+from roughline.topography.body import (
+    Body,
+    BodyType,
+    Surface,
+    piece,
+    sides_of,
+    spacings_of,
+    with_heights,
+)
+from roughline.topography.crop import Crop, points_in
 from roughline.topography.effects import effects, with_effect
 from roughline.topography.missing import Missing
-from roughline.topography.trend import Trend, refuse_unknown_trend, tilt_share, without_trend
+from roughline.topography.trend import Trend, refuse_unknown_trend, without_trend
 from roughline.units import in_words
 
 _TILT_MATTERS = 0.05  # share of the rms height above which a warning is given
@@ -177,7 +185,7 @@ def tilt_warnings(surface: Surface) -> tuple[str, ...]:
     Such a plane is mostly the tilt of the stage, or part of a wave longer than the piece. The side
     that it lifts carries the load.
     """
-    lower = 1 - math.sqrt(1 - tilt_share(surface.heights, surface.rms_height))
+    lower = 1 - math.sqrt(1 - _tilt_share(surface.heights, surface.rms_height))
     if not surface.is_cut_out or lower <= _TILT_MATTERS:
         return ()
     return (
@@ -185,6 +193,18 @@ def tilt_warnings(surface: Surface) -> tuple[str, ...]:
         "lower, and the side that the tilt lifts carries the load. Unless that is meant, remove it "
         f"({called('trend', 'tilt')}, as rl.read does by default, or surface.detrended())",
     )
+
+
+def _tilt_share(heights: Real, rms_height: float) -> float:
+    """Share of the mean square height that lies in the least-squares plane. [1]"""
+    if rms_height == 0:
+        return 0.0
+    mean, share = heights.mean(), 0.0
+    for axis, n in enumerate(heights.shape):
+        x = np.linspace(-1.0, 1.0, n)
+        across = (heights.mean(axis=1 - axis) - mean) / rms_height
+        share += float(x @ across) ** 2 / float(x @ x) / n
+    return min(share, 1.0)
 
 
 def outliers(body: Body) -> Mask:
@@ -215,19 +235,7 @@ def outliers(body: Body) -> Mask:
 
 
 def _cropped(body: BodyType, crop: Crop) -> BodyType:
-    sides = body.sizes if isinstance(body, Surface) else (body.length,)
-    kept = points_in(crop, sides, body.heights.shape, body.unit)
-    if isinstance(body, Surface):
-        x, y = ((each.start, each.stop) for each in kept)
-        return body.cropped(x, y)
-    heights = body.heights[kept]
-    return replace(
-        body,
-        heights=heights,
-        length=body.spacing * heights.size,
-        settings=settings_of_piece(body.settings, kept, body.heights.shape),
-        is_cut_out=body.is_cut_out or heights.size < body.heights.size,
-    )
+    return piece(body, points_in(crop, sides_of(body), body.heights.shape, body.unit))
 
 
 def _without_spikes(body: BodyType, spikes: Mask, count: int) -> BodyType:
@@ -241,7 +249,7 @@ def _without_spikes(body: BodyType, spikes: Mask, count: int) -> BodyType:
 
 def _refuse_long_low_pass(body: Body, cutoff: float) -> None:
     """Refuse a low pass that leaves no wave of a body."""
-    longest = max(body.sizes) if isinstance(body, Surface) else body.length
+    longest = max(sides_of(body))
     if cutoff > longest:
         raise InputError(
             f"is {in_words(cutoff, body.unit)}, longer than the topography, "
@@ -254,8 +262,7 @@ def _refuse_long_low_pass(body: Body, cutoff: float) -> None:
 def _low_passed(body: BodyType, cutoff: float) -> BodyType:
     from scipy import ndimage
 
-    spacings = body.spacing if isinstance(body, Surface) else (body.spacing,)
-    deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / spacing for spacing in spacings]
+    deviations = [_ISO_ALPHA * cutoff / math.sqrt(2 * math.pi) / each for each in spacings_of(body)]
     heights = ndimage.gaussian_filter(body.heights, deviations, mode="nearest")
     return with_heights(body, heights, low_pass=cutoff)
 

@@ -53,18 +53,6 @@ def remove_trend(heights: Real, trend: Trend) -> None:
         heights[...] = 0.0
 
 
-def tilt_share(heights: Real, rms_height: float) -> float:
-    """Return the share of the mean square height that lies in the least-squares plane. [1]"""
-    if rms_height == 0:
-        return 0.0
-    mean, share = heights.mean(), 0.0
-    for axis, n in enumerate(heights.shape):
-        x = np.linspace(-1.0, 1.0, n)
-        across = (heights.mean(axis=1 - axis) - mean) / rms_height
-        share += float(x @ across) ** 2 / float(x @ x) / n
-    return min(share, 1.0)
-
-
 def slopes_of_plane(heights: Real, spacings: Sequence[float]) -> tuple[float, ...]:
     """Return the slopes of the least-squares plane along each side. [1]"""
     slopes = []

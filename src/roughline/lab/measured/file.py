@@ -32,7 +32,7 @@ from roughline.lab.measured.state import (
 from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
 from roughline.report.description_table import description_table
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, Surface, sides_of
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.files.read import measurement
 from roughline.topography.preparation import Preparation
@@ -123,17 +123,12 @@ def _of_description(found: Description) -> dict[str, Any]:
 
 
 def _of_body(body: Body) -> dict[str, Any]:
-    sides, kind, is_cut_out = (
-        (body.sizes, "surface", body.is_cut_out)
-        if isinstance(body, Surface)
-        else ((body.length,), body.kind, False)
-    )
     return {
         **drawing_of_body(body).header,
-        "kind": kind,
-        "sides": sides,
+        "kind": "surface" if isinstance(body, Surface) else body.kind,
+        "sides": sides_of(body),
         "points": body.heights.shape,
-        "is_cut_out": is_cut_out,
+        "is_cut_out": isinstance(body, Surface) and body.is_cut_out,
     }
 
 

@@ -13,7 +13,7 @@ from roughline.assessment.description import Description
 from roughline.engineering.intervals import Ends
 from roughline.plot.pixels import any_marked, thinned
 from roughline.report.contact_tables import area_in_words
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, Surface, sides_of
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.preparation import outliers
 from roughline.units import decimal, engineering, metres_per, prefix
@@ -62,7 +62,7 @@ def drawing_of_file(content: Measurement, body: Body | None) -> Drawing:
 def drawing_of_body(body: Body) -> Drawing:
     """Heights of a body about their mean, with its spikes."""
     heights = body.heights - body.heights.mean()
-    sides = body.sizes if isinstance(body, Surface) else (body.length,)
+    sides = sides_of(body)
     return _drawn("body", heights, sides, _unit(max(sides), 1.0), _unit(_span(heights), 1.0))
 
 

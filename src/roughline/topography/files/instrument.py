@@ -17,13 +17,14 @@ import numpy as np
 from roughline.errors import InputError, RoughlineError
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
-from roughline.topography.files.text import READ_AS_TEXT, TEXT_SUFFIXES
+from roughline.topography.files.text import READ_AS_TEXT
 from roughline.topography.settings import MEASURED
 
 _WITHOUT_MARK = ("hgt", "nms")  # formats of SurfaceTopography that start like any other file
 _OPTICAL = ("al3d", "datx", "lext", "metropro", "opd", "opdx", "plu", "plux", "vk", "zon")
 """Formats of optical instruments alone, whose heights are means over pixels."""
 
+_TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", ".xyz", ".tsv", ".prn")
 _BYTES_PER_POINT = 24  # raw heights, scaled heights and their mask
 
 
@@ -51,7 +52,7 @@ def read_instrument(
     except (RoughlineError, MemoryError):
         raise
     except ReadFileError as error:
-        allowed = f"; {READ_AS_TEXT}" if path.suffix.lower() in TEXT_SUFFIXES else ""
+        allowed = f"; {READ_AS_TEXT}" if path.suffix.lower() in _TEXT_SUFFIXES else ""
         raise InputError(
             f"{name} is damaged or of a type that is not known{allowed}: export it again, or to "
             "another format such as X3P, SDF, SUR or GWY"

@@ -10,7 +10,7 @@ import numpy as np
 from roughline.computing.disk import write_dataset
 from roughline.errors import InputError, RoughlineError, StoreError
 from roughline.errors.public import public
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Body, Surface, sides_of
 from roughline.topography.files.archives import refuse_points
 from roughline.topography.files.measurement import Measurement
 from roughline.topography.trend import Trend
@@ -51,11 +51,10 @@ def write(body: Body, path: str | Path) -> None:
     path = Path(path)
     if path.suffix != ".nc":
         raise InputError(f'{path} does not end in ".nc"; bodies are written as NetCDF: rename it')
-    sizes = body.sizes if isinstance(body, Surface) else (body.length,)
     attrs: dict[str, Any] = {
         "format": _FORMAT,
         "kind": "surface" if isinstance(body, Surface) else body.kind,
-        "sizes": np.array(sizes),
+        "sizes": np.array(sides_of(body)),
         "unit": body.unit or "",
         "removed_trend": body.removed_trend,
         "is_cut_out": int(body.is_cut_out),

@@ -20,9 +20,6 @@ READ_AS_TEXT = (
 )
 """What text is read, for messages."""
 
-TEXT_SUFFIXES = (".txt", ".csv", ".dat", ".asc", ".xyz", ".tsv", ".prn")
-"""Names of files that are text end so."""
-
 _LIST = 3  # columns of a list of points, at most
 _LAST_ROWS = 50  # that show how many decimals numbers have
 _SAMPLE = 4096  # bytes that show whether a file is text
