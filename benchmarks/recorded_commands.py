@@ -107,6 +107,7 @@ def _of_map(file, piece, wave, depths):
         yield f"press {file} {name}", ("press", *short, *options, *JSON)
     for name in ("plain", "pair", "theories", "cropped"):
         yield f"press {file} {name}, shown", ("press", *short, *ways[name])
+    yield f"press {file} pair, all shown", ("press", *short, *ways["pair"], "--all")
     yield f"info {file}", ("info", path, *JSON)
     yield f"info {file}, shown", ("info", path)
     yield f"info {file} nearest", ("info", path, "--fill", "nearest", "--trend", "none", *JSON)

@@ -10,7 +10,7 @@ from pathlib import Path
 from page import Page
 
 import roughline as rl
-from roughline.report.contact_tables import quantity
+from roughline.report.answers import quantity
 
 CASES = (
     ("di-1.di", "gold,copper", ("1 uN",)),

@@ -9,8 +9,7 @@ import pytest
 import roughline as rl
 from lab.test_measured import Page
 from roughline.report.contact_report import write_contact_report
-from roughline.report.json_output import of_assessment, to_json
-from roughline.report.part_output import of_part
+from roughline.report.json_output import of_assessment, of_part, to_json
 from roughline.report.terminal import print_assessment
 
 LIMIT = 1.05  # of its value at the first load, beyond which no interval reaches
@@ -104,7 +103,7 @@ def test_it_is_averaged_over_maps(resonance, surface):
 
 def test_it_stands_on_the_terminal_in_json_and_in_the_report(resonance, surface, tmp_path, capsys):
     result = asked(surface)
-    print_assessment(result, long_curves_by="", many_answers_by="")
+    print_assessment(result)
     assert "resonance of one kilogram f_0" in capsys.readouterr().out
     written = of_assessment(result)["answers"]["f_0"]
     assert written["key"] == "resonance"

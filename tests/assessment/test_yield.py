@@ -12,7 +12,7 @@ from roughline.assessment import case as cases
 from roughline.assessment import loads as load_cases
 from roughline.assessment.behind_maps import BehindMaps, missed_of_map
 from roughline.engineering.formulas import electrical_resistance, partial_slip
-from roughline.report.part_tables import elastic_of_part_in_words, part_table
+from roughline.report.answers import answer_table, elastic_in_words
 
 PAIR = "steel,copper"
 H = rl.material("copper").hardness
@@ -368,14 +368,14 @@ def test_the_mean_of_elastic_bodies_stands_beside_that_of_a_part(surface):
         assert part.elastic[key].mean == pytest.approx(expected), key
     alike = [replace(surface, heights=surface.heights * (1 + 0.001 * i)) for i in range(3)]
     part = rl.assess(rl.Question(alike, "alumina hardness=0.1 GPa, glass", **asked))
-    said = elastic_of_part_in_words(part)
+    said = elastic_in_words(part)
     assert said.startswith("for comparison, if nothing yielded: ")
     assert "contact area fraction" in said
-    rows = [row[0] for row in part_table(part, [0], with_elastic=True)[1]]
+    rows = [row[0] for row in answer_table(part, [0], with_elastic=True)[1]]
     assert rows[rows.index("contact area fraction A/A_0") + 1] == "if nothing yielded"
     alone = rl.assess(rl.Question([smooth], "alumina,glass", **asked))
     assert alone.elastic == {}
-    assert elastic_of_part_in_words(alone) == ""
+    assert elastic_in_words(alone) == ""
 
 
 def test_a_large_map_is_judged_on_half_as_many_points_a_side(monkeypatch):

@@ -49,7 +49,7 @@ def test_a_fault_of_a_map_is_the_first_remark_above_its_answers(fault, invoke, t
         text = " ".join(answered(invoke, *command).split())
         assert remark in text
         if command[0] == "press":
-            first = text[text.index("warning:") : text.index("normal force")]
+            first = text[text.index("warning:") : text.index("mechanics: ")]
             assert remark in first.split("warning:")[1]
 
 

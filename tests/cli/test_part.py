@@ -31,13 +31,33 @@ def scans(tmp_path):
 
 def test_a_table_has_mean_scatter_and_interval(scans, invoke, monkeypatch):
     monkeypatch.setenv("COLUMNS", "100")
-    code, out, errors = invoke("press", *scans[:3], *ASKED)
+    code, out, errors = invoke("press", *scans[:3], *ASKED, "--all")
     assert code == 0, errors
     said = " ".join(out.split())
     assert re.search(r"place0.nc 32 x 32 100 µm x 100 µm \S+ [nµ]m \S+ place1.nc", said)
     assert re.search(r"constriction resistance R \S+ mΩ \(\S+ to \S+\) \S+% ", said)
     assert re.search(r"5 MPa( \*)? scatter", said)
     assert "note: interval of the part: 95 % for the mean over all its places" in said
+
+
+def test_a_part_begins_with_its_maps_and_counts_what_is_folded(scans, invoke, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    code, out, errors = invoke("press", *scans, *ASKED)
+    assert code == 1, errors
+    lines = out.splitlines()
+    assert lines[0] == "3 maps of 4: place0.nc, place1.nc, place2.nc"
+    assert lines[2].startswith("Given on given under 5 MPa")
+    assert any(line.startswith("warning: refused: bad.txt") for line in lines)
+    header = next(i for i, line in enumerate(lines) if line.endswith("scatter  further"))
+    groups = ["mechanics", "contact", "electrical", "thermal"]
+    starts = [line.partition(": ")[0] for line in lines[header:]]
+    assert [each for each in starts if each in groups] == groups
+    further = re.fullmatch(
+        r"(\d+) further answers and those of each map: --all shows them", lines[-1]
+    )
+    answers = json.loads(invoke("press", *scans, *ASKED, "--json")[1])["part"]
+    assert int(further[1]) == len(answers) - len(groups)
+    assert not any(line.startswith("place0.nc") for line in lines)
 
 
 def test_json_has_each_map_and_the_part(scans, invoke):

@@ -47,7 +47,7 @@ def test_loads_keep_their_order_and_words_and_are_solved_once(rough, invoke, mon
     # and again of elastic bodies, and as soft and as hard as copper may be
     assert solved == [[2.0, 10.0]] * 4
     solved.clear()
-    code, out, _ = invoke("press", rough, *PAIR, *loads, "--elastic")
+    code, out, _ = invoke("press", rough, *PAIR, *loads, "--elastic", "--all")
     assert solved == [[2.0, 10.0]]
     assert table_lines(out)[0].split() == ["10", "N", "2", "N", "2000", "mN"]
 
@@ -63,7 +63,7 @@ def test_depths_keep_their_order_too(rough, invoke):
 
 def test_filling_alone_makes_no_interval(holed, invoke):
     arguments = ("press", *holed, *PAIR, "--load", "10 N")
-    code, out, errors = invoke(*arguments, "--no-grid-error")
+    code, out, errors = invoke(*arguments, "--no-grid-error", "--all")
     assert code == 0, errors
     assert not INTERVAL.search("\n".join(table_lines(out)))
     assert "grid error not estimated, so values come without intervals" in " ".join(out.split())
@@ -141,14 +141,71 @@ def test_few_points_have_no_interval_unasked(tmp_path, invoke):
         in " ".join(out.split())
     )
     code, out, errors = invoke(
-        "press", tmp_path / "few.nc", *PAIR, "--load", "10 N", "--grid-error"
+        "press", tmp_path / "few.nc", *PAIR, "--load", "10 N", "--grid-error", "--all"
     )
     assert code == 0, errors
     assert INTERVAL.search("\n".join(table_lines(out)))
 
 
+@pytest.mark.parametrize(
+    ("loads", "shown"),
+    [
+        (["--load", "10 N"], ["10 N"]),
+        (["--load", "10 N", "--load", "2 N"], ["10 N", "2 N"]),
+        (["--loads", "12"], None),
+    ],
+)
+def test_the_first_screen_is_what_was_asked_and_a_line_for_each_group(
+    rough, invoke, monkeypatch, loads, shown
+):
+    monkeypatch.setenv("COLUMNS", "200")  # no line is broken
+    asked = ("press", rough, *PAIR, *loads, "--no-grid-error")
+    code, out, errors = invoke(*asked)
+    assert code == 0, errors
+    lines = out.splitlines()
+    told = json.loads(invoke(*asked, "--json")[1])
+    assert lines[3].startswith("Steel on copper under ")
+    figures = lines[4 : lines.index("", 4)]
+    assert 3 <= len(figures) <= 5
+    header = next(i for i, line in enumerate(lines) if line.endswith("  further"))
+    first_warning = next(i for i, line in enumerate(lines) if line.startswith("warning: "))
+    assert 4 + len(figures) < first_warning < header
+    force = told["answers"]["F"]["values"]
+    ends = [engineering(each, "N") for each in (force[0], force[-1])]
+    assert [" ".join(each.split()) for each in re.split("  +", lines[header].strip(" *"))[:-1]] == [
+        *(shown or [f"{ends[0]} *", ends[1]])
+    ]
+    rows = lines[header + 1 : header + 5]
+    names = ["mechanics", "contact", "electrical", "thermal"]
+    assert [row.partition(": ")[0] for row in rows] == names
+    assert not any(line.startswith(name) for name in names for line in lines[header + 5 :])
+    further = len(told["answers"]) - len(rows)
+    assert sum(int(row.split()[-1]) for row in rows) == further
+    loads_left = "" if shown else " and 10 further loads"
+    assert lines[-1] == f"{further} further answers{loads_left}: --all shows them"
+
+
+def test_nothing_is_folded_that_is_no_answer(rough, invoke):
+    code, out, errors = invoke("press", rough, "--modulus", "1 GPa", "--load", "10 N")
+    assert code == 0, errors
+    assert "--all" not in out
+    assert invoke("press", rough, "--modulus", "1 GPa", "--load", "10 N", "--all")[1] == out
+
+
+def test_named_loads_have_a_row_each(rough, invoke, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    typed = [f"{i} N" for i in range(2, 8)]
+    asked = ("press", rough, *PAIR, *(f"--load={each}" for each in typed), "--no-grid-error")
+    code, out, errors = invoke(*asked)
+    assert code == 0, errors
+    rows = [line for line in out.splitlines() if re.match(r"\d N ", line)]
+    assert [" ".join(row.split()[:2]) for row in rows] == typed
+    assert all(len(re.split("  +", row)) == 1 + 4 for row in rows)  # a column for each group
+    assert out.splitlines()[-1] == "16 further answers: --all shows them"
+
+
 def test_a_star_stands_at_the_load_that_the_grid_decides(rough, invoke):
-    code, out, errors = invoke("press", rough, *PAIR, "--load", "10 N", "--load", "1 mN")
+    code, out, errors = invoke("press", rough, *PAIR, "--load", "10 N", "--load", "1 mN", "--all")
     assert code == 0, errors
     assert table_lines(out)[0].split() == ["10", "N", "1", "mN", "*"]
     assert "* fewer than ten points in contact" in out
@@ -163,7 +220,7 @@ def test_any_number_of_loads_prints_resistance_and_conductance(
     rl.write(rl.Surface(surface.heights, surface.sizes, "m"), tmp_path / "few.nc")
     typed = [f"{10 + i} N" for i in range(count)]
     question = ("press", tmp_path / "few.nc", *PAIR, *(f"--load={load}" for load in typed))
-    code, out, errors = invoke(*question)
+    code, out, errors = invoke(*question, "--all")
     assert code == 0, errors
     answers = json.loads(invoke(*question, "--json")[1])["answers"]
     for symbol in ("R", "h_c", "G", "k", "k_u", "A/A_0"):
@@ -178,24 +235,23 @@ def test_any_number_of_loads_prints_resistance_and_conductance(
     if count > 3:
         rows = [line for line in out.splitlines() if re.match(r"\d+ N ", line)]
         assert [" ".join(row.split()[:2]) for row in rows] == typed
-    assert ("use --json and --report" in out) == (count > 20)  # all answers up to there
 
 
 def test_three_loads_with_intervals_fit_80_columns(holed, invoke, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     loads = ("--load", "10 N", "--load", "2 MPa", "--load", "0.1 N")
-    code, out, errors = invoke("press", *holed, *PAIR, *loads)
+    code, out, errors = invoke("press", *holed, *PAIR, *loads, "--all")
     assert code == 0, errors
     lines = table_lines(out)
     assert max(map(len, lines)) <= 80
     assert len(lines) - 1 <= 2 * 20  # two lines a quantity at most
-    code, out, _ = invoke("press", *holed, *PAIR, *loads[:2])
+    code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--all")
     assert len(table_lines(out)) == 1 + 20 + 3  # one load: one line a quantity, and names of groups
     assert (
         sum(line.startswith("for comparison, if nothing yielded: ") for line in out.splitlines())
         == 1
     )
-    code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--elastic")
+    code, out, _ = invoke("press", *holed, *PAIR, *loads[:2], "--elastic", "--all")
     assert len(table_lines(out)) == 1 + 17 + 3
     assert "if nothing yielded" not in out
 
@@ -205,7 +261,7 @@ def test_thermal_conductances_are_said_to_be_in_vacuum_wherever_they_stand(
 ):
     only_drawn()
     asked = ("press", rough, *PAIR, "--load", "10 N")
-    _, screen, _ = invoke(*asked)
+    _, screen, _ = invoke(*asked, "--all")
     rows = [line for line in table_lines(screen) if " h_c " in line or " G " in line]
     assert len(rows) == 2
     assert all("in vacuum" in row for row in rows)

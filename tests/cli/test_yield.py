@@ -10,8 +10,9 @@ import xarray
 from matplotlib.figure import Figure
 
 import roughline as rl
+from roughline.report.answers import answer_table
 from roughline.report.contact_figures import curve_figure, draw_last_contact
-from roughline.report.contact_tables import answer_table, curve_table, formula_table
+from roughline.report.contact_tables import curve_table, formula_table
 
 PAIR = ("--materials", "steel,copper")
 H = rl.material("copper").hardness
@@ -74,7 +75,7 @@ def test_loads_of_a_history_are_applied_in_the_order_given(rough, invoke, only_d
 def test_unloading_is_printed_in_words_and_drawn(rough, invoke, only_drawn, tmp_path):
     only_drawn("curve")
     code, out, errors = invoke(
-        *("press", rough, *PAIR, "--load", "10 N", "--unload", "--out", tmp_path)
+        *("press", rough, *PAIR, "--load", "10 N", "--unload", "--out", tmp_path, "--all")
     )
     assert code == 0, errors
     lines = [" ".join(line.split()) for line in out.splitlines()]
@@ -185,12 +186,12 @@ def test_an_unloading_is_answered_at_every_load(rough, invoke, monkeypatch):
 def test_tables_of_an_unloading_have_a_value_in_every_cell(unloaded):
     for header, rows in (
         curve_table(unloaded),
-        answer_table(unloaded, slice(None), with_elastic=True),
+        answer_table(unloaded, with_elastic=True),
         formula_table(unloaded),
     ):
         assert all(len(row) == len(header) for row in rows)
         assert not [row for row in rows if "not solved" in row or "nan" in " ".join(row)]
-    rows = {row[0]: row[1:] for row in answer_table(unloaded, slice(None))[1]}
+    rows = {row[0]: row[1:] for row in answer_table(unloaded)[1]}
     assert rows["constriction resistance R"][-1] == "infinite"
     assert rows["mean contact pressure p_c"][-1] == "0 Pa"
 

@@ -77,7 +77,7 @@ def test_the_three_stiffnesses_of_a_measured_map(type_in, topographies):
     page = (DOCS / "choices.md").read_text("utf-8")
     (values,) = re.findall(r"has ([\d.]+), ([\d.]+) and ([\d.]+) MN/m in this order", page)
     file = topographies / "al3d-1.al3d"
-    said = type_in(f'roughline press {file} --materials steel,copper --load "1 N"')
+    said = type_in(f'roughline press {file} --materials steel,copper --load "1 N" --all')
     names = ("contact stiffness k", "unloading stiffness k_u", "interface stiffness k_i")
     for name, value in zip(names, values, strict=True):
         assert shows(said, f"{name} {value} MN/m")

@@ -22,10 +22,11 @@ from roughline.lab.measured.state import question_of, said_of, source_of
 from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import outcome_of
 from roughline.lab.tasks import TASKS
+from roughline.report.answers import answer_table
 from roughline.report.comparison_table import comparison_table, verdict_in_words
-from roughline.report.contact_tables import answer_table, curve_table, formula_table
+from roughline.report.contact_tables import curve_table, formula_table
 from roughline.report.description_table import description_table
-from roughline.report.part_tables import leading_table, maps_table, part_table
+from roughline.report.part_tables import leading_table, maps_table
 
 PAIR = {"first": "steel", "second": "copper", "loads": "2 MPa"}
 SMALL = {"resample": "64"}
@@ -143,7 +144,7 @@ def test_answers_are_those_of_the_library(page, key):
     rows = [
         list(table)
         for table in (
-            answer_table(expected, slice(None), with_elastic=True),
+            answer_table(expected, with_elastic=True),
             formula_table(expected),
         )
     ]
@@ -227,7 +228,7 @@ def test_measured_files_are_answered_for_as_by_the_library(measured_page, topogr
         )
     )
     header, _ = measured_page.ask("answer", {**said, "resample": "96"})
-    assert header["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
+    assert header["answers"] == list(answer_table(expected, with_elastic=True))
     assert RANDOM not in str(header)
 
 
@@ -277,7 +278,7 @@ def test_an_array_needs_unit_and_size(page, tmp_path):
             reading=rl.Reading(unit="um", sizes="1 mm"),
         )
     )
-    assert answered["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
+    assert answered["answers"] == list(answer_table(expected, with_elastic=True))
 
 
 def test_damaged_empty_misnamed_and_large_files_are_refused_in_a_sentence(page, tmp_path):
@@ -414,7 +415,7 @@ def test_the_command_repeats_the_answers(page, invoke, tmp_path, monkeypatch):
     path_of("ground", tmp_path)
     monkeypatch.chdir(tmp_path)
     command = shlex.split(documents.as_command(said, ["ground-steel.x3p"]))
-    code, out, errors = invoke(*command[1:])
+    code, out, errors = invoke(*command[1:], "--all")
     assert code == 0, errors
     table = [row[1] for row in header["answers"][1] if row[0] != header["if_elastic"]]
     assert all(value.split(" (")[0] in out for value in table)
@@ -430,9 +431,7 @@ def test_the_lines_of_python_repeat_the_answers(page, tmp_path, monkeypatch):
     found = {}
     exec(header["text"], found)
     answered, _ = page.ask("answer", said)
-    assert answered["answers"] == list(
-        answer_table(found["result"], slice(None), with_elastic=True)
-    )
+    assert answered["answers"] == list(answer_table(found["result"], with_elastic=True))
 
 
 def test_a_crop_to_where_points_are_known_opens_a_file_that_is_refused_whole(page, tmp_path):
@@ -502,7 +501,7 @@ def test_a_joint_is_answered_for_with_its_area(page):
     expected = rl.assess(question_of(said, source_of(said, page.session)))
     assert expected.question.joint == pytest.approx(1e-4)
     header, _ = page.ask("answer", said)
-    assert header["answers"] == list(answer_table(expected, slice(None), with_elastic=True))
+    assert header["answers"] == list(answer_table(expected, with_elastic=True))
     assert header["plot"]["is_of_joint"]
     assert max(header["plot"]["force"]) == pytest.approx(1)  # kN, on the joint
     assert header["plot"]["force_unit"] == "kN"
@@ -555,7 +554,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
     )
     given = header["part"]
     assert given["names"] == expected.names == ["place 0.nc", "place 1.nc", "place 2.nc"]
-    assert given["answers"] == list(part_table(expected, [0, 1]))
+    assert given["answers"] == list(answer_table(expected, [0, 1]))
     assert given["leading"] == list(leading_table(expected))
     assert given["maps"] == list(maps_table(expected))
     assert "broken.x3p" in given["remarks"][0]
@@ -565,7 +564,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
         mean / expected.assessments[0].answers["contact_stiffness"].values[1]
     )
     alone = expected.assessments[2]
-    assert header["answers"] == list(answer_table(alone, slice(None), with_elastic=True))
+    assert header["answers"] == list(answer_table(alone, with_elastic=True))
     marks = alone.fields.contact.astype(int) + alone.fields.plastic
     np.testing.assert_array_equal(arrays["area"].T, marks)
 
@@ -575,7 +574,7 @@ def test_a_part_is_answered_for_as_by_the_library_and_its_maps_are_kept(page, pa
     monkeypatch.setattr("roughline.lab.measured.answers.assess_body", never)
     alone = {**said, "file": keys["place 1.nc"]}
     assert page.ask("answer", alone)[0]["answers"] == list(
-        answer_table(expected.assessments[1], slice(None), with_elastic=True)
+        answer_table(expected.assessments[1], with_elastic=True)
     )
 
 

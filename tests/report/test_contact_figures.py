@@ -7,8 +7,8 @@ import pytest
 from matplotlib.figure import Figure
 
 import roughline as rl
+from roughline.report.answers import quantity
 from roughline.report.contact_figures import draw_filled, draw_last_contact, draw_stiffness
-from roughline.report.contact_tables import quantity
 
 
 def test_one_area_is_told_everywhere(rough):

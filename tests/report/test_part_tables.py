@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from roughline.report.part_tables import scatter_in_words
+from roughline.report.answers import scatter_in_words
 
 
 @pytest.mark.parametrize(

@@ -6,16 +6,18 @@ import os
 import shlex
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from roughline.assessment.fields import ANSWERS, BODIES, FILE, LOADS, PREPARATION
 from roughline.cli import options
-from roughline.cli.body import press_body
-from roughline.cli.part import press_part
+from roughline.cli.options import end_interrupted, interruptible, print_json, writable
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
+
+if TYPE_CHECKING:
+    from roughline.assessment.question import Question
 
 
 @options.with_fields(BODIES, LOADS, ANSWERS, FILE, PREPARATION)
@@ -43,6 +45,10 @@ def press_command(
     threads: Annotated[
         int | None, typer.Option(help="Number of threads [default: one for each core].")
     ] = None,
+    everything: Annotated[
+        bool,
+        typer.Option("--all", help="Print all answers under all loads [default: one a group]."),
+    ] = False,
     json: options.Json = False,
 ) -> None:
     """Press a topography into an elastic half-space, and print the contact quantities.
@@ -114,9 +120,70 @@ def press_command(
         {**told, "whole_curve": report is not None},
         fields=report is not None or out is not None,
     )
-    if question.is_of_several:
-        return press_part(question, report, out, json, _as_typed())
-    press_body(question, report, out, json, _as_typed())
+    press = _press_part if question.is_of_several else _press_body
+    press(question, report, out, json=json, unfolded_by="" if everything else "--all")
+
+
+def _press_body(
+    question: Question, report: Path | None, out: Path | None, *, json: bool, unfolded_by: str
+) -> None:
+    """Press the body of a question, show what follows, and end with the exit code."""
+    from roughline.assessment.assess import assess_body
+    from roughline.report.json_output import of_assessment
+    from roughline.report.progress import load_progress
+    from roughline.report.terminal import announce, print_assessment
+
+    with interruptible("there is no result"), load_progress() as progress:
+        with writable(report, out):  # a folder that cannot be written is refused before the work
+            result = assess_body(question, announce=announce, progress=progress)
+        files: list[Path] = []
+        if report or out:
+            from roughline.report.contact_figures import write_contact
+            from roughline.report.contact_report import write_contact_report
+
+            if report and result.interrupted:
+                files += write_contact(result, report)  # a curve, but no answers to report yet
+            elif report:
+                files += write_contact_report(result, report, _as_typed())
+            files += write_contact(result, out) if out else []
+    if json:
+        print_json(of_assessment(result, files))
+    else:
+        print_assessment(result, files, unfolded_by=unfolded_by)
+    if result.interrupted:
+        end_interrupted("the loads solved before are above")
+    if not result.curve.converged.all():
+        raise typer.Exit(1)
+
+
+def _press_part(
+    question: Question, report: Path | None, out: Path | None, *, json: bool, unfolded_by: str
+) -> None:
+    """Press the maps of a question, show what they say together, and end with the exit code."""
+    from roughline.assessment.assess_part import assess_part
+    from roughline.report.json_output import of_part
+    from roughline.report.progress import part_progress
+    from roughline.report.terminal import announce, print_part
+
+    with interruptible("no map was done"), part_progress() as (maps, loads):
+        with writable(report, out):  # a folder that cannot be written is refused before the work
+            part = assess_part(
+                question.of_each(), announce=announce, progress=loads, map_progress=maps
+            )
+        files: list[Path] = []
+        if report or out:
+            from roughline.report.part_report import write_part, write_part_report
+
+            files += write_part_report(part, report, _as_typed()) if report else []
+            files += write_part(part, out) if out else []
+    if json:
+        print_json(of_part(part, files))
+    else:
+        print_part(part, files, unfolded_by=unfolded_by)
+    if part.interrupted:
+        end_interrupted("the maps done before are above")
+    if part.refused or not all(each.curve.converged.all() for each in part.assessments):
+        raise typer.Exit(1)
 
 
 def _as_typed() -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +12,14 @@ from matplotlib.figure import Figure
 from roughline.plot.bodies import draw_heights
 from roughline.plot.spectra import draw_spectrum
 from roughline.plot.style import PAGE, new_figure, save, styled
+from roughline.report.answers import (
+    UNRESOLVED,
+    headline,
+    lead_of,
+    load_table,
+    sections_of,
+    star_is_shown,
+)
 from roughline.report.contact_figures import (
     draw_area,
     draw_filled,
@@ -23,27 +30,9 @@ from roughline.report.contact_figures import (
     has_falling_loads,
     write_contact,
 )
-from roughline.report.contact_tables import (
-    UNRESOLVED,
-    answer_table,
-    formula_table,
-    groups,
-    headline,
-    keys_at_many_loads,
-    lead_of,
-    load_table,
-    material_in_words,
-    star_is_shown,
-    symbol_table,
-    told,
-)
+from roughline.report.contact_tables import formula_table, material_in_words, symbol_table
 from roughline.report.document import write_document
-from roughline.report.groups import (
-    sections_of,
-    sentence,
-    with_numbers,
-)
-from roughline.report.page import Picture, Section, Table
+from roughline.report.page import Picture, Section, Table, sentence
 from roughline.report.preparation import STEPS, preparation_in_words
 from roughline.topography.body import Line, Surface
 from roughline.units import engineering
@@ -153,7 +142,7 @@ def _sections(assessment: Assessment, overview: Path, how_to_repeat: str) -> lis
             [*materials_in_words(assessment.question.pair), *legend],
             tables=_many_loads(assessment),
         ),
-        *sections_of(groups(assessment), partial(told, assessment), partial(_answers, assessment)),
+        *sections_of(assessment, _ABREAST),
         *([Section("Notes", notes=notes)] if notes else []),
         Section(
             "Surface",
@@ -178,18 +167,15 @@ def materials_in_words(pair: MaterialPair | None) -> list[str]:
 
 
 def _many_loads(assessment: Assessment) -> list[Table]:
-    """Of many loads, the leading answers of each."""
+    """Of many loads, the leading answers of each, and others that belong beside them."""
     if assessment.asked.size <= _ABREAST:
         return []
-    return [with_numbers(*load_table(assessment, keys_at_many_loads(assessment)))]
-
-
-def _answers(
-    assessment: Assessment, keys: Sequence[str]
-) -> list[tuple[list[str], list[list[str]]]]:
-    """Some answers, a few loads beside each other."""
-    loads = [slice(i, i + _ABREAST) for i in range(0, assessment.asked.size, _ABREAST)]
-    return [answer_table(assessment, each, keys=keys, with_elastic=True) for each in loads]
+    keys = [
+        key
+        for key, each in assessment.answers.items()
+        if each.leads or each.rule.is_shown_at_many_loads
+    ]
+    return [Table.of_numbers(*load_table(assessment, keys))]
 
 
 def assumptions_of(assessment: Assessment) -> list[str]:

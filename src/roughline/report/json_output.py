@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from roughline.assessment.assessment import Assessment
     from roughline.assessment.comparison import ModelComparison
     from roughline.assessment.description import Description
+    from roughline.assessment.part import PartAssessment
 
 
 def to_json(content: Mapping[str, Any]) -> str:
@@ -93,6 +94,39 @@ def _of_answers(assessment: Assessment) -> dict[str, Any]:
             "hardness_scatter": assessment.hardness_scatter.get(each.key),
         }
         for each in assessment.answers.values()
+    }
+
+
+def of_part(part: PartAssessment, files: Sequence[Path] = ()) -> dict[str, Any]:
+    """What several maps gave, in SI units, over the loads that were asked for.
+
+    Answers are listed by their symbols; each map has the same content as a single one.
+    """
+    return {
+        "loads": part.headings,
+        "joint_area": part.question.joint,
+        "part": {
+            each.symbol: {
+                "key": each.key,
+                "name": each.name,
+                "unit": each.unit,
+                "mean": each.mean,
+                "scatter": each.scatter,
+                "low": each.low,
+                "high": each.high,
+                "maps": each.count,
+                "if_elastic": (elastic := part.elastic.get(each.key)) and elastic.mean,
+            }
+            for each in part.answers.values()
+        },
+        "maps": {
+            name: of_assessment(each)
+            for name, each in zip(part.names, part.assessments, strict=True)
+        },
+        "refused": part.refused,
+        "not_pressed": part.left,
+        "notes": part.remarks,
+        "files": list(files),
     }
 
 

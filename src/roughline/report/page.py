@@ -21,6 +21,11 @@ class Table:
     numbers: Sequence[int] = ()
     verdict: int | None = None
 
+    @classmethod
+    def of_numbers(cls, header: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
+        """A table whose columns are numbers, but for the first."""
+        return cls(header, rows, numbers=range(1, len(header)))
+
 
 @dataclass(frozen=True)
 class Picture:
@@ -119,6 +124,13 @@ def markdown_table(table: Table) -> str:
     ]
     cells = [[cell.replace("|", "\\|") for cell in row] for row in (*lines, *table.rows)]
     return "\n".join(f"| {' | '.join(row)} |" for row in cells)
+
+
+def sentence(text: str) -> str:
+    """A remark as a sentence: with a capital and a full stop; nothing stays nothing."""
+    if not text:
+        return ""
+    return text[:1].upper() + text[1:] + ("" if text.endswith(".") else ".")
 
 
 def _verdict_class(words: str) -> str:

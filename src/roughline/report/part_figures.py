@@ -13,8 +13,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from roughline.plot.pixels import thinned
 from roughline.plot.style import PAGE, new_figure
-from roughline.report.contact_tables import unit_shown
-from roughline.report.part_tables import leading_keys_of
+from roughline.report.answers import leading_keys, unit_shown
 from roughline.report.values import scale_of
 from roughline.topography.body import Surface
 from roughline.units import prefix
@@ -34,7 +33,7 @@ MOST_HEIGHTS = 16
 
 def answers_figure(part: PartAssessment) -> Figure:
     """Leading answers of each map with their intervals, their mean and the part's interval."""
-    keys = [key for key in leading_keys_of(part) if key in part.answers]
+    keys = leading_keys(part)
     rows = math.ceil(len(keys) / 2)
     figure = new_figure(PAGE, 2.4 * max(rows, 1))
     if not keys:
@@ -91,7 +90,7 @@ def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
     """One answer of each map at the largest load, its mean, and the interval of the part."""
     load = part.largest
     values = np.array([each.values[load] for each in answer.of_maps])
-    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer.of_maps[0]))
+    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer))
     places = np.arange(1, values.size + 1)
     low, high = (end * factor for end in answer.ends_of_maps(load))
     axes.vlines(places, low, high, color="0.35", linewidth=1.0)

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from roughline.plot.style import save, styled
+from roughline.report.answers import (
+    UNRESOLVED,
+    headline,
+    lead_of,
+    leading_keys,
+    load_table,
+    sections_of,
+    star_is_shown,
+)
 from roughline.report.contact_figures import write_contact
 from roughline.report.contact_report import (
     OF_ASSUMPTIONS,
@@ -18,32 +25,15 @@ from roughline.report.contact_report import (
     materials_in_words,
     write_contact_report,
 )
-from roughline.report.contact_tables import (
-    UNRESOLVED,
-    formula_table,
-    symbol_table,
-)
+from roughline.report.contact_tables import formula_table, symbol_table
 from roughline.report.document import write_document
-from roughline.report.groups import (
-    sections_of,
-    sentence,
-    with_numbers,
-)
-from roughline.report.page import Picture, Section, Table
+from roughline.report.page import Picture, Section, Table, sentence
 from roughline.report.part_figures import MOST_HEIGHTS, answers_figure, heights_figure
 from roughline.report.part_tables import (
     count_in_words,
     each_map_table,
-    groups_of_part,
-    headline_of_part,
-    lead_of_part,
-    leading_keys_of,
     leading_table,
     maps_table,
-    part_load_table,
-    part_table,
-    star_is_shown_of,
-    told_of_part,
 )
 
 if TYPE_CHECKING:
@@ -78,9 +68,9 @@ def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) ->
     for of_map, each in zip(_folders(part, folder), part.assessments, strict=True):
         written.append(write_contact_report(each, of_map, how_to_repeat)[0])
     figures = _figures(part, folder)
-    title, lead = f"Contact of a part, {count_in_words(part)}", lead_of_part(part)
+    title, lead = f"Contact of a part, {count_in_words(part)}", lead_of(part)
     sections = _sections(part, figures[0], figures[2], how_to_repeat)
-    document = write_document(folder, title, lead, sections, headline_of_part(part))
+    document = write_document(folder, title, lead, sections, headline(part))
     return [*document, *figures, *written]
 
 
@@ -116,10 +106,9 @@ def _sections(
     part: PartAssessment, answers: Path, heights: Path, how_to_repeat: str
 ) -> list[Section]:
     first = part.assessments[0]
-    legend = [f"A star: {UNRESOLVED}."] if star_is_shown_of(part) else []
+    legend = [f"A star: {UNRESOLVED}."] if star_is_shown(part) else []
     notes = [*map(sentence, part.notes)]
     loads, maps = range(len(part.headings)), range(len(part.names))
-    leading = [key for key in leading_keys_of(part) if key in part.answers]
     several = part.answers and len(loads) > _LOADS_ABREAST
     of_maps = [
         each_map_table(part, load, maps[i : i + _MAPS_ABREAST])
@@ -131,13 +120,13 @@ def _sections(
         Section(
             "The part",
             [*materials_in_words(part.question.pair), *legend],
-            tables=[with_numbers(*part_load_table(part, leading))] if several else [],
+            tables=[Table.of_numbers(*load_table(part, leading_keys(part)))] if several else [],
         ),
-        *sections_of(groups_of_part(part), partial(told_of_part, part), partial(_answers, part)),
+        *sections_of(part, _LOADS_ABREAST),
         *([Section("Notes", notes=notes)] if notes else []),
         Section(
             "The maps",
-            tables=[with_numbers(*maps_table(part)), with_numbers(*leading_table(part))],
+            tables=[Table.of_numbers(*maps_table(part)), Table.of_numbers(*leading_table(part))],
             pictures=[
                 Picture(answers, "Answers", _caption_of_answers(part)),
                 Picture(heights, "Heights", _caption_of_heights(part)),
@@ -149,7 +138,7 @@ def _sections(
                 "Values and intervals of each map alone; its own report lies in a folder beside "
                 "this page."
             ],
-            tables=[with_numbers(*each) for each in of_maps],
+            tables=[Table.of_numbers(*each) for each in of_maps],
             behind="values and intervals of each map alone",
         ),
         Section(
@@ -161,15 +150,6 @@ def _sections(
             "Assumptions", [*assumptions_of(first), _ASSUMPTION_OF_PART], behind=OF_ASSUMPTIONS
         ),
         Section("How to repeat it", [how_to_repeat], behind=OF_REPEATING),
-    ]
-
-
-def _answers(part: PartAssessment, keys: Sequence[str]) -> list[tuple[list[str], list[list[str]]]]:
-    """Some answers, a few loads beside each other."""
-    loads = range(len(part.headings))
-    return [
-        part_table(part, loads[i : i + _LOADS_ABREAST], keys=keys, with_elastic=True)
-        for i in loads[::_LOADS_ABREAST]
     ]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,27 +10,26 @@ import numpy as np
 from rich.console import Console
 from rich.text import Text
 
+from roughline.assessment.part import PartAssessment
 from roughline.contact.status import Status
-from roughline.report.columns import blocks, paragraph
-from roughline.report.comparison_table import comparison_table, verdict_in_words
-from roughline.report.contact_tables import (
+from roughline.report.answers import (
     UNRESOLVED,
     answer_table,
-    curve_table,
     elastic_in_words,
     groups,
     headline,
-    keys_at_many_loads,
     lead_of,
     leading_keys,
     load_table,
     quantity,
-    star_is_shown,
+    starred,
 )
+from roughline.report.columns import blocks, paragraph
+from roughline.report.comparison_table import comparison_table, verdict_in_words
+from roughline.report.contact_tables import curve_table
 from roughline.report.curve_file import loads_table, settings_table
 from roughline.report.description_table import description_table, missing_map
-from roughline.report.groups import grouped_rows
-from roughline.report.page import Headline
+from roughline.report.part_tables import count_in_words, leading_table, maps_table
 from roughline.topography.body import Body, Surface
 from roughline.units import engineering
 
@@ -41,25 +40,20 @@ if TYPE_CHECKING:
     from roughline.theories.theory_curve import TheoryCurve
     from roughline.topography.files.curves import CurveInFile
 
-MOST_WITH_ALL = 20
-"""Loads of which all answers are printed."""
-
 _MOST_SHOWN = 1000  # loads that are printed as a table
-_MOST_ABREAST = 3  # loads whose answers stand beside each other
-_MOST_NAMED = 5  # loads that were not solved and are named
+_MOST_ABREAST = 3  # loads of a body whose answers stand beside each other
+_MOST_OF_PART = 2  # and of a part, whose answers have two columns
+_MOST_NAMED = 5  # loads that were not solved, or maps, that are named
 
 
 def print_assessment(
-    assessment: Assessment,
-    files: Iterable[Path] = (),
-    *,
-    long_curves_by: str,
-    many_answers_by: str,
+    assessment: Assessment, files: Iterable[Path] = (), *, unfolded_by: str = ""
 ) -> None:
-    """Print what was pressed, its curve or its answers, and the files written.
+    """Print what was pressed, and its curve or its answers as far as they are not folded.
 
-    The caller's options `long_curves_by` and `many_answers_by` give the curve, or the answers, that
-    are too long for a screen.
+    Of two materials that is what was asked in words and large figures, and an answer of each group.
+    The last line names the caller's option `unfolded_by`, which shows what is folded; without one
+    everything is printed.
     """
     console = Console(markup=False)
     console.print(_described(assessment.body), highlight=False, soft_wrap=True)
@@ -69,77 +63,147 @@ def print_assessment(
     where = f", {boundary} half-space, residuals below {curve.settings['rtol']}" if boundary else ""
     of = f" of {pair.first.name} and {pair.second.name}" if pair else ""
     console.print(f"E*{of} = {engineering(curve.E_star, 'Pa')}; {model}{where}", highlight=False)
-    print_remarks(console, "warning", assessment.warnings)
-    count = assessment.asked.size
-    if count > _MOST_SHOWN:
-        console.print(_in_one_line(assessment, long_curves_by), highlight=False, soft_wrap=True)
-    elif pair is None:
-        print_table(console, *curve_table(assessment))
-    elif count <= _MOST_ABREAST:  # formulas are for the report
-        print_headline(console, lead_of(assessment), headline(assessment))
-        header, _ = answer_table(assessment, slice(None), keys=())
-        rows = grouped_rows(
-            groups(assessment),
-            lambda keys: answer_table(assessment, slice(None), keys=keys)[1],
-            len(header),
-        )
-        print_table(console, header, rows)
+    folded = ""
+    if pair is not None:
+        folded = _print_answers(console, assessment, _MOST_ABREAST, unfolded_by)
     else:
-        print_headline(console, lead_of(assessment), headline(assessment))
-        many = count > MOST_WITH_ALL
-        keys = keys_at_many_loads(assessment) if many else list(assessment.answers)
-        print_table(console, *load_table(assessment, keys))
-    if elastic := elastic_in_words(assessment):
-        where = " (at the largest load)" if count > 1 else ""
-        console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
-    if star_is_shown(assessment) and count <= _MOST_SHOWN:
-        console.print(f"* {UNRESOLVED}", highlight=False)
-    if pair is not None and MOST_WITH_ALL < count <= _MOST_SHOWN:
-        console.print(f"other answers at more than {MOST_WITH_ALL} loads: use {many_answers_by}")
+        _print_remarks(console, "warning", assessment.warnings)
+        if unfolded_by and assessment.asked.size > _MOST_SHOWN:
+            ends = f"{_ends_of_curve(assessment)}; for each load use {unfolded_by}"
+            console.print(ends, highlight=False, soft_wrap=True)
+        else:
+            print_table(console, *curve_table(assessment))
+            _explain_star(console, starred(assessment))
     for failure in _failures(assessment):
         console.print(failure, highlight=False, soft_wrap=not console.is_terminal)
     for theory in assessment.theories:
         console.print(_theory_line(theory, assessment), highlight=False, soft_wrap=True)
-    print_remarks(console, "note", assessment.notes)
-    print_files(files)
+    _print_end(console, assessment.notes, files, folded)
 
 
-def print_headline(console: Console, lead: str, told: Headline) -> None:
-    """Print what was asked in words, and the answers that lead."""
+def print_part(part: PartAssessment, files: Iterable[Path] = (), *, unfolded_by: str = "") -> None:
+    """Print the mean answers of several maps with scatter and interval, folded as those of one."""
+    console = Console(markup=False)
+    some = ", ".join(part.names) if len(part.names) <= _MOST_NAMED else ""
+    console.print(": ".join(filter(None, (count_in_words(part), some))), highlight=False)
+    folded = _print_answers(console, part, _MOST_OF_PART, unfolded_by)
+    if not unfolded_by or not leading_keys(part):
+        console.print()
+        print_table(console, *maps_table(part))
+        console.print()
+        print_table(console, *leading_table(part))
+    _print_end(console, part.notes, files, folded)
+
+
+def _print_answers(
+    console: Console, result: Assessment | PartAssessment, abreast: int, unfolded_by: str
+) -> str:
+    """Print the answers of two materials; returns a line on what is folded, if anything is.
+
+    Folded, a group has one answer, and a curve of which no load was named has its ends.
+    """
+    _print_headline(console, result)
+    headings = starred(result)
+    loads = list(range(len(headings)))
+    if unfolded_by and not result.question.headings:
+        loads = sorted({0, result.largest})
+    keys = [each.headline for each in groups(result)] if unfolded_by else list(result.answers)
+    if len(loads) > abreast:
+        table = load_table(result, keys)
+    else:
+        table = (_folded_table if unfolded_by else _whole_table)(result, loads)
+    print_table(console, *table)
+    if elastic := elastic_in_words(result):
+        where = " (at the largest load)" if len(headings) > 1 else ""
+        console.print(elastic + where, highlight=False, soft_wrap=not console.is_terminal)
+    _explain_star(console, [headings[i] for i in loads])
+    further = {"answers": len(result.answers) - len(keys), "loads": len(headings) - len(loads)}
+    counts = [f"{count} further {name}" for name, count in further.items() if count]
+    counts += ["those of each map"] if unfolded_by and isinstance(result, PartAssessment) else []
+    return f"{' and '.join(counts)}: {unfolded_by} shows them" if counts else ""
+
+
+def _folded_table(
+    result: Assessment | PartAssessment, loads: Sequence[int]
+) -> tuple[list[str], list[list[str]]]:
+    """One answer of each group, and how many more the group has."""
+    found = groups(result)
+    header, rows = answer_table(result, loads, [each.headline for each in found])
+    if not result.question.headings:  # loads that nobody named are called by their numbers
+        force = result.answers["normal_force"]
+        header[1:] = [
+            heading.replace(str(i + 1), quantity(force, i), 1)
+            for i, heading in zip(loads, header[1:], strict=True)
+        ]
+    return [*header, "further"], [
+        [f"{group.name}: {name}", *cells, str(len(group.keys) - 1 or "")]
+        for group, (name, *cells) in zip(found, rows, strict=True)
+    ]
+
+
+def _whole_table(
+    result: Assessment | PartAssessment, loads: Sequence[int]
+) -> tuple[list[str], list[list[str]]]:
+    """All answers, each group but the first below a row with its name."""
+    header, _ = answer_table(result, loads, ())
+    rows: list[list[str]] = []
+    for each in groups(result):
+        rows += [[each.name.upper(), *[""] * (len(header) - 1)]] if rows else []
+        rows += answer_table(result, loads, each.keys)[1]
+    return header, rows
+
+
+def _print_headline(console: Console, result: Assessment | PartAssessment) -> None:
+    """Print what was asked in words, the answers that lead, and warnings."""
+    figures = headline(result).figures
     console.print()
-    console.print(Text(lead, "bold"), soft_wrap=not console.is_terminal)
-    width = max((len(each.name) for each in told.figures), default=0)
-    for each in told.figures:
+    console.print(Text(lead_of(result), "bold"), soft_wrap=not console.is_terminal)
+    width = max((len(each.name) for each in figures), default=0)
+    for each in figures:
         interval = f"  ({each.interval})" if each.interval else ""
         console.print(Text(f"  {each.name:<{width}}  {each.value}{interval}"), soft_wrap=True)
     console.print()
+    _print_remarks(console, "warning", result.warnings)
+    if result.warnings:
+        console.print()
 
 
-def print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:
-    """Print remarks, a line each: warnings stand above the answers, notes below."""
+def _print_remarks(console: Console, kind: str, remarks: Iterable[str]) -> None:
+    """Print remarks, a line each: warnings stand above what they are about, notes below."""
     for remark in remarks:
         console.print(f"{kind}: {remark}", highlight=False, soft_wrap=not console.is_terminal)
 
 
-def _in_one_line(assessment: Assessment, long_curves_by: str) -> str:
+def _explain_star(console: Console, headings: Sequence[str]) -> None:
+    """Say what the star after a load means, if there is one."""
+    if any(each.endswith("*") for each in headings):
+        console.print(f"* {UNRESOLVED}", highlight=False)
+
+
+def _print_end(console: Console, notes: Iterable[str], files: Iterable[Path], folded: str) -> None:
+    """Print notes, the files written, and what is folded."""
+    _print_remarks(console, "note", notes)
+    print_files(files)
+    if folded:
+        console.print(folded, highlight=False, soft_wrap=True)
+
+
+def _ends_of_curve(assessment: Assessment) -> str:
     """Both ends of a curve that is too long for a screen."""
     curve = assessment.curve_as_asked
     solved = np.flatnonzero(curve.converged)
     text = f"{curve.status.size} loads"
     if solved.size:
-        ends = solved[[0, -1]]
-        force, depth = (
-            " to ".join(engineering(values[end], unit) for end in ends)
-            for values, unit in ((assessment.scale * curve.force, "N"), (curve.depth, "m"))
+        force, depth, stiffness = (
+            " to ".join(engineering(values[end], unit) for end in solved[[0, -1]])
+            for values, unit in (
+                (assessment.scale * curve.force, "N"),
+                (curve.depth, "m"),
+                (curve.stiffness, "N/m"),
+            )
         )
-        text += f" from {force}: depth {depth}"
-        if assessment.answers:
-            shown = (assessment.answers[key] for key in leading_keys(assessment))
-            told = {each.name: [quantity(each, int(end)) for end in ends] for each in shown}
-        else:
-            told = {"stiffness": [engineering(curve.stiffness[end], "N/m") for end in ends]}
-        text += "".join(f", {name} {' to '.join(values)}" for name, values in told.items())
-    return f"{text}; for each load use {long_curves_by}"
+        text += f" from {force}: depth {depth}, stiffness {stiffness}"
+    return text
 
 
 def _failures(assessment: Assessment) -> list[str]:
@@ -171,7 +235,7 @@ def print_description(description: Description, files: Iterable[Path] = ()) -> N
     """Print what a topography is like."""
     console = Console(markup=False)
     if description.roughness is not None:
-        print_remarks(console, "warning", description.roughness.remarks)
+        _print_remarks(console, "warning", description.roughness.remarks)
     rows = description_table(description)
     indent = 2 + max(len(name) for name, _ in rows)
     for name, value in rows:
@@ -180,7 +244,7 @@ def print_description(description: Description, files: Iterable[Path] = ()) -> N
         console.print(line, highlight=False, soft_wrap=True)
     for obstacle in description.obstacles:
         console.print(f"it cannot be pressed as it is: {obstacle}", highlight=False, soft_wrap=True)
-    print_remarks(console, "note", description.notes)
+    _print_remarks(console, "note", description.notes)
     print_files(files)
 
 
@@ -203,7 +267,7 @@ def print_comparison(compared: ModelComparison, files: Iterable[Path] = ()) -> N
     """Print both curves, their difference, and where the reduced model may be trusted."""
     console = Console(markup=False)
     console.print(compared.what, highlight=False, soft_wrap=True)
-    print_remarks(console, "warning", compared.comparison.warnings)
+    _print_remarks(console, "warning", compared.comparison.warnings)
     print_table(console, *comparison_table(compared))
     if not compared.comparison.resolved.all():
         console.print("* fewer than ten cells in contact: the grid decides, not the surface")

@@ -23,19 +23,16 @@ from roughline.lab.measured.pictures import contact_drawing, curve_drawing
 from roughline.lab.measured.state import Arguments, at, question_of, said_of, sources_of
 from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress
-from roughline.report.contact_tables import (
+from roughline.report.answers import (
     IF_ELASTIC,
     UNRESOLVED,
     answer_table,
-    curve_table,
-    formula_table,
-    groups,
+    counted,
     headline,
     lead_of,
     star_is_shown,
-    told,
 )
-from roughline.report.groups import counted
+from roughline.report.contact_tables import curve_table, formula_table
 from roughline.topography.body import Surface
 from roughline.units import engineering
 
@@ -63,14 +60,12 @@ def _framed(result: Assessment, **others: Any) -> bytes:
     if isinstance(result.body, Surface):
         drawing = contact_drawing(result)
         contact, arrays = drawing.header, drawing.arrays
-    table = partial(answer_table, result, slice(None), with_elastic=True)
-    folded = counted(groups(result), partial(told, result), lambda keys: table(keys=keys)[1])
     header = {
         "modulus": _modulus(result),
         "lead": lead_of(result),
         "figures": [vars(each) for each in headline(result).figures],
-        "answers": table() if result.answers else None,
-        "groups": folded,
+        "answers": answer_table(result, with_elastic=True) if result.answers else None,
+        "groups": counted(result, with_elastic=True),
         "if_elastic": IF_ELASTIC,
         "formulas": formula_table(result) if result.answers else None,
         "curve": curve_table(result),

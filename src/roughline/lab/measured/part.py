@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -23,19 +22,17 @@ from roughline.lab.measured.state import (
 )
 from roughline.lab.measured.words import CONTROLS
 from roughline.lab.server.tasks import Progress, without_paths
-from roughline.report.contact_tables import UNRESOLVED, leading_keys, unit_shown
-from roughline.report.groups import counted
-from roughline.report.part_tables import (
-    body_in_words,
-    groups_of_part,
-    headline_of_part,
-    lead_of_part,
-    leading_table,
-    maps_table,
-    part_table,
-    star_is_shown_of,
-    told_of_part,
+from roughline.report.answers import (
+    UNRESOLVED,
+    answer_table,
+    counted,
+    headline,
+    lead_of,
+    leading_keys,
+    star_is_shown,
+    unit_shown,
 )
+from roughline.report.part_tables import body_in_words, leading_table, maps_table
 from roughline.report.values import scale_of
 
 _SAME = 1e-9  # largest over least, less 1, up to which an answer was given and did not come out
@@ -63,20 +60,15 @@ def maps(arguments: Arguments, progress: Progress) -> bytes:
 
 def part_in_words(part: PartAssessment, arguments: Arguments) -> dict[str, Any]:
     """Tables, remarks and the drawing of a part."""
-    loads = range(len(part.headings))
     return {
         "names": part.names,
         "maps": maps_table(part),
         "leading": leading_table(part),
-        "lead": lead_of_part(part),
-        "figures": [vars(each) for each in headline_of_part(part).figures],
-        "answers": part_table(part, loads) if part.answers else None,
-        "groups": counted(
-            groups_of_part(part),
-            partial(told_of_part, part),
-            lambda keys: part_table(part, loads, keys=keys)[1],
-        ),
-        "star": f"* {UNRESOLVED}" if star_is_shown_of(part) else "",
+        "lead": lead_of(part),
+        "figures": [vars(each) for each in headline(part).figures],
+        "answers": answer_table(part) if part.answers else None,
+        "groups": counted(part),
+        "star": f"* {UNRESOLVED}" if star_is_shown(part) else "",
         "remarks": [without_paths(each, arguments) for each in part.remarks],
         "load": part.headings[part.largest],
         "drawings": _drawings(part),
@@ -94,7 +86,7 @@ def _drawings(part: PartAssessment) -> list[dict[str, Any]]:
 def _drawing(answer: PartAnswer, load: int) -> dict[str, Any]:
     """One answer of each map at a load with its interval, the mean, and the part's interval."""
     values = np.array([each.values[load] for each in answer.of_maps])
-    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer.of_maps[0]))
+    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer))
     low, high = (end * factor for end in answer.ends_of_maps(load))
     return {
         "name": f"{answer.name} {answer.symbol}",

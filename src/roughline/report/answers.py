@@ -1,0 +1,289 @@
+"""The answers of a body, or of several maps of a part: in large figures, in groups, as tables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.report.page import Headline, KeyFigure, Section, Table, sentence
+from roughline.report.values import with_interval
+from roughline.units import decimal, engineering
+
+if TYPE_CHECKING:
+    from roughline.assessment.assessment import Assessment
+    from roughline.engineering.rule import Answer
+
+IF_ELASTIC = "if nothing yielded"
+"""Heads the answers that elastic bodies would give."""
+
+UNRESOLVED = "fewer than ten points in contact: the grid decides, not the surface"
+"""Meaning of the star after a load."""
+
+NO_MEAN = "-"
+"""Written where maps have no common value."""
+
+_MOST_FIGURES = 5  # that a page begins with
+_SAME = 1e-6  # scatter below which a quantity was given, and did not come out
+
+
+@dataclass(frozen=True)
+class Group:
+    """Answers about one thing.
+
+    Attributes
+    ----------
+    name : str
+        Such as "mechanics".
+    keys : sequence of str
+        Of its answers.
+    headline : str
+        Key of the answer that stands for it: its first leading one, or else its first.
+    """
+
+    name: str
+    keys: Sequence[str]
+    headline: str
+
+
+def groups(result: Assessment | PartAssessment) -> list[Group]:
+    """The groups of its answers, in the order of their rules."""
+    leading, keys = leading_keys(result), dict[str, list[str]]()
+    for key, each in result.answers.items():
+        keys.setdefault(each.rule.group, []).append(key)
+    return [
+        Group(name, some, next((key for key in some if key in leading), some[0]))
+        for name, some in keys.items()
+    ]
+
+
+def leading_keys(result: Assessment | PartAssessment) -> list[str]:
+    """Keys of the answers that a page begins with; those of a part lead on one of its maps."""
+    if isinstance(result, PartAssessment):
+        # some maps may yield, and others not
+        keys = max(map(leading_keys, result.assessments), key=len)
+        return [key for key in keys if key in result.answers]
+    return [key for key, each in result.answers.items() if each.leads]
+
+
+def headline(result: Assessment | PartAssessment) -> Headline:
+    """The leading answers at the largest load, warnings, and what else a page begins with.
+
+    Of a group without a leading answer one is told only if it was asked for alone, as a reflection.
+    """
+    leading, found = leading_keys(result), groups(result)
+    first = [each.headline for each in found if each.headline in leading or len(each.keys) == 1]
+    further = [key for key in leading if key not in first]
+    shown = {*first, *further[: _MOST_FIGURES - len(first)]}
+    figures = [
+        KeyFigure.of(each.name, quantity(each, result.largest))
+        for each in (result.answers[key] for group in found for key in group.keys if key in shown)
+    ]
+    below = [elastic_in_words(result)]
+    if isinstance(result, PartAssessment) and leading and len(result.names) > 1:
+        answer = result.answers[leading[0]]
+        scatter = scatter_in_words(answer, result.largest)
+        below.insert(0, f"places scatter by {scatter} in {answer.name}")
+    return Headline(
+        figures, [*map(sentence, result.warnings)], " ".join(map(sentence, filter(None, below)))
+    )
+
+
+def lead_of(result: Assessment | PartAssessment) -> str:
+    """What was asked: both materials, and the largest load; of a body, with its nominal area."""
+    pair, joint = result.question.pair, result.question.joint
+    if pair is None:
+        return ""
+    on_joint = "" if joint is None else f"a joint of {engineering(joint, 'm²')}"
+    if isinstance(result, PartAssessment):
+        maps, no_mean = result.assessments, not leading_keys(result)
+        under = result.headings[result.largest] + (f" on {on_joint}" if on_joint else "")
+    else:
+        maps, no_mean = [result], False
+        force, pressure = (
+            quantity(result.answers[key], result.largest)
+            for key in ("normal_force", "mean_pressure")
+        )
+        under = f"{force}, {pressure} over {on_joint or 'the nominal area'}"
+    count = len(result.headings)
+    which = f", the largest of {count} loads" if count > 1 else ""
+    text = f"{pair.first.name} on {pair.second.name} under {under}{which}"
+    if no_mean:
+        return sentence(f"{text}: the maps have no common mean")
+    unsure = any(_is_decided_by_grid(each)[result.largest] for each in maps)
+    return sentence(text + (f" ({UNRESOLVED})" if unsure else ""))
+
+
+def told(result: Assessment | PartAssessment, key: str) -> str:
+    """Name and value of an answer at the largest load."""
+    answer = result.answers[key]
+    return f"{answer.name} {answer.symbol} {quantity(answer, result.largest)}"
+
+
+def elastic_in_words(result: Assessment | PartAssessment) -> str:
+    """Say what the leading answers would be of elastic bodies, at the largest load.
+
+    Answers that yield does not change by more than their interval are left out.
+    """
+    i, shown = result.largest, []
+    for key in leading_keys(result):
+        elastic = result.elastic.get(key)
+        if elastic is not None and _differs(elastic, result.answers[key], i):
+            shown.append(f"{elastic.name} {_value_alone(elastic, i)}")
+    return f"for comparison, {IF_ELASTIC}: {', '.join(shown)}" if shown else ""
+
+
+def answer_table(
+    result: Assessment | PartAssessment,
+    loads: Sequence[int] | None = None,
+    keys: Sequence[str] | None = None,
+    *,
+    with_elastic: bool = False,
+) -> tuple[list[str], list[list[str]]]:
+    """Header and rows of the answers, or of some of them, at all loads or at some of them.
+
+    The answers of a part have a column for their scatter between maps. `with_elastic` puts the
+    answer of elastic bodies below where yield changes it by more than its interval.
+    """
+    headings, of_part = starred(result), isinstance(result, PartAssessment)
+    shown = range(len(headings)) if loads is None else loads
+    header = [""]
+    for i in shown:
+        header += [headings[i], "scatter"] if of_part else [headings[i]]
+    rows = []
+    for key in result.answers if keys is None else keys:
+        each = result.answers[key]
+        rows.append(
+            [f"{each.name} {each.symbol}", *(cell for i in shown for cell in _cells(each, i))]
+        )
+        elastic = result.elastic.get(key) if with_elastic else None
+        if elastic is not None and any(_differs(elastic, each, i) for i in shown):
+            blank = [""] if of_part else []
+            cells = [cell for i in shown for cell in (_value_alone(elastic, i), *blank)]
+            rows.append([IF_ELASTIC, *cells])
+    return header, rows
+
+
+def load_table(
+    result: Assessment | PartAssessment, keys: Sequence[str]
+) -> tuple[list[str], list[list[str]]]:
+    """Header and rows of some answers, with a row for each load; leading answers come first."""
+    leading = [key for key in leading_keys(result) if key in keys]
+    with_scatter = isinstance(result, PartAssessment) and len(result.names) > 1
+    header, rows = ["load"], [[heading] for heading in starred(result)]
+    for each in (result.answers[key] for key in dict.fromkeys((*leading, *keys))):
+        header.append(f"{each.name} {each.symbol}")
+        header += [f"scatter of {each.symbol}"] if with_scatter else []
+        for i, row in enumerate(rows):
+            row += _cells(each, i) if with_scatter else [quantity(each, i)]
+    return header, rows
+
+
+def sections_of(result: Assessment | PartAssessment, abreast: int) -> list[Section]:
+    """A section for each group, folded behind its headline; some loads stand beside each other."""
+    loads = range(len(result.headings))
+    return [
+        Section(
+            each.name.capitalize(),
+            tables=[
+                Table.of_numbers(
+                    *answer_table(result, loads[i : i + abreast], each.keys, with_elastic=True)
+                )
+                for i in loads[::abreast]
+            ],
+            behind=told(result, each.headline),
+        )
+        for each in groups(result)
+    ]
+
+
+def counted(
+    result: Assessment | PartAssessment, *, with_elastic: bool = False
+) -> list[tuple[str, str, int]]:
+    """Name, headline and number of rows of each group, for a page that folds one table."""
+
+    def rows(group: Group) -> list[list[str]]:
+        return answer_table(result, keys=group.keys, with_elastic=with_elastic)[1]
+
+    return [(each.name, told(result, each.headline), len(rows(each))) for each in groups(result)]
+
+
+def quantity(answer: Answer | PartAnswer, i: int) -> str:
+    """Write one value of an answer, with its interval where that is known; of a part, its mean."""
+    return _written(answer, i, _ends(answer, i))
+
+
+def scatter_in_words(answer: PartAnswer, i: int) -> str:
+    """Write the scatter of an answer between maps: per cent where small, a factor where large."""
+    factor = float(answer.scatter[i])
+    if np.isnan(factor) or answer.count[i] < 2:
+        return NO_MEAN
+    if factor < 1 + _SAME:
+        return "none"
+    return f"{100 * (factor - 1):.2g}%" if factor < 1.5 else f"factor {decimal(factor, 3)}"
+
+
+def unit_shown(answer: Answer | PartAnswer) -> str:
+    """Unit in which an answer is written: its own, or per cent."""
+    return "%" if answer.rule.in_per_cent else answer.unit
+
+
+def starred(result: Assessment | PartAssessment) -> list[str]:
+    """What each load is called, with a star where the grid decides on any of the maps."""
+    if isinstance(result, PartAssessment):
+        of_maps = zip(*map(starred, result.assessments), strict=True)
+        return [max(headings, key=len) for headings in of_maps]
+    stars = _is_decided_by_grid(result)
+    return [
+        f"{name} *" if star else name for name, star in zip(result.headings, stars, strict=True)
+    ]
+
+
+def star_is_shown(result: Assessment | PartAssessment) -> bool:
+    """Whether the grid decides one of the loads that were asked for."""
+    return any(heading.endswith(" *") for heading in starred(result))
+
+
+def _is_decided_by_grid(assessment: Assessment) -> list[bool]:
+    """Which of the loads that were asked for have too few points in contact."""
+    curve = assessment.curve_as_asked
+    return list(curve.converged & ~curve.resolved & (curve.force > 0))
+
+
+def _cells(answer: Answer | PartAnswer, i: int) -> list[str]:
+    """One value with its interval; of a part, its scatter as well."""
+    scatter = [scatter_in_words(answer, i)] if isinstance(answer, PartAnswer) else []
+    return [quantity(answer, i), *scatter]
+
+
+def _value_alone(answer: Answer | PartAnswer, i: int) -> str:
+    return _written(answer, i, None)
+
+
+def _written(answer: Answer | PartAnswer, i: int, ends: tuple[float, float] | None) -> str:
+    value = _value(answer, i)
+    if np.isnan(value) and isinstance(answer, PartAnswer):
+        return NO_MEAN
+    return with_interval(value, ends, unit_shown(answer))
+
+
+def _value(answer: Answer | PartAnswer, i: int) -> float:
+    return float((answer.mean if isinstance(answer, PartAnswer) else answer.values)[i])
+
+
+def _ends(answer: Answer | PartAnswer, i: int) -> tuple[float, float] | None:
+    if answer.low is None or answer.high is None:
+        return None
+    return float(answer.low[i]), float(answer.high[i])
+
+
+def _differs(elastic: Answer | PartAnswer, yielding: Answer | PartAnswer, i: int) -> bool:
+    """Whether elastic bodies give something else: beyond the interval, or a per cent without."""
+    other, value = _value(elastic, i), _value(yielding, i)
+    low, high = _ends(yielding, i) or (np.nan, np.nan)
+    if np.isnan([low, high]).any():
+        low, high = 0.99 * value, 1.01 * value
+    return bool(other < low or other > high)
