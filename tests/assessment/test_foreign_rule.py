@@ -101,7 +101,10 @@ def test_it_is_averaged_over_maps(resonance, surface):
     assert of_part(part)["part"]["f_0"]["key"] == "resonance"
 
 
-def test_it_stands_on_the_terminal_in_json_and_in_the_report(resonance, surface, tmp_path, capsys):
+def test_it_stands_on_the_terminal_in_json_and_in_the_report(
+    resonance, surface, tmp_path, only_drawn, capsys
+):
+    only_drawn()
     result = asked(surface)
     print_assessment(result)
     assert "resonance of one kilogram f_0" in capsys.readouterr().out

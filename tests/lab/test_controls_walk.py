@@ -191,9 +191,9 @@ def drag_edges(page):
     page.wait_for_function("() => !document.querySelector('#published .error:not(:empty)')")
 
 
-def test_refused_controls_of_my_surface_leave_the_others_alive(pages):
+def test_refused_controls_of_my_surface_leave_the_others_alive(pages, rough):
     page = pages.open("?view=measured")
-    page.click("[data-example] >> nth=1")
+    page.set_input_files("#measured [data-file]", rough)
     page.click("[data-press]:not([disabled])", trial=True)
 
     def typed_in(key, text):

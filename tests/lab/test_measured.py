@@ -171,7 +171,8 @@ def test_answers_are_those_of_the_library(page, key):
     )
 
 
-def test_an_assessment_is_solved_once(page, monkeypatch):
+def test_an_assessment_is_solved_once(page, only_drawn, monkeypatch):
+    only_drawn()
     said = {"example": "film", **PAIR, **SMALL}
     first, _ = page.ask("answer", said)
 
@@ -369,8 +370,8 @@ def test_a_file_that_is_gone_is_asked_for_again(page):
         ({"example": "mars"}, "look", "file", "there is no example"),
     ],
 )
-def test_what_cannot_be_used_is_said_at_its_control(page, said, task, at, told):
-    error, found = page.refused(task, {"example": "film", **PAIR, **said})
+def test_what_cannot_be_used_is_said_at_its_control(page, rough, said, task, at, told):
+    error, found = page.refused(task, {**page.bring(rough), **PAIR, **said})
     assert told in error
     assert found == at
 
@@ -404,7 +405,8 @@ def test_no_file_that_is_taken_away_tells_where_the_upload_lay(page, tmp_path, r
         assert curve.attrs["body_file"] == "Müller <1>.nc"
 
 
-def test_the_command_repeats_the_answers(page, invoke, tmp_path, monkeypatch):
+def test_the_command_repeats_the_answers(page, invoke, only_drawn, tmp_path, monkeypatch):
+    only_drawn()
     said = {
         **{"example": "ground", **PAIR, **SMALL, "outliers": "remove", "trend": "curvature"},
         **{"crop": "0 um, 300 um, 0 um, 300 um", "friction": "0.3", "boundary": "periodic"},
@@ -453,7 +455,8 @@ def test_a_crop_to_where_points_are_known_opens_a_file_that_is_refused_whole(pag
         assert filled == ["1 missing points (0.05%) filled: harmonic"] * missing
 
 
-def test_a_contact_modulus_alone_gives_a_curve(page):
+def test_a_contact_modulus_alone_gives_a_curve(page, only_drawn):
+    only_drawn()
     said = {"example": "film", **SMALL, "bodies": "modulus", "E": "110 GPa"}
     header, _ = page.ask("answer", said)
     assert header["answers"] is None

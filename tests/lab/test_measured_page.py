@@ -8,6 +8,7 @@ from lab_in_browser import Pages, RunningLab
 
 FILES = ("al3d-1.al3d", "dektak-1.csv", "di-1.di", "mitutoyo_mock.xlsx", "opd-1.opd", "sur-3.sur")
 EXAMPLE = "[data-example] >> nth=0"
+LINE_SCAN = "[data-example] >> nth=2"  # which is soon prepared
 
 
 @pytest.fixture(scope="module")
@@ -33,9 +34,9 @@ def answered(pages):
 @pytest.mark.parametrize("late", ["**/measured.js", "**/figures/measured"])
 def test_a_click_before_the_view_is_ready_is_not_lost(pages, late):
     page = pages.blank()
-    page.route(late, lambda route: (page.wait_for_timeout(2000), route.continue_()))
+    page.route(late, lambda route: (page.wait_for_timeout(1000), route.continue_()))
     page.goto(pages.address + "?view=measured", wait_until="domcontentloaded")
-    page.click(EXAMPLE)
+    page.click(LINE_SCAN)
     page.wait_for_selector("[data-press]:not([disabled])")
     page.context.close()
 
@@ -159,7 +160,7 @@ def test_what_is_no_topography_is_refused(measured, name, content, words):
     bring(measured, name, content)
     refused(measured, words)
     assert measured.locator("#measured [data-error] b").count() == 0
-    measured.click(EXAMPLE)
+    measured.click(LINE_SCAN)
     measured.wait_for_selector('#measured-step-file:not(.dimmed) [data-result="file"]')
     measured.wait_for_selector('#measured [data-error="file"]:empty', state="attached")
 
@@ -172,7 +173,7 @@ def test_a_file_that_is_too_large_is_refused(browser, tmp_path):
     page.wait_for_timeout(300)
     bring(page, "large.opd", bytes(3_000_000))
     refused(page, "large")
-    page.click(EXAMPLE)
+    page.click(LINE_SCAN)
     page.wait_for_selector('#measured [data-result="file"]')
     pages.close()
     assert lab.close() == (0, "")

@@ -119,7 +119,8 @@ def test_tables_of_any_width_fit_the_sheet_and_no_number_is_broken(tmp_path, loa
 
 @pytest.mark.slow
 @pytest.mark.parametrize("asked", [[rl.Joint("2 cm^2")], [rl.Unloading(), rl.Friction(0.3)]])
-def test_a_report_can_be_printed(rough, tmp_path, asked):
+def test_a_report_can_be_printed(rough, tmp_path, only_drawn, asked):
+    only_drawn()
     loads = ["1 N", "2 N", "5 N", "10 N"]
     question = rl.Question(
         rough, "steel,copper", loads=loads, ask=[rl.WholeCurve(), *asked], grid_error=False
@@ -135,7 +136,8 @@ def test_a_report_can_be_printed(rough, tmp_path, asked):
 
 
 @pytest.mark.slow
-def test_a_report_on_several_maps_can_be_printed(tmp_path, monkeypatch):
+def test_a_report_on_several_maps_can_be_printed(tmp_path, only_drawn, monkeypatch):
+    only_drawn()
     monkeypatch.setattr(part_report, "write_contact_report", lambda _, folder, __: [folder])
     spectrum = rl.SelfAffine(hurst=0.7, length=1e-3, rms_height=1e-6)
     maps = [spectrum.surface(32, seed) for seed in range(3)]
