@@ -14,9 +14,10 @@ from reportlab.lib.pagesizes import A4
 import roughline as rl
 from roughline.plot.style import PAGE, styled
 from roughline.report import part_report
-from roughline.report.contact_report import _overview, write_contact_report
+from roughline.report.contact_figures import overview
+from roughline.report.contact_report import write_contact_report
 from roughline.report.page import Headline, KeyFigure, Picture, Section, Table
-from roughline.report.part_figures import answers_figure, heights_figure
+from roughline.report.part_report import answers_figure, heights_figure
 from roughline.report.pdf import _grids, write_pdf
 
 SMALLEST = 9.0  # of a text on paper [points]
@@ -129,7 +130,7 @@ def test_a_report_can_be_printed(rough, tmp_path, only_drawn, asked):
     write_contact_report(pressed, tmp_path, "roughline press " + LONG)
     assert check(tmp_path / "report.pdf") >= 3
     with styled():
-        figure = _overview(pressed)
+        figure = overview(pressed)
         figure.savefig(BytesIO())
     assert min(each.get_fontsize() for each in texts_of(figure)) >= SMALLEST_IN_FIGURES
     assert figure.get_figheight() * 72 <= 600

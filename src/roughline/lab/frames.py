@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from roughline.report.plain import plain
+from roughline.report.json_output import plain
 
 _ALIGNMENT = 8  # typed arrays of a browser begin at multiples of their items
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from roughline.assessment.part import PartAnswer, PartAssessment
-from roughline.report.page import Headline, KeyFigure, Section, Table, sentence
+from roughline.report.page import Headline, KeyFigure, sentence
 from roughline.report.values import with_interval
 from roughline.units import decimal, engineering
 
@@ -180,24 +180,6 @@ def load_table(
         for i, row in enumerate(rows):
             row += _cells(each, i) if with_scatter else [quantity(each, i)]
     return header, rows
-
-
-def sections_of(result: Assessment | PartAssessment, abreast: int) -> list[Section]:
-    """A section for each group, folded behind its headline; some loads stand beside each other."""
-    loads = range(len(result.headings))
-    return [
-        Section(
-            each.name.capitalize(),
-            tables=[
-                Table.of_numbers(
-                    *answer_table(result, loads[i : i + abreast], each.keys, with_elastic=True)
-                )
-                for i in loads[::abreast]
-            ],
-            behind=told(result, each.headline),
-        )
-        for each in groups(result)
-    ]
 
 
 def counted(

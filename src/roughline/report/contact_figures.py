@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,7 +20,7 @@ from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.plot.units import in_unit
 from roughline.report.contact_tables import area_in_words
 from roughline.report.folder import make_folder
-from roughline.topography.body import Body, Surface
+from roughline.topography.body import Surface
 from roughline.units import engineering
 
 if TYPE_CHECKING:
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
     from roughline.assessment.slip import PartialSlip
     from roughline.contact.curve import Curve
     from roughline.engineering.intervals import Ends
-    from roughline.spectra.roughness import Roughness
 
+_PANEL, _PANELS = 2.6, 8.2  # heights of a row of panels, and of all at most [inch]
 _DASHES = ("--", ":", "-.")
 
 
@@ -56,7 +57,7 @@ def curve_figure(assessment: Assessment) -> Figure:
     """Force over depth, and stiffness over force; open marks where the grid decides."""
     figure = new_figure(PAGE, 3.0)
     left, right = figure.subplots(1, 2)
-    draw_force(left, assessment)
+    _draw_force(left, assessment)
     draw_stiffness(right, assessment)
     return figure
 
@@ -71,18 +72,65 @@ def _contact_figure(surface: Surface, assessment: Assessment) -> Figure:
     return figure
 
 
-def roughness_figure(body: Body, parameters: Roughness) -> Figure:
-    """Heights, and the spectrum with the law that is nearest to it."""
-    figure = new_figure(PAGE, 3.2)
-    left, right = figure.subplots(1, 2)
-    draw_heights(left, body, "m")
-    draw_spectrum(right, parameters, "m")
+def overview(assessment: Assessment) -> Figure:
+    """Two panels abreast, of what is known."""
+    body, panels = assessment.body, [partial(_draw_body, assessment=assessment)]
+    if assessment.roughness is not None:
+        panels.append(partial(draw_spectrum, found=assessment.roughness, unit="m"))
+    panels.append(partial(draw_stiffness, assessment=assessment))
+    if isinstance(body, Surface):
+        panels.append(partial(_draw_area, assessment=assessment))
+        panels.append(partial(draw_last_contact, surface=body, assessment=assessment))
+    if _has_falling_loads(assessment):
+        panels.append(partial(_draw_force, assessment=assessment))
+    if assessment.question.friction is not None:
+        panels.append(partial(_draw_partial_slip, slip=assessment.partial_slip))
+    rows = -(-len(panels) // 2)
+    figure = new_figure(PAGE, min(_PANEL * rows, _PANELS))
+    axes = figure.subplots(rows, 2, squeeze=False).ravel()
+    for draw, each in zip(panels, axes, strict=False):
+        draw(each)
+    for empty in axes[len(panels) :]:
+        empty.set_axis_off()
     return figure
 
 
-def draw_force(axes: Axes, assessment: Assessment) -> None:
+def _draw_body(axes: Axes, assessment: Assessment) -> None:
+    """Heights, with the points that were filled."""
+    draw_heights(axes, assessment.body, "m")
+    draw_filled(axes, assessment)
+
+
+def overview_in_words(assessment: Assessment) -> str:
+    """Say what the panels of the overview show."""
+    question, yields = assessment.question, assessment.curve.hardness is not None
+    marked = any(part.filled_region is not None for part in assessment.topographies)
+    marks = ["open marks: fewer than ten points in contact"]
+    marks += ["dashed: on unloading"] if yields else []
+    marks += ["blue: after a larger load"] if _has_falling_loads(assessment) else []
+    shown = [
+        ("Heights of the map" if question.joint is not None else "Heights")
+        + (" (red: filled points)" if marked else ""),
+        "spectrum with the nearest self-affine law",
+        f"stiffness over force ({'; '.join(marks)})",
+    ]
+    if isinstance(assessment.body, Surface):
+        red = " (red: at the hardness)" if yields else ""
+        shown.append(
+            "contact area, corrected for the outline's steps as in the table, over force; the "
+            f"points in contact at the largest load{red}"
+        )
+    if _has_falling_loads(assessment):
+        shown.append("force over depth")
+    if question.friction is not None:
+        shown.append("partial slip at the largest load")
+    with_theories = "; with theories for the same spectrum" if assessment.theories else ""
+    return f"{'; '.join(shown)}{with_theories}."
+
+
+def _draw_force(axes: Axes, assessment: Assessment) -> None:
     """Force over depth; with falling loads on linear scales, which show loading and unloading."""
-    curve, falls = assessment.curve, has_falling_loads(assessment)
+    curve, falls = assessment.curve, _has_falling_loads(assessment)
     x_label, depth = in_unit("depth since touch $d$", curve.depth, "m")
     y_label, force = _force_axis(assessment)
     draw_loads(axes, curve.depth * depth, curve.force * force, curve, linear=falls)
@@ -123,7 +171,7 @@ def draw_stiffness(axes: Axes, assessment: Assessment) -> None:
     axes.set(xlabel=x_label, ylabel=y_label)
 
 
-def draw_area(axes: Axes, assessment: Assessment) -> None:
+def _draw_area(axes: Axes, assessment: Assessment) -> None:
     """Contact area over force with its interval, and theories."""
     curve, area = assessment.curve, assessment.area
     assert curve.area_fraction_corrected is not None
@@ -136,7 +184,7 @@ def draw_area(axes: Axes, assessment: Assessment) -> None:
     axes.set(xlabel=label, ylabel="contact area $A/A_0$")
 
 
-def draw_partial_slip(axes: Axes, slip: PartialSlip | None) -> None:
+def _draw_partial_slip(axes: Axes, slip: PartialSlip | None) -> None:
     """Tangential force over displacement at the largest load, until the whole contact slides."""
     if slip is None:
         say(axes, "largest load not solved")
@@ -182,7 +230,7 @@ def draw_last_contact(axes: Axes, surface: Surface, assessment: Assessment) -> N
     label_sides(axes, surface, "m")
 
 
-def has_falling_loads(assessment: Assessment) -> bool:
+def _has_falling_loads(assessment: Assessment) -> bool:
     """Whether a load is smaller than one before it."""
     return not bool(rising(assessment.curve).all())
 

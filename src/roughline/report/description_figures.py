@@ -5,14 +5,29 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughline.plot.style import save, styled
-from roughline.report.contact_figures import roughness_figure
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.ticker import EngFormatter, Formatter, ScalarFormatter
+from numpy.typing import NDArray
+
+from roughline.plot.bodies import draw_heights
+from roughline.plot.pixels import any_marked, thinned
+from roughline.plot.spectra import draw_spectrum
+from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.folder import make_folder
-from roughline.report.measured_figures import measured_figure
+from roughline.topography.body import Body
 from roughline.topography.files.netcdf import write
+from roughline.units import metres_per
 
 if TYPE_CHECKING:
     from roughline.assessment.description import Description
+    from roughline.spectra.roughness import Roughness
+    from roughline.topography.files.measurement import Measurement
+    from roughline.topography.missing import MissingPattern
+
+_MISSING = "tab:red"
 
 
 def write_description(description: Description, out: Path) -> list[Path]:
@@ -35,11 +50,92 @@ def write_description(description: Description, out: Path) -> list[Path]:
     files: list[Path] = []
     with styled():
         if description.missing.count or description.obstacles:
-            figure = measured_figure(description.piece, description.missing)
+            figure = _measured_figure(description.piece, description.missing)
             files += save(figure, out, "file")
         if body is not None and parameters is not None:
-            files += save(roughness_figure(body, parameters), out, "roughness")
+            files += save(_roughness_figure(body, parameters), out, "roughness")
     if body is not None:
         write(body, out / "prepared.nc")
         files.append(out / "prepared.nc")
     return files
+
+
+def _roughness_figure(body: Body, parameters: Roughness) -> Figure:
+    """Heights, and the spectrum with the law that is nearest to it."""
+    figure = new_figure(PAGE, 3.2)
+    left, right = figure.subplots(1, 2)
+    draw_heights(left, body, "m")
+    draw_spectrum(right, parameters, "m")
+    return figure
+
+
+def _measured_figure(content: Measurement, missing: MissingPattern) -> Figure:
+    """Heights, and where points are missing; with units if the file states one."""
+    figure = new_figure(PAGE, 3.2)
+    metres = metres_per(content.unit) if content.unit else 1.0
+    unknown = content.unknown
+    heights = np.ma.MaskedArray(np.ma.getdata(content.heights) * metres, unknown)
+    sides = tuple(metres * side for side in content.sizes or ())
+    share = f"{missing.count} of {unknown.size} points are missing ({missing.share:.2%})"
+    if heights.ndim == 1:
+        axes = figure.subplots()
+        _draw_line(axes, content, heights, sides)
+        if missing.count:
+            axes.set_title(share, fontsize=9)
+        return figure
+    left, right = figure.subplots(1, 2)
+    extent = (0.0, *heights.shape[:1], 0.0, *heights.shape[1:])
+    if sides:
+        extent = (0.0, sides[0], 0.0, sides[1])
+    shown = left.imshow(thinned(heights).T, origin="lower", extent=extent, cmap="cividis")
+    ticks = _ticks(content.unit is not None)
+    bar = figure.colorbar(
+        shown, ax=(left, right), orientation="horizontal", format=ticks, shrink=0.6, aspect=40
+    )
+    bar.ax.locator_params(nbins=5)
+    bar.set_label("height" + _of(content))
+    right.imshow(
+        any_marked(unknown).T,
+        origin="lower",
+        extent=extent,
+        cmap=ListedColormap(["0.92", _MISSING]),
+        vmin=0,
+        vmax=1,
+        interpolation="nearest",
+    )
+    right.set_title(share, fontsize=9)
+    for axes in (left, right):
+        _label(axes, content)
+        axes.locator_params(nbins=5)
+        axes.yaxis.set_major_formatter(_ticks(content.unit is not None and bool(sides)))
+        axes.set_ylabel(axes.get_xlabel().replace("x", "y", 1))
+    return figure
+
+
+def _draw_line(
+    axes: Axes, content: Measurement, heights: NDArray[np.float64], sides: tuple[float, ...]
+) -> None:
+    """Heights of a line scan; red where they are missing."""
+    step = sides[0] / heights.size if sides else 1.0
+    x = (np.arange(heights.size) + 0.5) * step
+    if content.positions is not None and content.sizes is not None:
+        x = content.positions * sides[0] / content.sizes[0]
+    axes.plot(x, heights, color="k", linewidth=0.6)
+    for point in np.flatnonzero(np.ma.getmaskarray(heights)):
+        axes.axvspan(x[point] - step / 2, x[point] + step / 2, color=_MISSING, linewidth=1)
+    _label(axes, content)
+    axes.yaxis.set_major_formatter(_ticks(content.unit is not None))
+    axes.set_ylabel("height" + _of(content))
+
+
+def _label(axes: Axes, content: Measurement) -> None:
+    axes.set_xlabel("x" + _of(content) if content.sizes is not None else "x [points]")
+    axes.xaxis.set_major_formatter(_ticks(content.unit is not None and content.sizes is not None))
+
+
+def _of(content: Measurement) -> str:
+    return "" if content.unit else " [the file states no unit]"
+
+
+def _ticks(has_unit: bool) -> Formatter:
+    return EngFormatter("m") if has_unit else ScalarFormatter()

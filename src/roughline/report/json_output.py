@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import enum
 import json
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from roughline._version import __version__
 from roughline.contact.quantities import IN_JSON
 from roughline.contact.status import Status
-from roughline.report.plain import plain
 from roughline.topography.body import Body, sides_of
 
 if TYPE_CHECKING:
@@ -217,3 +220,20 @@ def _of_body(body: Body) -> dict[str, Any]:
         "rms_slope": body.rms_slope,
         "settings": body.settings,
     }
+
+
+def plain(value: Any) -> Any:
+    """Return a value as JSON can hold it; NaN and infinities become null."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, Path):
+        return str(value)
+    if isinstance(value, enum.Enum):
+        return value.name.lower()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

@@ -2,49 +2,48 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
+import textwrap
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from roughline.plot.style import save, styled
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from roughline.plot.pixels import thinned
+from roughline.plot.style import PAGE, new_figure, save, styled
 from roughline.report.answers import (
-    UNRESOLVED,
+    NO_MEAN,
     headline,
     lead_of,
     leading_keys,
-    load_table,
-    sections_of,
-    star_is_shown,
+    quantity,
+    starred,
+    unit_shown,
 )
 from roughline.report.contact_figures import write_contact
-from roughline.report.contact_report import (
-    OF_ASSUMPTIONS,
-    OF_FORMULAS,
-    OF_REPEATING,
-    assumptions_of,
-    materials_in_words,
-    write_contact_report,
-)
-from roughline.report.contact_tables import formula_table, symbol_table
+from roughline.report.contact_report import write_contact_report
 from roughline.report.document import write_document
-from roughline.report.page import Picture, Section, Table, sentence
-from roughline.report.part_figures import MOST_HEIGHTS, answers_figure, heights_figure
-from roughline.report.part_tables import (
-    count_in_words,
-    each_map_table,
-    leading_table,
-    maps_table,
-)
+from roughline.report.page import Picture, Section, Table
+from roughline.report.part_tables import count_in_words, leading_table, maps_table
+from roughline.report.sections import sections_of
+from roughline.report.values import scale_of
+from roughline.topography.body import Surface
+from roughline.units import prefix
 
 if TYPE_CHECKING:
-    from roughline.assessment.part import PartAssessment
+    from roughline.assessment.part import PartAnswer, PartAssessment
 
-_ASSUMPTION_OF_PART = (
-    "Intervals of the part hold the scatter between its places as well. They assume that the "
-    "places were chosen at random, and that quantities scatter by factors."
-)
-_LOADS_ABREAST = 2  # each has two columns
-_MAPS_ABREAST = 3
+_MAPS_ABREAST = 3  # in a table
+_ABREAST = 4  # maps of heights in a row
+_LOG_FROM = 5.0  # largest over smallest from which on an axis is logarithmic
+_LONGEST, _BEGIN = 18, 4  # letters of a name under an axis, and of them from its beginning
+_BROAD = 22  # letters of a line beside an axis
+_MOST_NAMED = 12  # maps whose names fit under an axis
+_MOST_HEIGHTS = 16  # maps whose heights are drawn, so that the figure fits a sheet
 
 
 def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) -> list[Path]:
@@ -69,7 +68,7 @@ def write_part_report(part: PartAssessment, folder: Path, how_to_repeat: str) ->
         written.append(write_contact_report(each, of_map, how_to_repeat)[0])
     figures = _figures(part, folder)
     title, lead = f"Contact of a part, {count_in_words(part)}", lead_of(part)
-    sections = _sections(part, figures[0], figures[2], how_to_repeat)
+    sections = sections_of(part, _of_maps(part, figures[0], figures[2]), [how_to_repeat])
     document = write_document(folder, title, lead, sections, headline(part))
     return [*document, *figures, *written]
 
@@ -102,28 +101,15 @@ def _figures(part: PartAssessment, folder: Path) -> list[Path]:
         ]
 
 
-def _sections(
-    part: PartAssessment, answers: Path, heights: Path, how_to_repeat: str
-) -> list[Section]:
-    first = part.assessments[0]
-    legend = [f"A star: {UNRESOLVED}."] if star_is_shown(part) else []
-    notes = [*map(sentence, part.notes)]
+def _of_maps(part: PartAssessment, answers: Path, heights: Path) -> list[Section]:
+    """What the maps are, and what each of them gives."""
     loads, maps = range(len(part.headings)), range(len(part.names))
-    several = part.answers and len(loads) > _LOADS_ABREAST
     of_maps = [
-        each_map_table(part, load, maps[i : i + _MAPS_ABREAST])
+        _each_map_table(part, load, maps[i : i + _MAPS_ABREAST])
         for load in loads
         for i in maps[::_MAPS_ABREAST]
     ]
-    formulas = formula_table(replace(first, hardness_scatter={}))  # it differs between maps
     return [
-        Section(
-            "The part",
-            [*materials_in_words(part.question.pair), *legend],
-            tables=[Table.of_numbers(*load_table(part, leading_keys(part)))] if several else [],
-        ),
-        *sections_of(part, _LOADS_ABREAST),
-        *([Section("Notes", notes=notes)] if notes else []),
         Section(
             "The maps",
             tables=[Table.of_numbers(*maps_table(part)), Table.of_numbers(*leading_table(part))],
@@ -141,15 +127,6 @@ def _sections(
             tables=[Table.of_numbers(*each) for each in of_maps],
             behind="values and intervals of each map alone",
         ),
-        Section(
-            "Formulas and sources",
-            tables=[Table(*formulas), Table(*symbol_table(first))],
-            behind=OF_FORMULAS,
-        ),
-        Section(
-            "Assumptions", [*assumptions_of(first), _ASSUMPTION_OF_PART], behind=OF_ASSUMPTIONS
-        ),
-        Section("How to repeat it", [how_to_repeat], behind=OF_REPEATING),
     ]
 
 
@@ -160,6 +137,115 @@ def _caption_of_answers(part: PartAssessment) -> str:
 
 def _caption_of_heights(part: PartAssessment) -> str:
     which = (
-        "Each map" if len(part.names) <= MOST_HEIGHTS else f"The first {MOST_HEIGHTS} maps, each"
+        "Each map" if len(part.names) <= _MOST_HEIGHTS else f"The first {_MOST_HEIGHTS} maps, each"
     )
     return f"{which} about its mean, in the same colours."
+
+
+def _each_map_table(
+    part: PartAssessment, load: int, maps: Sequence[int]
+) -> tuple[list[str], list[list[str]]]:
+    """Return header and rows of all answers of some of the maps, at one load.
+
+    A star after a map's name marks that the grid decides on its values.
+    """
+    stars = [starred(each)[load].removeprefix(part.headings[load]) for each in part.assessments]
+    header = [part.headings[load], *(f"{part.names[i]}{stars[i]}" for i in maps)]
+    keys = part.assessments[0].answers
+    rows = []
+    for key, first in keys.items():
+        found = [part.assessments[i].answers.get(key) for i in maps]
+        cells = [NO_MEAN if each is None else quantity(each, load) for each in found]
+        rows.append([f"{first.name} {first.symbol}", *cells])
+    return header, rows
+
+
+def answers_figure(part: PartAssessment) -> Figure:
+    """Leading answers of each map with their intervals, their mean and the part's interval."""
+    keys = leading_keys(part)
+    rows = math.ceil(len(keys) / 2)
+    figure = new_figure(PAGE, 2.4 * max(rows, 1))
+    if not keys:
+        return figure
+    panels = np.atleast_1d(figure.subplots(rows, 2)).ravel()
+    for axes, key in zip(panels, keys, strict=False):
+        _draw_answer(axes, part.answers[key], part)
+    for empty in panels[len(keys) :]:
+        empty.set_axis_off()
+    return figure
+
+
+def heights_figure(part: PartAssessment) -> Figure:
+    """Heights of the maps, each about its mean, in the same colours; of scans, lines."""
+    bodies = [each.body for each in part.assessments[:_MOST_HEIGHTS]]
+    rows = math.ceil(len(bodies) / _ABREAST)
+    figure = new_figure(PAGE, 1.85 * rows + 0.75)
+    panels = np.atleast_1d(figure.subplots(rows, _ABREAST)).ravel()
+    spread = 4 * max(body.rms_height for body in bodies)
+    factor, unit = prefix(spread, "m", 3)
+    shown = None
+    for axes, body, name in zip(panels, bodies, part.names, strict=False):
+        axes.set_title(_short(name), fontsize=8)
+        axes.tick_params(labelsize=8)
+        heights = (body.heights - body.heights.mean()) * factor
+        if isinstance(body, Surface):
+            size, sides = prefix(max(body.sizes), "m", 3)
+            extent = (0.0, body.sizes[0] * size, 0.0, body.sizes[1] * size)
+            shown = axes.imshow(
+                thinned(heights).T,
+                origin="lower",
+                extent=extent,
+                cmap="cividis",
+                vmin=-spread * factor,
+                vmax=spread * factor,
+            )
+        else:
+            size, sides = prefix(body.length, "m", 3)
+            x = (np.arange(heights.size) + 0.5) * body.spacing * size
+            axes.plot(x, heights, color="k", linewidth=0.5)
+        axes.set_xlabel(f"x [{sides}]", fontsize=8)
+    for axes in panels[len(bodies) :]:
+        axes.set_axis_off()
+    if shown is not None:
+        bar = figure.colorbar(
+            shown, ax=panels, orientation="horizontal", shrink=0.5, aspect=40, extend="both"
+        )
+        bar.set_label(f"height [{unit}]", fontsize=8)
+        bar.ax.tick_params(labelsize=8)
+    return figure
+
+
+def _draw_answer(axes: Axes, answer: PartAnswer, part: PartAssessment) -> None:
+    """One answer of each map at the largest load, its mean, and the interval of the part."""
+    load = part.largest
+    values = np.array([each.values[load] for each in answer.of_maps])
+    factor, unit = scale_of(float(np.nanmax(values)), unit_shown(answer))
+    places = np.arange(1, values.size + 1)
+    low, high = (end * factor for end in answer.ends_of_maps(load))
+    axes.vlines(places, low, high, color="0.35", linewidth=1.0)
+    axes.plot(places, values * factor, "o", color="k")
+    if np.isfinite(answer.mean[load]):
+        axes.axhline(answer.mean[load] * factor, color="tab:red", linewidth=1.0)
+    interval = np.array([answer.low[load], answer.high[load]]) * factor
+    if np.isfinite(interval).all():
+        axes.axhspan(*interval, color="tab:red", alpha=0.12, linewidth=0)
+    known = np.concatenate([low, high, interval])
+    known = known[np.isfinite(known) & (known > 0)]
+    if known.size and known.max() > _LOG_FROM * known.min():
+        axes.set_yscale("log")
+        decades = math.log10(known.max() / known.min())
+        axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if decades < 2 else (1.0,)))
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axes.yaxis.set_minor_formatter(NullFormatter())
+    if values.size <= _MOST_NAMED:
+        axes.set_xticks(places, list(map(_short, part.names)), rotation=30, ha="right", fontsize=8)
+    else:
+        axes.set_xlabel("number of the map")
+    axes.set_xlim(0.5, values.size + 0.5)
+    name = textwrap.fill(answer.name, _BROAD)
+    axes.set_ylabel(name + (f"\n[{unit.strip()}]" if unit else ""), fontsize=8)
+
+
+def _short(name: str) -> str:
+    """A name that fits under an axis; maps of a part mostly differ in the end of their names."""
+    return name if len(name) <= _LONGEST else f"{name[:_BEGIN]}…{name[_BEGIN + 1 - _LONGEST :]}"

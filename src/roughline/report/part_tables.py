@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from roughline.report.answers import NO_MEAN, leading_keys, quantity, starred
@@ -11,24 +10,6 @@ from roughline.units import decimal, engineering
 
 if TYPE_CHECKING:
     from roughline.assessment.part import PartAssessment
-
-
-def each_map_table(
-    part: PartAssessment, load: int, maps: Sequence[int]
-) -> tuple[list[str], list[list[str]]]:
-    """Return header and rows of all answers of some of the maps, at one load.
-
-    A star after a map's name marks that the grid decides on its values.
-    """
-    stars = [starred(each)[load].removeprefix(part.headings[load]) for each in part.assessments]
-    header = [part.headings[load], *(f"{part.names[i]}{stars[i]}" for i in maps)]
-    keys = part.assessments[0].answers
-    rows = []
-    for key, first in keys.items():
-        found = [part.assessments[i].answers.get(key) for i in maps]
-        cells = [NO_MEAN if each is None else quantity(each, load) for each in found]
-        rows.append([f"{first.name} {first.symbol}", *cells])
-    return header, rows
 
 
 def maps_table(part: PartAssessment) -> tuple[list[str], list[list[str]]]:
