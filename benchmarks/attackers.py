@@ -316,9 +316,9 @@ def _paths():
     """Every route of the lab, and some that it has not."""
     tokens = ("", "x", "%00", "a" * 2000)
     return [
-        *("/", "/login", "/logout", "/link", "/upload", "/figures/explore", "/lab/lab.js", "/no"),
+        *("/", "/login", "/logout", "/link", "/upload", "/here", "/lab/lab.js", "/no"),
         *("/bokeh/bokeh.min.js", "/?%ff=%ff", "/?token=%ff&token=a", "/?" + "a=1&" * 3000, "*"),
-        *("/figures/..", "/lab/%00", "/lab/..%5c..", "/lab/" + "a" * 5000, "//", "/%", "/\x01", ""),
+        *("/here/..", "/lab/%00", "/lab/..%5c..", "/lab/" + "a" * 5000, "//", "/%", "/\x01", ""),
         *(f"/results/{token}/{name}" for token in tokens for name in ("a.nc", "..", "a" * 5000)),
         *(f"/upload?session={token}&name=%ff" for token in tokens),
         *(f"/link?session={token}" for token in tokens),

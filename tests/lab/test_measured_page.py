@@ -31,7 +31,7 @@ def answered(pages):
     return page
 
 
-@pytest.mark.parametrize("late", ["**/measured.js", "**/figures/measured"])
+@pytest.mark.parametrize("late", ["**/measured.js", "**/bokeh-api.min.js"])
 def test_a_click_before_the_view_is_ready_is_not_lost(pages, late):
     page = pages.blank()
     page.route(late, lambda route: (page.wait_for_timeout(1000), route.continue_()))

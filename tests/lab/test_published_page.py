@@ -171,24 +171,23 @@ def test_an_address_that_cannot_be_read_is_refused_in_one_sentence(pages):
     page.context.close()
 
 
-def test_figures_that_arrive_at_the_same_time_are_not_taken_for_each_other(pages):
+def test_figures_that_are_embedded_at_the_same_time_are_not_taken_for_each_other(pages):
     page = pages.open("?view=measured")
     named = page.evaluate(
-        """async (views) => {
+        """async () => {
             const {embedded} = await import("/lab/plots.js");
-            document.querySelector("#published").hidden = false;
-            const bytes = async (view) => (await fetch(`/figures/${view}`)).arrayBuffer();
-            const arrived = await Promise.all(views.map(bytes));
-            const of = (address) => arrived[views.indexOf(address.split("/").at(-1))];
-            window.fetch = async (address) => ({ok: true, arrayBuffer: async () => of(address)});
-            const made = await Promise.all(views.map(embedded));
+            const {bodyFigures, publishedFigures} = await import("/lab/published-figures.js");
+            const {exploreFigures} = await import("/lab/explore-figures.js");
+            for (const view of document.querySelectorAll("main")) view.hidden = false;
+            const published = () => publishedFigures(["1", "2"]), bodies = () => bodyFigures(4);
+            const declared = [exploreFigures, published, bodies];
+            const made = await Promise.all(declared.map(embedded));
             return made.map(({made}) => made.roots().map(({name}) => name));
-        }""",
-        ["studies", "published", "bodies"],
+        }"""
     )
     page.context.close()
-    studies, published, bodies = map(set, named)
+    explore, published, bodies = map(set, named)
     assert any("published-trust" in name for name in published)
-    assert not studies & published
-    assert not studies & bodies
+    assert not explore & published
+    assert not explore & bodies
     assert not published & bodies

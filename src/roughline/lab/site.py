@@ -11,18 +11,11 @@ from roughline.lab.tasks import TASKS
 
 
 def site() -> Site:
-    """Return the lab: its page, parts, figures and tasks."""
+    """Return the lab: its page, parts and tasks."""
     return Site(
         page=page,
         login_page=login_page,
         parts=Path(str(files("roughline.lab").joinpath("static"))),
-        figures={
-            "explore": "roughline.lab.explore.figures",
-            "measured": "roughline.lab.measured.figures",
-            "published": "roughline.lab.published.figures",
-            "bodies": "roughline.lab.published.body_figures",
-            "studies": "roughline.lab.published.study_figures",
-        },
         tasks=TASKS,
         warm="roughline.lab.warm",
     )

@@ -37,6 +37,7 @@ TASKS: Mapping[str, Place] = {
     "published.trust": _place("published.trust", "trust", is_quick=True),
     "published.point": _place("published.trust", "point", is_quick=True),
     "published.claims": _place("published.laws", "claims"),
+    "published.studies": _place("published.laws", "studies", is_quick=True),
     "published.body": _place("published.bodies", "body"),
 }
 """All tasks by name."""

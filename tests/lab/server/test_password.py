@@ -29,7 +29,7 @@ def test_a_password_is_asked_for_everything(closed_lab):
         assert page.code == 302
         assert page.headers["Location"] == "/login"
         assert b"Password" in (await closed_lab.fetch("/login")).body
-        for path in ("/figures/explore", "/results/a/b", "/nothing"):
+        for path in ("/here", "/results/a/b", "/nothing"):
             assert (await closed_lab.fetch(path)).code == 401
         assert (await upload(closed_lab, "x", b"1", "a")).code == 401
         with pytest.raises(HTTPClientError, match="401"):
@@ -56,9 +56,9 @@ def test_the_password_opens_the_lab_and_its_cookie_only_this_name_of_it(closed_l
             async with closed_lab.page({"Origin": "http://evil.example", "Cookie": cookie}):
                 pass
         elsewhere = {"Cookie": cookie, "Host": "rebound.example"}
-        assert (await closed_lab.fetch("/figures/explore", headers=elsewhere)).code == 401
+        assert (await closed_lab.fetch("/here", headers=elsewhere)).code == 401
         forged = {"Cookie": "roughline_lab=yes"}
-        assert (await closed_lab.fetch("/figures/explore", headers=forged)).code == 401
+        assert (await closed_lab.fetch("/here", headers=forged)).code == 401
 
     run(scenario)
 

@@ -27,7 +27,7 @@ def test_the_page_and_its_parts_come_under_a_strict_policy(lab):
             "/",
             "/lab/lab.js",
             "/bokeh/bokeh.min.js",
-            "/figures/explore",
+            "/bokeh/bokeh-api.min.js",
             "/lab/nothing",
             "/no",
         )
@@ -57,8 +57,8 @@ def test_the_page_and_its_parts_come_under_a_strict_policy(lab):
         "/bokeh/../../server.py",
         "/results/x/y",
         "/results/..%2f/..",
-        "/figures/server",
-        "/figures/%3Cscript%3E",
+        "/here/server",
+        "/here/%3Cscript%3E",
     ],
 )
 def test_nothing_else_can_be_read(lab, path):
@@ -75,11 +75,11 @@ def test_other_names_and_pages_of_others_are_refused(lab):
     async def scenario():
         port = lab.address.rpartition(":")[2]
         for host in (f"rebound.example:{port}", f"127.0.0.1.example:{port}", "[::1"):
-            for path in ("/", "/lab/lab.js", "/figures/explore"):
+            for path in ("/", "/lab/lab.js", "/here"):
                 answer = await lab.fetch(path, headers={"Host": host})
                 assert answer.code in (400, 403), (host, path)
         for origin in ("http://evil.example", "null", f"http://localhost:{port}", "http://["):
-            answer = await lab.fetch("/figures/explore", headers={"Origin": origin})
+            answer = await lab.fetch("/here", headers={"Origin": origin})
             assert answer.code == 403
             answer = await lab.fetch("/login", method="POST", body="", headers={"Origin": origin})
             assert answer.code == 403

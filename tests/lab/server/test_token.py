@@ -30,7 +30,7 @@ async def posted(lab, token, leads_to="/"):
 def test_nothing_but_static_parts_is_answered_without_the_token(lab):
     async def scenario():
         assert (await lab.fetch("/", headers=NOBODY)).headers["Location"] == "/login"
-        for path in ("/figures/explore", "/results/a/b", "/nothing", "/here"):
+        for path in ("/results/a/b", "/nothing", "/here"):
             assert (await lab.fetch(path, headers=NOBODY)).code == 401, path
         for path in ("/lab/lab.js", "/lab/icon.svg", "/bokeh/bokeh.min.js", "/login"):
             assert (await lab.fetch(path, headers=NOBODY)).code == 200, path

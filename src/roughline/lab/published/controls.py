@@ -97,8 +97,3 @@ NUMBERS = (LOW_1D, HIGH_1D, LOW_3D, HIGH_3D, TOLERANCE, MAP_DIMENSION, MAP_FORCE
 CHOICES = (AVERAGING, PUNCH, ROLL_OFF, CLAIMS)
 
 ModelLabel = Literal["1D", "3D"]
-
-
-def element_of(study: str, panel: int) -> str:
-    """Return the element of the page that a panel of a study belongs to."""
-    return f"study-{study}-{panel}"

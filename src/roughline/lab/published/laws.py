@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from roughline.lab.server.tasks import Progress
 from roughline.paper.claims import claims_section, judge_claims
 from roughline.paper.contact_area import AreaLaw, area_law, mean_area
 from roughline.paper.results import published_dataset, published_results
+from roughline.paper.studies import study_summaries
 from roughline.paper.tables import estimate_cell
 from roughline.paper.windows import WINDOW_AREA
 from roughline.statistics.power_law import linear_exponent, scaling_exponent
@@ -98,6 +100,12 @@ def claims(arguments: Arguments, progress: Progress) -> bytes:
             "note": section.note,
         }
     )
+
+
+def studies(arguments: Arguments, progress: Progress) -> bytes:
+    """The panels of the studies beside the paper's with their data, in the order of the page."""
+    panels = [asdict(panel) for study in study_summaries() for panel in study.panels]
+    return frame({"panels": panels})
 
 
 def _kappas(dimension: float) -> tuple[AreaLaw, AreaLaw]:

@@ -222,18 +222,6 @@ class Parts(Guarded, StaticFileHandler):
         self.set_header("Cache-Control", f"max-age={_LATER}" if is_bokehs else "no-cache")
 
 
-class Figures(Guarded):
-    """The empty figures of a view, as BokehJS reads them."""
-
-    async def get(self, view: str) -> None:
-        """Send them."""
-        self.set_header("Content-Type", "application/octet-stream")
-        figures = await self.server.figures.of_view(view)
-        if figures is None:
-            raise HTTPError(500, reason="The figures of this view could not be made")
-        self.finish(figures)
-
-
 @stream_request_body
 class Uploads(Guarded):
     """A file that a page brings, written to disk as it comes."""

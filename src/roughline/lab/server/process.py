@@ -55,7 +55,7 @@ class Process:
         self.tasks = 0
         self._ending, self._reading = threading.Lock(), threading.Lock()
         self._connection, theirs = _CONTEXT.Pipe()
-        with without_interrupts():
+        with _without_interrupts():
             self._process = _CONTEXT.Process(
                 target=_serve,
                 args=(theirs, memory, _loaded_first),
@@ -132,12 +132,12 @@ def start_forking(warm: str) -> None:
         from multiprocessing import forkserver
 
         _CONTEXT.set_forkserver_preload(["__main__", warm])
-        with without_interrupts():
+        with _without_interrupts():
             forkserver.ensure_running()
 
 
 @contextmanager
-def without_interrupts() -> Iterator[None]:
+def _without_interrupts() -> Iterator[None]:
     """Start processes that Ctrl-C does not reach, as it is meant for the server."""
     if not hasattr(signal, "pthread_sigmask"):
         yield

@@ -21,7 +21,6 @@ from roughline.errors.words import called
 from roughline.lab.server.access import is_proxy
 from roughline.lab.server.connections import Connections, most_connections
 from roughline.lab.server.handlers import (
-    Figures,
     Here,
     Login,
     Logout,
@@ -55,7 +54,6 @@ def application(server: Server) -> Application:
             (r"/here", Here),
             (r"/link", Link),
             (r"/upload", Uploads),
-            (rf"/figures/({'|'.join(server.site.figures)})", Figures),
             (r"/results/([A-Za-z0-9_-]+)/([A-Za-z0-9_.-]{1,100})", Results),
             (r"/lab/(.*)", Parts, {"path": str(server.site.parts)}),
             (r"/bokeh/(bokeh(?:-[a-z]+)?\.min\.js)", Parts, {"path": str(bokeh_folder())}),

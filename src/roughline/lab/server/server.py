@@ -8,7 +8,6 @@ from pathlib import Path
 
 from roughline.lab.server.access import Visitors
 from roughline.lab.server.budget import Disk, limits_within
-from roughline.lab.server.empty_figures import EmptyFigures
 from roughline.lab.server.lanes import Lane
 from roughline.lab.server.logins import Key, Logins
 from roughline.lab.server.session import Line, Session, Visit
@@ -38,7 +37,6 @@ class Server:
         self.sessions: dict[str, Session] = {}
         self.visitors, self.key = Visitors(), Key.of(settings.password)
         self.logins = Logins(self.end_login)
-        self.figures = EmptyFigures(site.figures)
         quick, slow = limits_within(settings.memory, settings.max_memory, settings.max_seconds)
         self.quick, self.slow = Lane(quick, lasting=True), Lane(slow, lasting=False)
         self._disk, self._writers = Disk(root, settings.max_disk), quick.most + slow.most
@@ -174,12 +172,10 @@ class Server:
         """Start processes ahead of the first page."""
         await self.quick.prepare()
         await self.slow.prepare()
-        await self.figures.of_view(next(iter(self.site.figures)))
 
     async def close(self) -> None:
         """End everything."""
         self._is_closing = True
-        self.figures.close()
         for session in list(self.sessions.values()):
             self.end_session(session)
         await asyncio.gather(self.quick.close(), self.slow.close())

@@ -1,4 +1,4 @@
-"""What a server serves: its pages, their parts and figures, and the tasks that they may ask for."""
+"""What a server serves: its pages, their parts, and the tasks that they may ask for."""
 
 from __future__ import annotations
 
@@ -18,9 +18,6 @@ class Site:
     # what was wrong, and the address to go on to
     login_page: Callable[[bool, str, str], str]
     parts: Path  # folder of scripts and styles
-    # sets of empty figures that a page embeds at once, and the module of each, whose function
-    # ``figures`` draws them; the first is wanted first
-    figures: Mapping[str, str]
     tasks: Mapping[str, Place]  # all tasks, by the names that pages know them by
     # module that is loaded before processes are forked; its function ``up`` loads the rest
     warm: str

@@ -1,5 +1,6 @@
 // Explore: a random surface under both models, as sliders move.
 import {Controls, said} from "./controls.js";
+import {exploreFigures} from "./explore-figures.js";
 import {onDraw} from "./hands.js";
 import {embedded, fillTable, markKeys} from "./plots.js";
 import {Strip} from "./strip.js";
@@ -44,7 +45,7 @@ class Explore {
     this.#take(said);
     this.#dim([...CONTACT, ...CURVES]);
     this.#askNow();
-    this.#plots = await embedded("explore");
+    this.#plots = await embedded(exploreFigures);
     for (const name of ["stiffness", "area"]) {
       this.#plots.onMove(`${name} cursor`, (force) => this.#cursorMoved(force));
       onDraw(this.#plots.root(`explore-${name}`), this.#root.querySelector(`[data-draw="${name}"]`),
@@ -196,7 +197,7 @@ class Explore {
     if (!field) return;
     let high = 2; // gap, contact, at the hardness
     if (shown !== "area") { high = 0; for (const value of field.values) if (value > high) high = value; }
-    this.#plots.colours("contact", shown === "area" ? "marks" : shown === "pressure" ? "viridis" : "cividis");
+    this.#plots.colours("contact", shown === "area" ? "marks" : shown === "pressure" ? "Viridis256" : "Cividis256");
     const low = shown === "pressure" ? 1e-6 * high : 0; // where nothing presses, the paper shows
     this.#plots.setMap("contact", field, [1, 1], [low, high || 1]);
   }

@@ -4,9 +4,9 @@ import {fillTable, markKeys} from "./plots.js";
 
 const FIELDS = {
   area: ["marks", ""],
-  pressure: ["viridis", "pressure"],
-  gap: ["cividis", "gap"],
-  displacement: ["cividis", "deflection of the half-space"],
+  pressure: ["Viridis256", "pressure"],
+  gap: ["Cividis256", "gap"],
+  displacement: ["Cividis256", "deflection of the half-space"],
 };
 
 // Fill a list of sentences; without any it is not there.
@@ -30,7 +30,7 @@ export class Pictures {
 
   // Call with the crop, as text, when a box was drawn on the map.
   onBox(drawn) {
-    const map = this.#root("measured-before");
+    const map = this.#plots.root("measured-before");
     const keep = (...corners) => {
       if (!this.#before) return;
       const {sizes, along} = this.#before;
@@ -60,7 +60,7 @@ export class Pictures {
       this.#plots.set("file line spikes", {x: file.spikes?.x ?? [], y: file.spikes?.y ?? []});
       this.#plots.set("file line missing", {x: file.missing, y: file.missing.map(() => file.range[0])});
       this.#settle("measured-file-line", `${file.sizes} ${file.along}`);
-      this.#label("file line", `x [${file.along}]`, `height [${file.up}]`);
+      this.#plots.label("measured-file-line", `x [${file.along}]`, `height [${file.up}]`);
     }
     this.#caption(file.is_map ? "file" : "file-line", `${share}; ${spikes}`);
     fillTable(file.is_map ? "measured-file" : "measured-file-line", ["heights", ""], file.rows);
@@ -72,7 +72,7 @@ export class Pictures {
     if (!spectrum) return;
     this.#plots.set("spectrum", {x: spectrum.q, y: spectrum.power});
     this.#plots.set("spectrum law", {x: spectrum.law?.q ?? [], y: spectrum.law?.power ?? []});
-    this.#label("spectrum", null, spectrum.label);
+    this.#plots.label("measured-spectrum", null, spectrum.label);
     this.#caption("spectrum", spectrum.title);
     fillTable("measured-spectrum", ["q [1/m]", spectrum.label], spectrum.rows);
   }
@@ -94,7 +94,7 @@ export class Pictures {
         y: [...prepared.arrays["body heights"].values].map((y) => y * factor),
       });
       this.#settle("measured-prepared-line", `${before.sizes} ${before.along}`);
-      this.#label("prepared line", `x [${before.along}]`, `height [${before.up}]`);
+      this.#plots.label("measured-prepared-line", `x [${before.along}]`, `height [${before.up}]`);
       fillTable("measured-prepared-line", ["heights", "before", "after"], before.rows.map(([name, value], i) => [name, value, after.rows[i]?.[1] ?? "-"]));
       return;
     }
@@ -149,12 +149,12 @@ export class Pictures {
   // One answer of each map of a part, their mean, and the interval of the part.
   drawPart({names, load, name, unit, values, low, high, mean, interval}) {
     const maps = names.map((text, i) => `${i + 1} ${text.length > 18 ? `${text.slice(0, 17)}…` : text}`);
-    this.#root("measured-part").x_range.factors = maps;
+    this.#plots.root("measured-part").x_range.factors = maps;
     this.#plots.set("part", {map: maps, y: values, low, high});
     this.#plots.model("part mean").setv({location: mean ?? 0, visible: mean !== null});
     this.#plots.model("part interval").setv({bottom: interval[0] ?? 0, top: interval[1] ?? 0, visible: interval[0] !== null});
     this.#plots.span("measured-part", "y", [...values, ...low, ...high, mean, ...interval]);
-    this.#label("part", null, unit ? `${name} [${unit}]` : name);
+    this.#plots.label("measured-part", null, unit ? `${name} [${unit}]` : name);
     this.#caption("part", `at ${load}; marks: each map and its interval; band: that of the mean, for the part`);
     this.#settle("measured-part", `${maps} ${name}`);
     const cell = (value) => (Number.isFinite(value) ? `${value.toPrecision(3)} ${unit}` : "-");
@@ -175,7 +175,7 @@ export class Pictures {
     this.#plots.set(`${name} interval`, {x: ends.map((i) => plot.force[i]), low: ends.map((i) => interval[0][i]), high: ends.map((i) => interval[1][i])});
     const known = plot.theories.filter((each) => each[name]);
     this.#plots.set(`${name} theories`, {xs: known.map((each) => each.force), ys: known.map((each) => each[name]), name: known.map((each) => each.name)});
-    this.#label(name, `force F${plot.is_of_joint ? " on the joint" : ""} [${plot.force_unit}]`, label);
+    this.#plots.label(`measured-${name}`, `force F${plot.is_of_joint ? " on the joint" : ""} [${plot.force_unit}]`, label);
     this.#caption(name, known.length ? `dashed: ${known.map((each) => each.name).join(", ")}` : "");
   }
 
@@ -191,7 +191,7 @@ export class Pictures {
   #settle(id, extent) {
     if (this.#unsettled.size === 0) requestAnimationFrame(() => {
       for (const [name, isOther] of this.#unsettled) {
-        const view = Bokeh.index.find_one(this.#root(name));
+        const view = Bokeh.index.find_one(this.#plots.root(name));
         view?.invalidate_layout();
         if (isOther) view?.reset();
       }
@@ -202,11 +202,9 @@ export class Pictures {
     this.#unsettled.set(id, isOther || (this.#unsettled.get(id) ?? false));
   }
 
-  #map(name, {values, shape, dtype}, {sizes, along, x = 0, y = 0}, [low, high], unit) {
-    const {ndarray} = Bokeh.require("core/util/ndarray");
-    this.#plots.model(`${name} colours`).setv({low, high: high > low ? high : low + 1});
-    this.#plots.set(name, {image: [ndarray(values, {dtype, shape})], x: [x], y: [y], dw: [sizes[0]], dh: [sizes[1]]});
-    this.#label(name, `x [${along}]`, `y [${along}]`);
+  #map(name, array, {sizes, along, x = 0, y = 0}, [low, high], unit) {
+    this.#plots.setMap(name, array, sizes, [low, high > low ? high : low + 1], [x, y]);
+    this.#plots.label(`measured-${name}`, `x [${along}]`, `y [${along}]`);
     this.#plots.model(`${name} bar`).title = unit ? `[${unit}]` : "";
     this.#settle(`measured-${name}`, name === "after" ? undefined : `${sizes} ${along}`);
   }
@@ -218,12 +216,6 @@ export class Pictures {
     this.#plots.model("crop box").setv({visible: crop !== "", left: x, right: x + width, bottom: y, top: y + height});
   }
 
-  #label(name, x, y) {
-    if (x) this.#plots.model(`${name} x`).axis_label = x;
-    if (y) this.#plots.model(`${name} y`).axis_label = y;
-  }
-
-  #root(name) { return this.#plots.made.roots().find((root) => root.name === name); }
   #toggle(id, isShown) {
     this.#view.find(`#${id}`).hidden = !isShown;
     if (isShown) this.#settle(id);

@@ -1,6 +1,7 @@
 // My surface: a file of an instrument, prepared, pressed, and answered for.
 import {Controls} from "./controls.js";
 import {Answers} from "./measured-answers.js";
+import {measuredFigures} from "./measured-figures.js";
 import {Source} from "./measured-file.js";
 import {Part} from "./measured-part.js";
 import {Pictures, fillList} from "./measured-pictures.js";
@@ -63,7 +64,7 @@ class Measured {
     this.#askBodies();
     if (said.example) this.look();
     this.#link.ready.then((opened) => this.#find(opened));
-    this.#pictures = new Pictures(this, await embedded("measured"));
+    this.#pictures = new Pictures(this, await embedded(measuredFigures));
     this.#answers.pictures = this.#pictures;
     this.#pictures.onBox((crop) => this.set("crop", crop));
     if (this.#isAwaited) this.look();

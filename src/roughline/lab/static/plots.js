@@ -1,35 +1,39 @@
 // Plots of Bokeh: embedding, data, colours of the theme, and the tables below them.
 import {takeHands} from "./hands.js";
-import {unpacked} from "./link.js";
 
 const documents = [], allPlots = [];
 
 // BokehJS is loaded beside the page, which asks its first questions meanwhile.
-const bokeh = new Promise((loaded) => {
-  if (window.Bokeh) loaded();
-  else document.querySelector("#bokeh").addEventListener("load", loaded);
-});
+const bokeh = Promise.all(["bokeh.min.js", "bokeh-api.min.js"].map((name) => new Promise((resolve) => {
+  const script = Object.assign(document.createElement("script"), {src: `/bokeh/${name}`, async: false}); // the second needs the first
+  script.addEventListener("load", resolve);
+  document.head.append(script);
+})));
 
-// Embed the figures of a view; returns what changes them.
-export async function embedded(view) {
-  const [response] = await Promise.all([fetch(`/figures/${view}`), bokeh]);
-  if (!response.ok) throw new Error(await response.text());
-  const {documents: content, items, palettes} = unpacked(await response.arrayBuffer());
-  const [views] = await Bokeh.embed.embed_items(content, items);
-  const made = views.roots[0].model.document; // others may be embedded meanwhile
+// Embed the figures that are declared, by the elements that they belong to, less "plot-"; returns what changes them.
+// They are in one document, so that they may share ranges.
+export async function embedded(declared) {
+  await bokeh;
+  const made = new Bokeh.Document(), figures = Object.entries(declared());
+  for (const [name, figure] of figures) {
+    figure.name = name;
+    made.add_root(figure);
+  }
   documents.push(made);
   recolour(made);
+  await Bokeh.embed.add_document_standalone(made, document.body, figures.map(([name]) => placeOf(name)));
   for (const root of made.roots()) takeHands(root);
-  return new Plots(made, palettes);
+  return new Plots(made);
 }
+
+function placeOf(plot) { return document.querySelector(`#plot-${CSS.escape(plot)}`); }
 
 export class Plots {
   #shown = new Map();
   #palette = {};
 
-  constructor(made, palettes) {
+  constructor(made) {
     this.made = made;
-    this.palettes = palettes;
     allPlots.push(this);
     for (const root of made.roots()) {
       Bokeh.index.find_one(root)?.repainted.connect(() => this.#tellDrawn(root.name));
@@ -49,7 +53,7 @@ export class Plots {
     if (!shown?.length) return;
     this.#shown.delete(plot);
     requestAnimationFrame(() => {
-      const element = document.querySelector(`#plot-${CSS.escape(plot)}`);
+      const element = placeOf(plot);
       for (const detail of shown) {
         element.dataset.shown = JSON.stringify(detail);
         element.dispatchEvent(new CustomEvent("drawn", {detail, bubbles: true}));
@@ -64,18 +68,25 @@ export class Plots {
   // Give a source its columns.
   set(name, columns) { this.model(name).data = columns; }
 
-  // Give a map its image over both sides, and its colours their range.
-  setMap(name, {values, shape, dtype}, [width, height], [low, high]) {
+  // Give a map its image over both sides from a corner, and the colours of its numbers their range.
+  setMap(name, {values, shape, dtype}, [width, height], [low, high], [x, y] = [0, 0]) {
     const {ndarray} = Bokeh.require("core/util/ndarray");
-    if (low !== undefined) this.model(`${name} colours`).setv({low, high});
-    this.set(name, {image: [ndarray(values, {dtype, shape})], x: [0], y: [0], dw: [width], dh: [height]});
+    this.model(`${name} colours`)?.setv({low, high});
+    this.set(name, {image: [ndarray(values, {dtype, shape})], x: [x], y: [y], dw: [width], dh: [height]});
+  }
+
+  // Name the axes of a plot; one without a name keeps its own.
+  label(plot, x, y) {
+    const {xaxes, yaxes} = this.root(plot);
+    if (x) xaxes[0].axis_label = x;
+    if (y) yaxes[0].axis_label = y;
   }
 
   // Give a map a palette: one of Bokeh's, or "marks": gap, contact, contact at the hardness.
   colours(name, palette) {
     if (this.#palette[name] === `${palette} ${colour("paper")}`) return;
     this.#palette[name] = `${palette} ${colour("paper")}`;
-    const wanted = palette === "marks" ? [colour("paper"), colour("ink"), colour("plastic")] : this.palettes[palette];
+    const wanted = palette === "marks" ? [colour("paper"), colour("ink"), colour("plastic")] : Bokeh.Palettes[palette];
     this.model(`${name} colours`).setv({palette: wanted, low_color: colour("paper")});
     this.model(`${name} bar`).visible = palette !== "marks";
   }
@@ -99,7 +110,7 @@ export class Plots {
     };
     this.observer?.disconnect();
     this.observer = new ResizeObserver(() => setTimeout(fit, 100));
-    this.observer.observe(document.querySelector(`#plot-${names[0]}`));
+    this.observer.observe(placeOf(names[0]));
     fit();
   }
 
@@ -199,7 +210,7 @@ export function recolourAll() {
 const known = new Map(); // colours: to ask for one makes the browser style the page again
 
 // A colour of the theme by its name in the style of the page.
-function colour(name) {
+export function colour(name) {
   if (!known.has(name)) known.set(name, getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
   return known.get(name);
 }

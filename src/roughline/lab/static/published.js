@@ -2,8 +2,9 @@
 import {Controls, said as asText} from "./controls.js";
 import {onDraw, onTouch} from "./hands.js";
 import {embedded} from "./plots.js";
-import {drawArea, drawExponents, drawFits, drawStiffness, showFits, tableOfExponents} from "./published_curves.js";
-import {Bodies, drawPoint, drawTrust, showClaims, watchStudies} from "./published_maps.js";
+import {publishedFigures} from "./published-figures.js";
+import {drawArea, drawExponents, drawFits, drawStiffness, showFits, tableOfExponents} from "./published-curves.js";
+import {Bodies, drawPoint, drawTrust, showClaims, watchStudies} from "./published-maps.js";
 import {Strip} from "./strip.js";
 import {Waiting} from "./waiting.js";
 
@@ -43,12 +44,13 @@ class Published {
     this.#take(texts);
     this.#askAll();
     await Promise.race([this.#numbers, new Promise((resolve) => setTimeout(resolve, LATEST))]);
-    this.#plots = await embedded("published");
+    const rollOffs = [...this.#root.querySelectorAll("[data-trust]")].map((each) => each.dataset.trust);
+    this.#plots = await embedded(() => publishedFigures(rollOffs));
     for (const model of MODELS) this.#bindWindow(model);
     this.#bindMaps();
     this.#drawAll();
     this.#bodies.watch();
-    watchStudies();
+    watchStudies(this.#link);
     new MutationObserver(() => { this.#drawAll(); this.#bodies.recolour(); })
       .observe(document.documentElement, {attributeFilter: ["data-theme"]});
     this.#opening = false;

@@ -1,5 +1,5 @@
 // What the figures of the paper show: curves by fractal dimension, fits, exponents, κ.
-import {fillTable} from "./plots.js";
+import {colour as colourOf, fillTable} from "./plots.js";
 
 const MARKERS = ["circle", "square", "diamond", "triangle", "inverted_triangle", "plus"];
 const MOST_MARKS = 24;
@@ -9,9 +9,8 @@ export function drawCurves(plots, name, curves) {
   const sure = {xs: [], ys: [], colour: []}, unsure = {xs: [], ys: [], colour: []};
   const bands = {xs: [], ys: [], colour: []};
   const marks = {x: [], y: [], colour: [], marker: [], D_f: []};
-  const [colours] = plots.model("published-area").tags; // by theme
   for (const {index, D_f, force_bar, mean, low, high, resolved} of curves) {
-    const colour = colours[document.documentElement.dataset.theme][index];
+    const colour = colourOf(`ramp-${index}`);
     for (const [part, wanted] of [[sure, true], [unsure, false]]) {
       for (const {xs, ys} of runs(force_bar, mean, resolved, wanted)) {
         part.xs.push(xs);
@@ -60,7 +59,7 @@ function runs(force, mean, resolved, wanted) {
 export function drawStiffness(plots, model, {curves, saturated, label, header, rows}) {
   drawCurves(plots, `stiffness ${model}`, curves);
   plots.model(`saturated ${model}`).location = saturated;
-  plots.model(`published-stiffness-${model}`).left[0].axis_label = label;
+  plots.label(`published-stiffness-${model}`, null, label);
   fillTable(`published-stiffness-${model}`, header, rows);
 }
 

@@ -1,6 +1,7 @@
 // The trust map, the claims and the bodies of the view "The paper".
-import {colourVerdicts} from "./published_curves.js";
-import {embedded, fillTable} from "./plots.js";
+import {colourVerdicts} from "./published-curves.js";
+import {colour, embedded, fillTable} from "./plots.js";
+import {bodyFigures, studyFigure} from "./published-figures.js";
 import {Waiting} from "./waiting.js";
 
 const INDENTED = 1; // row of the bodies that Figure 2 shows
@@ -50,11 +51,16 @@ export function showClaims({header, rows, verdicts, counts, note}, wanted) {
   document.querySelector('[data-status="claims"]').textContent = `${kept.length} of ${rows.length} claims shown; ${counted}`;
 }
 
-// The figures of the studies, embedded when one of them comes into sight.
-export function watchStudies() {
+// The figures of the studies, drawn when one of them comes into sight.
+export function watchStudies(link) {
   const studies = document.querySelectorAll("#published .study");
   for (const study of studies) colourVerdicts(study);
-  seen(studies, () => embedded("studies"));
+  seen(studies, () => link.ask("published.studies", "studies", {}, {
+    answer: ({panels}) => {
+      const places = [...document.querySelectorAll("#published .study .plot")].map(({id}) => id.replace("plot-", ""));
+      embedded(() => Object.fromEntries(panels.map((panel, i) => [places[i], studyFigure(panel)])));
+    },
+  }));
 }
 
 // Call once, when one of the elements comes into sight.
@@ -83,13 +89,12 @@ export class Bodies {
   // Embed the figures and compute as soon as they come into sight.
   watch() {
     seen([this.#root], () => {
-      embedded("bodies").then((plots) => { this.#plots = plots; this.#press(); });
+      embedded(() => bodyFigures(ROWS)).then((plots) => { this.#plots = plots; this.#press(); });
     });
   }
 
   recolour() {
-    const style = getComputedStyle(document.documentElement);
-    const palette = ["--paper", "--ink"].map((colour) => style.getPropertyValue(colour).trim());
+    const palette = ["paper", "ink"].map(colour);
     for (const row of this.#found.keys()) this.#plots.model(`contact ${row} colours`).setv({palette});
   }
 
@@ -117,7 +122,7 @@ export class Bodies {
     this.#waiting.progress({done: this.#found.size, total: ROWS, left: null});
     const z = Array.from(arrays.line.values), x = z.map((_, i) => i / z.length);
     plots.set(`line ${row}`, {x, z});
-    for (const what of ["topography", "contact", "deflection"]) plots.set(`${what} ${row}`, image(arrays[what]));
+    for (const what of ["topography", "contact", "deflection"]) plots.setMap(`${what} ${row}`, arrays[what], [1, 1], [0, 1]);
     this.recolour();
     const all = Math.max(...[...this.#found.values()].map((each) => each.deepest));
     document.querySelector("[data-deepest]").textContent = all.toPrecision(3);
@@ -140,10 +145,4 @@ export class Bodies {
   }
 
   #say(text) { this.#root.querySelector("[data-status]").textContent = text; }
-}
-
-// The column of an image over both sides.
-function image({values, shape, dtype}) {
-  const {ndarray} = Bokeh.require("core/util/ndarray");
-  return {image: [ndarray(values, {dtype, shape})], x: [0], y: [0], dw: [1], dh: [1]};
 }

@@ -1,0 +1,69 @@
+// The figures of Explore.
+import {LOGARITHMIC, add, draw, drawImage, plot} from "./figures.js";
+
+const FORCE = "force F / (E* h L)", FORCES = [1e-4, 10];
+const DASHES = ["dashed", "dotted", "dashdot"]; // of theories
+const MARKS = [ // of the full model: source, name, colour, and how they look
+  ["curve", "3D", "dark-line", {marker: "circle", size: 7}],
+  ["unsure", "3D, fewer than ten cells touch", "dark-line", {marker: "circle", size: 7, fill_alpha: 0}],
+  ["unloading", "3D, on unloading", "mark", {marker: "triangle", size: 7, fill_alpha: 0}],
+  ["back", "3D, way back from this load", "here", {marker: "square", size: 5}],
+  ["here", "3D, this load", "here", {marker: "circle", size: 13}],
+];
+
+export function exploreFigures() {
+  const sides = [1, 2].map(() => new Bokeh.Range1d({start: 0, end: 1}));
+  return {
+    "explore-topography": map("topography", sides, "height / h", true),
+    "explore-contact": map("contact", sides, "", false),
+    "explore-stiffness": stiffness(),
+    "explore-area": area(),
+    "explore-spectrum": spectrum(),
+  };
+}
+
+function map(name, sides, title, isOfColours) {
+  const made = plot(["x / L", "y / L"], sides, {min_border_left: 62, min_border_right: 84}); // maps side by side are alike
+  const color_mapper = drawImage(made, name, {isOfColours});
+  add(made, "ColorBar", `${name} bar`, {color_mapper, title, width: 14, padding: 4}, "right");
+  add(made, "BoxAnnotation", `${name} border`, {left: 0, right: 1, bottom: 0, top: 1, fill_alpha: 0, line_width: 1, colours: {line_color: "line"}});
+  return made;
+}
+
+function stiffness() {
+  const made = plot([FORCE, "stiffness k̄"], [FORCES, [1e-3, 1.6]], LOGARITHMIC);
+  const legend = "1D, mean and range of single lines";
+  draw(made, "varea", "stiffness line", {fill_alpha: 0.25, legend, colours: {fill_color: "light-line"}});
+  draw(made, "line", "stiffness line", {line_width: 2.5, legend, colours: {line_color: "light-line"}});
+  drawLoads(made, "stiffness");
+  return made;
+}
+
+function area() {
+  const made = plot([FORCE, "real contact area A / A₀"], [FORCES, [1e-4, 1.3]], LOGARITHMIC);
+  drawLoads(made, "area");
+  return made;
+}
+
+function spectrum() {
+  const made = plot(["waves along the side, q L / 2π", "C_2d [m⁴]"], [[0.8, 300], [1e-20, 1e-10]], LOGARITHMIC);
+  draw(made, "scatter", "spectrum", {size: 4, colours: {fill_color: "mark", line_color: "mark"}});
+  draw(made, "line", "spectrum", {columns: {y: "law"}, line_width: 2, colours: {line_color: "here"}});
+  return made;
+}
+
+// Add theories, the loads of the full model, the present one, and the cursor that sets it.
+function drawLoads(made, name) {
+  for (const [i, line_dash] of DASHES.entries()) {
+    draw(made, "line", `${name} theory ${i}`, {line_dash, line_width: 2, colours: {line_color: "theory"}});
+  }
+  for (const [what, legend, colour, look] of MARKS) {
+    if (what === "back") draw(made, "line", `${name} back`, {line_width: 2, legend, colours: {line_color: colour}});
+    draw(made, "scatter", `${name} ${what}`, {line_width: 1.5, legend, ...look, colours: {fill_color: colour, line_color: colour}});
+    made.legend.items.at(-1).visible = what === "curve" || what === "here"; // the others are shown if there are any
+  }
+  add(made, "Span", `${name} cursor`, {
+    dimension: "height", location: 0.1, line_width: 3, editable: true, colours: {line_color: "here", hover_line_color: "mark"},
+  });
+  made.legend.location = "bottom_right";
+}

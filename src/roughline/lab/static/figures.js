@@ -1,0 +1,74 @@
+// How plots of Bokeh are declared: what they draw comes later, into sources of the names that are given here. Their
+// colours are names of the theme, by the attributes of Bokeh that they are of, such as line_color.
+const ZOOM = 0.25; // of a click on a tool, in sides of the plot
+const IMAGE = {image: "image", x: "x", y: "y", dw: "dw", dh: "dh"};
+const COLUMNS = { // that glyphs take
+  line: {x: "x", y: "y"},
+  scatter: {x: "x", y: "y"},
+  varea: {x: "x", y1: "low", y2: "high"},
+  multi_line: {xs: "xs", ys: "ys"},
+  patches: {xs: "xs", ys: "ys"},
+  quad: {left: "left", right: "right", bottom: "bottom", top: "top"},
+  image: IMAGE,
+  image_rgba: IMAGE,
+};
+const DASHES = {dashed: [6], dotted: [2, 4], dashdot: [6, 4, 2, 4]}; // as long for lines of any width
+export const LOGARITHMIC = {x_axis_type: "log", y_axis_type: "log"};
+
+// An empty plot with the labels of its axes; its ranges follow what is drawn if there are none.
+export function plot([x_axis_label, y_axis_label], [x_range, y_range] = [], look = {}) {
+  const made = new Bokeh.Plotting.Figure({
+    x_axis_label, y_axis_label, x_range, y_range, tools: tools(look.match_aspect), sizing_mode: "stretch_both", ...look,
+  });
+  for (const axis of made.axes) axis.major_label_policy = new Bokeh.NoOverlap();
+  made.toolbar.setv({logo: null, autohide: true});
+  return made;
+}
+
+// Tools for the mouse; the wheel is left to the page.
+function tools(match_aspect = false) {
+  const zooms = [new Bokeh.ZoomInTool({factor: ZOOM}), new Bokeh.ZoomOutTool({factor: ZOOM})];
+  return [new Bokeh.PanTool(), new Bokeh.BoxZoomTool({match_aspect}), ...zooms, new Bokeh.ResetTool(), new Bokeh.SaveTool()];
+}
+
+// Let a plot draw the columns of a source, which several glyphs may share; its item of the legend is its "label".
+export function draw(plot, kind, name, {columns, colours = {}, legend: legend_label, ...look} = {}) {
+  const fields = Object.fromEntries(Object.entries({...COLUMNS[kind], ...columns}).map(([key, field]) => [key, {field}]));
+  if (look.line_dash in DASHES) look.line_dash = {value: DASHES[look.line_dash]};
+  const source = plot.renderers.find(({data_source}) => data_source.name === name)?.data_source
+    ?? new Bokeh.ColumnDataSource({name});
+  const wanted = [...Object.values({...fields, ...look}).map((each) => each?.field), look.legend_field].filter(Boolean);
+  source.data = {...source.data, ...Object.fromEntries(wanted.map((column) => [column, []]))};
+  const drawn = plot[kind]({...fields, ...look, source, legend_label});
+  drawn.setv({selection_glyph: "auto", nonselection_glyph: "auto", hover_glyph: null}); // else each is drawn in Bokeh's blue
+  drawn.glyph.tags = [{colours}];
+  if (legend_label) plot.legend.items.at(-1).name = `${name} label`;
+  return drawn;
+}
+
+// Draw an image of numbers, whose colours have the name of its source and "colours", or one of colours.
+export function drawImage(plot, name, {isOfColours = false, ...look} = {}) {
+  const mapper = new Bokeh.LinearColorMapper({palette: Bokeh.Palettes.Cividis256, low: -1, high: 1, name: `${name} colours`, ...look});
+  if (isOfColours) draw(plot, "image_rgba", name);
+  else draw(plot, "image", name, {color_mapper: mapper});
+  for (const grid of plot.grids) grid.visible = false;
+  return mapper;
+}
+
+// Add what is no glyph: a span, a box, whiskers, a colour bar.
+export function add(plot, kind, name, {colours = {}, ...look}, side = "center") {
+  const added = new Bokeh[kind]({name, tags: [{colours}], ...look});
+  plot.add_layout(added, side);
+  return added;
+}
+
+// Draw marks with their intervals, from "low" to "high".
+export function drawIntervals(plot, name, colour, {size = 8, ...look} = {}) {
+  const {data_source: source} = draw(plot, "scatter", name, {size, ...look, colours: {fill_color: colour, line_color: colour}});
+  source.data = {...source.data, low: [], high: []};
+  const head = () => new Bokeh.TeeHead({size: size - 1, tags: [{colours: {line_color: colour}}]});
+  add(plot, "Whisker", `${name} intervals`, {
+    base: {field: "x"}, lower: {field: "low"}, upper: {field: "high"}, source, level: "overlay",
+    upper_head: head(), lower_head: head(), colours: {line_color: colour},
+  });
+}
