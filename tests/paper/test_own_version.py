@@ -11,7 +11,7 @@ import pytest
 
 import roughline as rl
 from roughline import campaign
-from roughline.cli.study import study_of
+from roughline.cli.paper import study_of
 from roughline.paper.plan import paper_plan, with_settings
 from roughline.paper.results import results_of_store
 from roughline.paper.roles import departures, roles_of

@@ -12,12 +12,12 @@ from typer.exceptions import TyperException
 from roughline._version import __version__
 from roughline.cli.about import about
 from roughline.cli.campaign import app as campaign_app
-from roughline.cli.campaign import paper
 from roughline.cli.comparison import compare_command
 from roughline.cli.contact import press_command
 from roughline.cli.flags import FLAGS
 from roughline.cli.help import PanelsFirst
 from roughline.cli.lab import lab
+from roughline.cli.paper import paper
 from roughline.cli.topography import generate, info
 from roughline.cli.usage import NOT_OFFERED, in_one_line, refuse_empty
 from roughline.errors import ConvergenceError, RoughlineError

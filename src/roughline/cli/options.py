@@ -17,7 +17,6 @@ from roughline.assessment.fields import FIELDS, Field
 from roughline.errors import InputError, RoughlineError
 from roughline.errors.checks import refuse
 
-SPECTRUM = "Spectrum"
 Told = Mapping[str, Any]
 """Values of options by the names of their fields."""
 
@@ -36,7 +35,7 @@ def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., N
             command(**given, told=told)
 
         options = [
-            inspect.Parameter(each.name, first.kind, default=None, annotation=option_of(each))
+            inspect.Parameter(each.name, first.kind, default=None, annotation=_option_of(each))
             for each in fields
         ]
         parameters = [first, *options, *others]
@@ -47,7 +46,7 @@ def with_fields(*groups: str) -> Callable[[Callable[..., None]], Callable[..., N
     return with_options
 
 
-def option_of(field: Field) -> Any:
+def _option_of(field: Field) -> Any:
     """The option of a field, as an annotation; where it is not given, its value is None."""
     kind: Any = field.kind
     text, otherwise = field.help.rstrip("."), field.otherwise
@@ -66,28 +65,21 @@ def option_of(field: Field) -> Any:
     return Annotated[kind | None, option]
 
 
-Hurst = Annotated[
-    float | None, typer.Option(help="Hurst exponent, 0 to 1.", rich_help_panel=SPECTRUM)
-]
+def _of_spectrum(text: str) -> Any:
+    """An option of a spectrum."""
+    return typer.Option(help=text, rich_help_panel="Spectrum")
+
+
+Hurst = Annotated[float | None, _of_spectrum("Hurst exponent, 0 to 1.")]
 FractalDimension = Annotated[
-    float | None,
-    typer.Option(
-        help="Fractal dimension, 2 to 3, instead of the Hurst exponent.", rich_help_panel=SPECTRUM
-    ),
+    float | None, _of_spectrum("Fractal dimension, 2 to 3, instead of the Hurst exponent.")
 ]
 RollOff = Annotated[
-    str | None,
-    typer.Option(
-        help='Wavelength above which the spectrum is flat, such as "0.2 mm".',
-        rich_help_panel=SPECTRUM,
-    ),
+    str | None, _of_spectrum('Wavelength above which the spectrum is flat, such as "0.2 mm".')
 ]
 Cutoff = Annotated[
     str | None,
-    typer.Option(
-        help='Shortest wavelength, such as "5 um" [default: that of the grid].',
-        rich_help_panel=SPECTRUM,
-    ),
+    _of_spectrum('Shortest wavelength, such as "5 um" [default: that of the grid].'),
 ]
 Points = Annotated[int, typer.Option("-n", "--points", help="Points along a side.")]
 SeedOption = Annotated[int, typer.Option(min=0, help="Root of all random seeds.")]
@@ -146,6 +138,11 @@ def print_json(content: dict[str, Any]) -> None:
     from roughline.report.json_output import to_json
 
     typer.echo(to_json(content))
+
+
+def kept_in(place: Path) -> str:
+    """Say where what is done is kept, and how to go on from there."""
+    return f"what is done is kept in {place}: run again to go on"
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""How the options of `roughline paper` are read: the paper's study, or a version of one's own."""
+"""The command that recomputes the paper, or a version of one's own, from the options of that."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ import shlex
 from collections.abc import Callable, Mapping
 from operator import lt
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
+import typer
+
+from roughline.cli.options import Json, Scheduler, Workers, interruptible, kept_in, print_json
 from roughline.errors import InputError
 from roughline.errors.checks import refuse, shown
 
@@ -35,6 +38,94 @@ _NEEDED: dict[str, tuple[Callable[[Any], bool], str]] = {
     ),
 }
 """What the settings of a study must be, and how that is said."""
+
+
+def _own(text: str, *names: str) -> Any:
+    """An option of a version of one's own."""
+    return typer.Option(*names, help=text, rich_help_panel="A version of your own")
+
+
+def paper(
+    scale: Annotated[
+        Literal["quick", "full"] | None,
+        typer.Option(
+            help="quick: minutes on two cores; full: the paper's sizes, hours [default: quick]."
+        ),
+    ] = None,
+    out: Annotated[Path, typer.Option(help="Folder for results and report.")] = Path(
+        "roughline-paper"
+    ),
+    fractal_dimensions: Annotated[
+        str | None, _own('Of surfaces and lines, 2 to 3, such as "2.1, 2.5, 2.9".')
+    ] = None,
+    points: Annotated[
+        int | None, _own("Points along a side of the surfaces.", "-n", "--points")
+    ] = None,
+    realisations: Annotated[int | None, _own("Surfaces for each fractal dimension.")] = None,
+    line_points: Annotated[int | None, _own("Points of the lines.")] = None,
+    lines: Annotated[int | None, _own("Lines for each fractal dimension.")] = None,
+    force_bars: Annotated[
+        str | None,
+        _own(
+            "Loads F / (E* h L) of the surfaces and of the lines with their waves: "
+            '"0.01, 0.1, 1", or "0.001 to 10, 6 per decade".'
+        ),
+    ] = None,
+    plan: Annotated[
+        Path | None,
+        _own("A plan of your own in TOML, with surfaces and lines, instead of the paper's."),
+    ] = None,
+    store: Annotated[
+        Path | None,
+        _own(
+            "Folder for the results of your plan [default: that of the plan's file, ending in "
+            ".zarr]; without a plan, a finished store to report on."
+        ),
+    ] = None,
+    window: Annotated[
+        str | None,
+        _own('Loads in which exponents of surfaces are fitted [default: "0.01, 0.1"].'),
+    ] = None,
+    line_window: Annotated[
+        str | None,
+        _own('Loads in which exponents of lines are fitted [default: "0.0001, 0.01"].'),
+    ] = None,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="Root of all random seeds [default: 2012].")
+    ] = None,
+    workers: Workers = None,
+    scheduler: Scheduler = None,
+    json: Json = False,
+) -> None:
+    """Recompute the paper: both models, its figures, and a report with a verdict on each claim.
+
+    Interrupt at any time with Ctrl-C: finished results are kept, and the same command continues
+    from there.
+    """
+    from roughline.paper.study import recompute
+    from roughline.report.progress import campaign_progress
+    from roughline.report.terminal import announce
+
+    of_paper = {
+        "scale": scale,
+        "seed": seed,
+        "fractal-dimensions": fractal_dimensions,
+        "points": points,
+        "realisations": realisations,
+        "line-points": line_points,
+        "lines": lines,
+        "force-bars": force_bars,
+    }
+    windows = {"window": window, "line-window": line_window}
+    study = study_of(of_paper, windows, plan, store, out)
+    with interruptible(kept_in(study.store)), campaign_progress() as progress:
+        page = recompute(
+            study, out, workers=workers, scheduler=scheduler, progress=progress, announce=announce
+        )
+    if json:
+        print_json({"report": page})
+    else:
+        typer.echo(f"report: {page}")
 
 
 def study_of(
