@@ -9,7 +9,7 @@ import pytest
 import xarray
 
 import roughline as rl
-from roughline.assessment import grid
+from roughline.assessment import case
 from roughline.assessment import loads as load_cases
 from roughline.report.values import scale_of
 from roughline.units import decimal, engineering
@@ -123,7 +123,7 @@ def test_the_grids_error_is_estimated_unasked_where_it_is_cheap(
     assert code == 0, errors
     assert INTERVAL.search(out)
     assert "grid error not estimated" not in out
-    monkeypatch.setattr(grid, "_CHEAP", 10)
+    monkeypatch.setattr(case, "_CHEAP", 10)
     code, out, _ = invoke("press", rough, *PAIR, *arguments)
     assert "grid error not estimated" in out
     assert "twice as long; with --grid-error it is estimated" in " ".join(out.split())

@@ -10,12 +10,11 @@ from roughline.assessment.case import Case
 from roughline.assessment.hardness import hardness_of
 from roughline.assessment.kinds import has_spectrum, nominal_area
 from roughline.assessment.larger_surface import stiffness_of_the_piece
-from roughline.assessment.loads import asked_loads
 from roughline.assessment.question import Question
 from roughline.assessment.solution import Solution
 from roughline.contact.curve import Curve
 from roughline.contact.selection import at_loads
-from roughline.engineering.intervals import Ends, Intervals
+from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.pair import MaterialPair
 from roughline.engineering.pressed import Interface, Pressed
 from roughline.engineering.rule import Answer
@@ -36,12 +35,12 @@ def answers_of(
         question = replace(question, hardness=hardness)
     if question.pair is None:
         return {}, []
-    asked = asked_loads(case.loads, solution.curve.status.size)
+    asked = case.loads.asked_of(solution.curve)
     curve = at_loads(solution.curve, asked)
-    intervals = None if solution.intervals is None else solution.intervals.at(asked)
+    intervals = taken(solution.intervals, asked)
     interface = None
     if solution.larger is not None:
-        interface = solution.larger.stiffness.at(asked)
+        interface = taken(solution.larger.stiffness, asked)
         # what one piece leaves open is narrower than what is unknown without the grid's error
         interface = interface.bare if intervals is None else interface
     elif not question.periodic:

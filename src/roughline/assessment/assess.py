@@ -10,7 +10,7 @@ from roughline.assessment.answers import answers_of
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
 from roughline.assessment.cost import Announce, tell_cost
-from roughline.assessment.loads import LoadProgress, asked_loads
+from roughline.assessment.loads import LoadProgress
 from roughline.assessment.question import Question
 from roughline.assessment.remarks import notes_of, warnings_of
 from roughline.assessment.scatter import elastic_answers, scatter_of
@@ -18,6 +18,7 @@ from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import solution_of, solution_of_scan
 from roughline.assessment.variants import AS_ASKED, Curves, Stopped, press_all, variants_of
 from roughline.contact.curve import Curve
+from roughline.engineering.intervals import taken
 from roughline.errors import InputError
 from roughline.errors.public import public
 from roughline.theories.theory_curve import TheoryCurve
@@ -62,7 +63,7 @@ def assess_body(
         _refuse_all_at_the_hardness(case, solution.curve)
     answers, left_out = answers_of(case, solution)
     scatter = scatter_of(case, curves, solution, answers)
-    asked = asked_loads(case.loads, solution.curve.status.size)
+    asked = case.loads.asked_of(solution.curve)
     result = Assessment(
         question,
         case.parts,
@@ -73,9 +74,9 @@ def assess_body(
         interrupted=bool(curves.stopped),
         answers=scatter.answers,
         left_out=left_out,
-        elastic=elastic_answers(case, curves, solution),
+        elastic=elastic_answers(case, curves),
         hardness_scatter=scatter.ratios,
-        larger=None if solution.larger is None else solution.larger.at(asked),
+        larger=taken(solution.larger, asked),
         theories=_theories(question, case.body, solution.curve),
         partial_slip=slip_at_largest_load(case, curves),
     )

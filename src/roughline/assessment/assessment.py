@@ -19,7 +19,7 @@ from roughline.computing.summary import summary
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
 from roughline.contact.selection import at_loads
-from roughline.engineering.intervals import Ends, Intervals
+from roughline.engineering.intervals import Ends, Intervals, taken
 from roughline.engineering.rule import Answer
 from roughline.spectra.roughness import Roughness, roughness
 from roughline.theories.theory_curve import TheoryCurve
@@ -133,7 +133,7 @@ class Assessment:
     @property
     def intervals_as_asked(self) -> Intervals | None:
         """Intervals of the curve at the loads that were asked for."""
-        return None if self.intervals is None else self.intervals.at(self.asked)
+        return taken(self.intervals, self.asked)
 
     @property
     def stiffness_interval(self) -> Ends | None:

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from roughline.assessment.grid import grid_error_is_estimated
 from roughline.assessment.hardness import Hardness, hardness_of
 from roughline.assessment.kinds import has_spectrum, is_map, nominal_area
 from roughline.assessment.larger_surface import roll_offs_along_a_side
@@ -21,26 +20,18 @@ from roughline.topography.body import Body, Line, Surface
 HALVED_FROM = 2**20
 """Points from which on the scatter of the hardness is judged on half as many points a side."""
 
+COARSENED_FROM = 64
+"""Points a side from which on the grid's error is estimated unasked."""
+
+_CHEAP = 2**24  # points times loads up to which that takes a few seconds
+
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """A question whose files were read, in numbers.
-
-    Attributes
-    ----------
-    question : Question
-        What was asked.
-    parts : sequence of Topography
-        Of the first body and, if that is rough, of the second, prepared. [m]
-    body : Surface or Line
-        What is pressed. [m]
-    loads : LoadCase
-        Loads and settings with which it is pressed.
-    """
+    """A question whose files were read, in numbers."""
 
     question: Question
-    parts: Sequence[Topography]
-    body: Body
+    parts: Sequence[Topography]  # the first body and, if that is rough, the second, prepared [m]
     loads: LoadCase
 
     @classmethod
@@ -56,8 +47,13 @@ class Case:
         body = pressed_body([each.body for each in parts])
         question.refuse_misfit(body)
         loads = LoadCase.of(question, body)
-        grid_error = grid_error_is_estimated(question, body, loads)
-        return cls(question, parts, body, replace(loads, grid_error=grid_error))
+        grid_error = _grid_error_is_estimated(question, loads)
+        return cls(question, parts, replace(loads, grid_error=grid_error))
+
+    @property
+    def body(self) -> Body:
+        """What is pressed. [m]"""
+        return self.loads.body
 
     @property
     def pair(self) -> MaterialPair | None:
@@ -106,3 +102,12 @@ class Case:
     def moments(self) -> Moments | None:
         """Moments of the body's spectrum; None of a line, where it has none, without materials."""
         return moments(self.body) if self.pair is not None and has_spectrum(self.body) else None
+
+
+def _grid_error_is_estimated(question: Question, loads: LoadCase) -> bool:
+    """Whether the grid's error is estimated: as the question says, or else where that is cheap."""
+    body = loads.body
+    if question.grid_error is not None or isinstance(body, Line):
+        return bool(question.grid_error)
+    cheap = question.whole_curve or body.heights.size * loads.count <= _CHEAP
+    return cheap and min(body.shape) >= COARSENED_FROM

@@ -14,13 +14,12 @@ from roughline.assessment.uncertainty import (
     loading_under_unloading,
     unloading_stiffness,
 )
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
 from roughline.contact.scaling import PUNCH_GRID_ERROR
-from roughline.contact.selection import among
 from roughline.engineering.formulas import interface_stiffness
-from roughline.engineering.intervals import Ends, Intervals, ends_at
+from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pressed import Interface
 from roughline.errors import InputError
 from roughline.errors.words import called
@@ -32,36 +31,16 @@ _LEAST_SHARE = 1e-9  # of the area that is in contact, or is not; less counts as
 
 @dataclass(frozen=True, eq=False)
 class LargerSurface:
-    """The surface behind a piece, under the loads of the piece's curve.
+    """The surface behind a piece, under the loads of the piece's curve."""
 
-    Attributes
-    ----------
-    stiffness : Interface
-        Of as much of it as the piece is large; without an interval where the piece does not tell.
-        [N / m]
-    area : tuple of ndarray, shape (loads,), or None
-        Ends of its corrected area fraction; None where they are not known. [1]
-    of_grid : tuple of (tuple of ndarray, or None)
-        Ends of the piece's own stiffness [N / m] and area fraction [1], which the grid and filled
-        points leave open.
-    tiles : tuple of Tiles, or None
-        Logarithms of the stiffness, and logits of the contact area fraction.
-    """
-
-    stiffness: Interface
-    area: Ends | None = None
+    stiffness: Interface  # of as much of it as the piece is large [N / m]
+    area: Ends | None = None  # ends of its corrected area fraction [1]
     of_grid: tuple[Ends | None, Ends | None] = (None, None)
+    """Ends of the piece's own stiffness [N / m] and area fraction [1], which the grid and filled
+    points leave open."""
+
     tiles: tuple[Tiles, Tiles] | None = None
-
-    def at(self, loads: Indices) -> LargerSurface:
-        """The same at some of the loads, by their numbers."""
-
-        def some(ends: Ends | None) -> Ends | None:
-            return None if ends is None else ends_at(ends, loads)
-
-        grid = some(self.of_grid[0]), some(self.of_grid[1])
-        tiles = self.tiles and (self.tiles[0].at(loads), self.tiles[1].at(loads))
-        return LargerSurface(self.stiffness.at(loads), some(self.area), grid, tiles)
+    """Logarithms of the stiffness, and logits of the contact area fraction."""
 
     @property
     def without_interval(self) -> LargerSurface:
@@ -80,18 +59,6 @@ class LargerSurface:
         values = self.stiffness.values
         stiffness = replace(self.stiffness, ends=_widened(values, k, further[0]))
         return LargerSurface(stiffness, _widened_share(area, shares or (area, area), further[1]))
-
-    def among(self, solved: Mask) -> LargerSurface:
-        """The same over more loads, of which these were solved: NaN at the others."""
-
-        def spread(ends: Ends | None) -> Ends | None:
-            return None if ends is None else (among(ends[0], solved), among(ends[1], solved))
-
-        k = self.stiffness
-        k = replace(k, values=among(k.values, solved), ends=spread(k.ends))
-        grid = spread(self.of_grid[0]), spread(self.of_grid[1])
-        tiles = self.tiles and (self.tiles[0].among(solved), self.tiles[1].among(solved))
-        return LargerSurface(k, spread(self.area), grid, tiles)
 
     def intervals(self, curve: Curve) -> Intervals | None:
         """Intervals of a periodic piece's curve that hold the larger surface as well.
@@ -232,7 +199,7 @@ def _widened(values: Real, ends: Ends | None, further: Ends) -> Ends:
         if ends is not None:
             further = _combined(further, (np.log(ends[0]) - logs, np.log(ends[1]) - logs))
         low, high = (values * np.exp(each) for each in further)
-    low = np.where(np.isneginf(further[0]), 0.0, low)
+    low = np.where(np.isneginf(further[0]) & ~np.isnan(values), 0.0, low)
     return np.where(values == 0, 0.0, low), np.where(values == 0, 0.0, high)
 
 

@@ -7,13 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.assessment.hardness import hardness_of, refuse_beyond_hardness
+from roughline.assessment.hardness import hardness_of
 from roughline.assessment.kinds import is_map, nominal_area
 from roughline.assessment.question import DEFAULT_LOADS, UNLOADING, Question
 from roughline.computing.arrays import Indices, Mask
 from roughline.contact.curve import Curve
 from roughline.contact.press import press
+from roughline.contact.selection import among_loads
+from roughline.errors import InputError
+from roughline.errors.words import called
 from roughline.topography.body import Body, Line, Surface
+from roughline.units import engineering
 
 LoadProgress = Callable[[int, int], None]
 """Called with (loads done, loads in all)."""
@@ -23,37 +27,23 @@ _ROUNDING = 1e-9  # of the force under which all of the area is at the hardness
 _CURVE_LOADS = 16  # of a whole curve
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LoadCase:
-    """Loads and settings under which a body is pressed, and pressed again when it is changed.
+    """A body, and the loads and settings under which it is pressed."""
 
-    Attributes
-    ----------
-    E_star : float
-        Contact modulus. [Pa]
-    forces, depths : list of float
-        In the order in which they are applied; at least one of the two lists is empty. [N], [m]
-    asked : tuple of int
-        Which of them were asked for, in the order asked; empty if none was named.
-    n_loads : int or None
-        Number of forces spaced from first touch to saturation, instead of given ones.
-    periodic, grid_error
-        As for :func:`roughline.press`.
-    levelled : bool
-        Whether the tilt is removed first, which a periodic half-space cannot have.
-    hardness : float or None
-        Of the softer body; None if both are elastic. [Pa]
-    """
-
-    E_star: float
-    forces: list[float]
-    depths: list[float]
-    asked: tuple[int, ...]
-    n_loads: int | None
+    body: Body
+    E_star: float  # [Pa]
+    forces: list[float]  # in the order in which they are applied [N]
+    depths: list[float]  # instead of forces [m]
+    n_loads: int | None  # instead of both: forces spaced from first touch to saturation
     periodic: bool
+    asked: Sequence[int] = ()  # which loads were asked for, in the order asked; none if not named
     grid_error: bool = False
-    levelled: bool = False
-    hardness: float | None = None
+    levelled: bool = False  # without its tilt, which a periodic half-space cannot have
+    hardness: float | None = None  # None if both bodies are elastic [Pa]
+    fields: Sequence[int] = ()
+    rtol: float = 1e-6
+    among: Mask | None = None  # which loads of a curve that is known these are; None for all
 
     @classmethod
     def of(cls, question: Question, body: Body) -> LoadCase:
@@ -63,21 +53,21 @@ class LoadCase:
         depths, asked_depths = _path(question, question.heights())
         n_loads, hardness = question.n_loads, None
         if isinstance(body, Surface):
-            refuse_beyond_hardness(question, area)
+            _refuse_beyond_hardness(question, area)
             known = hardness_of(question)
             hardness = None if known is None else known.value
         elif body.kind == "profile" and not forces:
             forces = _forces_of_a_scan(body, question.modulus, n_loads or DEFAULT_LOADS)
             n_loads = None
-        levelled = question.joint is not None and is_map(body)
         return cls(
+            body,
             question.modulus,
             forces,
             depths,
-            asked or asked_depths,
             n_loads,
             question.is_repeated,
-            levelled=levelled,
+            asked or asked_depths,
+            levelled=question.joint is not None and is_map(body),
             hardness=hardness,
         )
 
@@ -92,6 +82,10 @@ class LoadCase:
         values = self.forces or self.depths
         return values.index(max(values)) if values else self.count - 1
 
+    def asked_of(self, curve: Curve) -> Indices:
+        """Which loads of the curve were asked for, in the order asked; all if none was named."""
+        return np.array(self.asked) if self.asked else np.arange(curve.status.size)
+
     def borne(self, curve: Curve) -> Mask:
         """Which loads of a curve were solved, and leave some of the area below the hardness."""
         if self.hardness is None or curve.area_fraction is None:
@@ -101,8 +95,9 @@ class LoadCase:
 
     def under_forces_of(self, curve: Curve) -> LoadCase:
         """The same under the forces of a curve that were solved, and that the body bears."""
-        forces = curve.force[self.borne(curve)].tolist()
-        return replace(self, forces=forces, depths=[], n_loads=None)
+        borne = self.borne(curve)
+        forces = curve.force[borne].tolist()
+        return replace(self, forces=forces, depths=[], n_loads=None, among=borne)
 
     def of_hardness(self, hardness: float | None, loads: Mask, curve: Curve) -> LoadCase:
         """Some of the same loads on a body of another hardness, without the grid's errors.
@@ -111,18 +106,15 @@ class LoadCase:
         """
         values = np.array(self.depths or self.forces or curve.force)[loads].tolist()
         forces, depths = ([], values) if self.depths else (values, [])
-        return replace(
-            self, hardness=hardness, forces=forces, depths=depths, n_loads=None, grid_error=False
-        )
+        others = replace(self, forces=forces, depths=depths, n_loads=None, grid_error=False)
+        return replace(others, hardness=hardness, among=loads)
 
-    def press(
-        self,
-        body: Body,
-        fields: Sequence[int] = (),
-        progress: LoadProgress | None = None,
-        rtol: float = 1e-6,
-    ) -> Curve:
-        """Press a body; loads that fail are marked.
+    def spread(self, curve: Curve) -> Curve:
+        """A curve under these loads over all those that they are among."""
+        return curve if self.among is None else among_loads(curve, self.among)
+
+    def press(self, progress: LoadProgress | None = None) -> Curve:
+        """Press the body; loads that fail are marked.
 
         Raises
         ------
@@ -130,29 +122,19 @@ class LoadCase:
             On Ctrl-C, with the loads that were solved before.
         """
         return press(
-            body.detrended() if self.levelled else body,
+            self.body.detrended() if self.levelled else self.body,
             E_star=self.E_star,
             hardness=self.hardness,
             n_loads=self.n_loads,
             forces=self.forces or None,
             depths=self.depths or None,
             periodic=self.periodic,
-            fields=fields if isinstance(body, Surface) else False,
+            fields=self.fields if isinstance(self.body, Surface) else False,
             grid_error=self.grid_error,
-            rtol=rtol,
+            rtol=self.rtol,
             throw=False,
             progress=progress,
         )
-
-
-def asked_loads(case: LoadCase, count: int) -> Indices:
-    """Which loads of the curve were asked for, in the order asked; all if none was named."""
-    return np.array(case.asked) if case.asked else np.arange(count)
-
-
-def load_with_fields(case: LoadCase) -> int:
-    """The load whose fields are kept: the largest asked for, or one at three quarters of them."""
-    return case.largest if case.asked else 3 * case.count // 4
 
 
 def _path(question: Question, asked: list[float]) -> tuple[list[float], tuple[int, ...]]:
@@ -182,3 +164,26 @@ def _forces_of_a_scan(line: Line, E_star: float, count: int) -> list[float]:
     """Forces for a line scan, from light contact to nearly saturated. [N]"""
     scale = E_star * line.rms_height * line.length
     return (scale * np.geomspace(1e-3, 3, count)).tolist()
+
+
+def _refuse_beyond_hardness(question: Question, area: float) -> None:
+    """Refuse loads under which all of a body of some nominal area [m²] would yield."""
+    hardness = hardness_of(question)
+    if hardness is None:
+        return
+    bearer = "the softer body" if question.pair is None else question.pair.bearer
+    for heading, force in zip(question.headings, question.forces(area), strict=False):
+        if force >= hardness.value * area * (1 - 1e-12):  # of a joint it is rounded
+            most = engineering(hardness.value * area * question.scale(area), "N")
+            on, joint = "the joint", ""
+            if question.joint is None:
+                on, joint = (
+                    "the map",
+                    f"the area of the joint that carries them ({called('rl.Joint')}), ",
+                )
+            raise InputError(
+                f"load {heading} is a mean pressure of {engineering(force / area, 'Pa')}, and "
+                f"{bearer}, of hardness {engineering(hardness.value, 'Pa')}, bears less than "
+                f"{most} on {on} (H A_0): give smaller loads, {joint}or a larger hardness "
+                f"({called('hardness')}) if the body has it"
+            )

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from roughline.assessment import notes as say
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.grid import why_without_grid_error
+from roughline.assessment.case import COARSENED_FROM
+from roughline.assessment.question import Question
+from roughline.errors.words import called
 from roughline.spectra.moments import Moments
 from roughline.topography.body import Line, Surface
 from roughline.topography.effects import grave_effects
@@ -33,7 +35,7 @@ def warnings_of(
         *say.of_borders(result, grave=True),
     ]
     if isinstance(body, Surface) and curve.stiffness_error is None:
-        warnings.append(why_without_grid_error(result.question, body, grid_error_was_tried))
+        warnings.append(_why_without_grid_error(result.question, body, grid_error_was_tried))
     return warnings
 
 
@@ -53,3 +55,20 @@ def notes_of(result: Assessment, of_filling: str) -> list[str]:
     notes += [of_filling] if of_filling else []
     notes += say.meaning_of_loads(question, body)
     return notes + say.of_borders(result, grave=False) + say.cropping_and_resampling(body)
+
+
+def _why_without_grid_error(question: Question, body: Surface, tried: bool) -> str:
+    """Say that values come without an interval, and why; `tried` if Ctrl-C stopped the estimate."""
+    if tried:
+        why = "interrupted before"
+    elif question.grid_error is not None:
+        why = "switched off"
+    elif min(body.shape) < COARSENED_FROM:
+        why = (
+            f"fewer than {COARSENED_FROM} points a side; with {called('grid_error', True)} it "
+            "is estimated nevertheless"
+        )
+    else:
+        asked = called("grid_error", True)
+        why = f"that takes about twice as long; with {asked} it is estimated"
+    return f"grid error not estimated, so values come without intervals ({why})"

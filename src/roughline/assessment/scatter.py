@@ -16,16 +16,10 @@ from roughline.assessment.variants import (
     HARDEST,
     SOFTEST,
     Curves,
-    borne_by,
-    is_same,
     periodic,
-    ways,
-    yields,
 )
 from roughline.computing.arrays import Real
-from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
-from roughline.contact.selection import among_loads, at_loads
 from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.rule import Answer, Limits, within
 from roughline.topography.body import Body
@@ -41,28 +35,18 @@ class _Way:
 
 @dataclass(frozen=True, eq=False)
 class Scatter:
-    """What the hardness leaves open.
+    """What the hardness leaves open: answers by their keys, and intervals of the curve with it."""
 
-    Attributes
-    ----------
-    ratios : mapping of str to tuple of ndarray
-        By the keys of the answers, the least and the largest ratio of each to its value.
-    answers : mapping of str to Answer
-        With intervals that include that.
-    intervals : Intervals or None
-        Of the curve, that include it as well.
-    """
-
-    ratios: Mapping[str, Ends]
+    ratios: Mapping[str, Ends]  # the least and the largest of each answer to its value
     answers: Mapping[str, Answer]
     intervals: Intervals | None
 
 
-def elastic_answers(case: Case, curves: Curves, solution: Solution) -> Mapping[str, Answer]:
+def elastic_answers(case: Case, curves: Curves) -> Mapping[str, Answer]:
     """The answers of elastic bodies; none where nothing yields, and before they were pressed."""
-    if case.hardness is None or not yields(curves.as_asked) or not _is_pressed(curves, ELASTIC):
+    if curves.stopped in (ELASTIC, periodic(ELASTIC)) or curves.get(ELASTIC) is None:
         return {}
-    return _of_way(case, curves, solution, ELASTIC, None, case.body).answers
+    return _of_way(case, curves, ELASTIC, None, case.body).answers
 
 
 def scatter_of(
@@ -82,51 +66,22 @@ def scatter_of(
         return Scatter({}, answers, solution.intervals)
     if curves.stopped:
         return Scatter({}, {key: each.bare for key, each in answers.items()}, None)
-    found = {
-        name: _of_way(case, curves, solution, name, value, judged)
-        for name, value, judged in ways(case, hardness)
-        if name != ELASTIC
-    }
-    nominal = found.get(AS_HARD) or _Way(solution.curve, answers)
-    return _widened(solution.intervals, answers, nominal, [found[SOFTEST], found[HARDEST]])
+    (softest, hardest), judged = hardness.ends, case.judged
+    moved = [
+        _of_way(case, curves, SOFTEST, softest, judged),
+        _of_way(case, curves, HARDEST, hardest, judged),
+    ]
+    nominal = _Way(solution.curve, answers)
+    if judged is not case.body:
+        nominal = _of_way(case, curves, AS_HARD, hardness.value, judged)
+    return _widened(solution.intervals, answers, nominal, moved)
 
 
-def _of_way(
-    case: Case,
-    curves: Curves,
-    solution: Solution,
-    name: str,
-    hardness: float | None,
-    judged: Body,
-) -> _Way:
-    """Answer the same of a body of another hardness, elastic if None; without intervals.
-
-    Loads that this body does not bear are not solved.
-    """
-    asked, pressed = curves.as_asked, curves.whole(name)
-    larger = solution.larger
-    if hardness is not None and is_same(case, asked, hardness, judged):
-        law, settings = law_of(hardness), {**asked.settings, "hardness": hardness}
-        curve = replace(asked, law=law, settings=settings)
-    else:
-        loads = borne_by(case, asked, hardness)
-        if pressed is None:  # it bears none of the loads
-            none = np.flatnonzero(loads)
-            curve = among_loads(at_loads(asked, none), loads)
-            larger = larger.at(none).among(loads) if larger else None
-        else:
-            curve = among_loads(pressed, loads)
-            larger = larger_behind(
-                case, curves, name, case.loads.of_hardness(hardness, loads, asked)
-            )
-            larger = larger.among(loads) if larger else None
-    answers, _ = answers_of(case, Solution(curve, None, larger), body=judged, hardness=hardness)
-    return _Way(curve, answers)
-
-
-def _is_pressed(curves: Curves, name: str) -> bool:
-    """Whether a variant was pressed to its end, and into the periodic half-space as well."""
-    return curves.stopped not in (name, periodic(name)) and curves.get(name) is not None
+def _of_way(case: Case, curves: Curves, name: str, hardness: float | None, judged: Body) -> _Way:
+    """Answer the same of a body of another hardness, elastic if None; without intervals."""
+    curve = curves.by_name[name]
+    solution = Solution(curve, None, larger_behind(case, curves, name))
+    return _Way(curve, answers_of(case, solution, body=judged, hardness=hardness)[0])
 
 
 def _widened(

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from roughline.assessment.uncertainty import area_fraction, unloading_stiffness
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends
 from roughline.topography.body import Surface
@@ -76,23 +76,6 @@ class Tiles:
     whole: Real
     halves: Real
     quarters: Real
-
-    def at(self, loads: Indices) -> Tiles:
-        """The same at some of the loads, by their numbers."""
-        return self._each(lambda values: values[..., loads])
-
-    def among(self, solved: Mask) -> Tiles:
-        """The same over more loads, of which these were solved: NaN at the others."""
-
-        def spread(values: Real) -> Real:
-            found = np.full((*values.shape[:-1], solved.size), np.nan)
-            found[..., solved] = values
-            return found
-
-        return self._each(spread)
-
-    def _each(self, change: Callable[[Real], Real]) -> Tiles:
-        return Tiles(change(self.whole), change(self.halves), change(self.quarters))
 
     def steps(self, beyond: Beyond) -> Ends:
         """Both ends of the mean difference between the larger surface and maps of this size.

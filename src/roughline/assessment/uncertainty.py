@@ -2,39 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
 from roughline.engineering.intervals import Ends, Intervals
 
 _UNSURE = 5.0  # upper over lower end above which a stiffness near full contact may be infinite
 
 
-@dataclass(frozen=True, eq=False)
-class Changes:
-    """Effect of another choice, such as another way to fill missing points.
+def intervals_of(curve: Curve, other: Curve | None = None) -> Intervals | None:
+    """Intervals of a curve, of its grid's errors and of how far another one is from it.
 
-    Attributes
-    ----------
-    stiffness, unloading, area : ndarray, shape (loads,), or float
-        Change of the stiffness on loading and on unloading [N / m] and of the corrected area
-        fraction [1].
+    The other is that of another choice, such as another way to fill missing points. Without the
+    grid's errors there are none: those of that choice alone would be too narrow.
     """
-
-    stiffness: Real | float = 0.0
-    unloading: Real | float = 0.0
-    area: Real | float = 0.0
-
-
-def intervals_of(curve: Curve, changes: Changes | None = None) -> Intervals | None:
-    """Intervals of a curve, of its grid's errors and of further changes.
-
-    Without the grid's errors there are none: those of further changes alone would be too narrow.
-    """
-    changes = changes or Changes()
     value, error = curve.area_fraction_corrected, curve.area_fraction_error
     most, stiffness_error = curve.area_fraction_most, curve.stiffness_error
     unloading, unloading_error = curve.unloading_stiffness, curve.unloading_stiffness_error
@@ -42,9 +24,13 @@ def intervals_of(curve: Curve, changes: Changes | None = None) -> Intervals | No
         return None
     if unloading is None or unloading_error is None:
         return None
-    low, high = interval(value, np.hypot(error, changes.area))
-    loading = interval(curve.stiffness, np.hypot(stiffness_error, changes.stiffness))
-    springing = interval(unloading, np.hypot(unloading_error, changes.unloading))
+    other = other or curve
+    area_change = change(value, other.area_fraction_corrected)
+    loading_change = change(curve.stiffness, other.stiffness)
+    unloading_change = change(unloading, other.unloading_stiffness)
+    low, high = interval(value, np.hypot(error, area_change))
+    loading = interval(curve.stiffness, np.hypot(stiffness_error, loading_change))
+    springing = interval(unloading, np.hypot(unloading_error, unloading_change))
     if curve.settings.get("boundary") == "periodic":  # a full contact is infinitely stiff
         may_be_full = high >= 1
         loading, springing = (_open(ends, may_be_full) for ends in (loading, springing))
@@ -52,7 +38,7 @@ def intervals_of(curve: Curve, changes: Changes | None = None) -> Intervals | No
         low = np.maximum(low, curve.force / (curve.hardness * curve.length**2))
         loading = loading_under_unloading(loading, springing)
     # whole cells overstate an area under summits, and finer waves take away from it
-    return Intervals(loading, springing, (low, np.minimum(high, most + changes.area)))
+    return Intervals(loading, springing, (low, np.minimum(high, most + area_change)))
 
 
 def unloading_stiffness(curve: Curve) -> Real:
@@ -88,13 +74,9 @@ def loading_under_unloading(loading: Ends, unloading: Ends) -> Ends:
     return low, np.where(known, np.fmin(loading[1], unloading[1]), loading[1])
 
 
-def change(before: Real | None, after: Real | None, asked: Indices) -> tuple[Real, float]:
-    """By how much each load changes, and by how many per cent at most of those asked for.
-
-    Nothing changes in what the model of a line does not predict.
-    """
+def change(before: Real | None, after: Real | None) -> Real:
+    """By how much each load changes; nothing does in what the model of a line does not predict."""
     if before is None or after is None:
-        return np.zeros(1), 0.0
-    with np.errstate(invalid="ignore", divide="ignore"):
-        moved = np.where(after == before, 0.0, np.abs(after - before))  # infinite in full contact
-        return moved, 100 * float(np.nanmax((moved / before)[asked], initial=0.0))
+        return np.zeros(1)
+    with np.errstate(invalid="ignore"):  # infinite in full contact
+        return np.where(after == before, 0.0, np.abs(after - before))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Final, Literal
 
@@ -16,13 +16,14 @@ import numpy as np
 
 from roughline.assessment.assumptions import broken
 from roughline.assessment.case import Case
-from roughline.assessment.hardness import Hardness
 from roughline.assessment.kinds import nominal_area
-from roughline.assessment.loads import LoadCase, LoadProgress, load_with_fields
+from roughline.assessment.loads import LoadCase, LoadProgress
 from roughline.assessment.source import pressed_body
 from roughline.assessment.tiles import coarse_shape, coarsened, has_tiles, tiles_of
 from roughline.computing.arrays import Mask
+from roughline.contact.arguments import law_of
 from roughline.contact.curve import Curve
+from roughline.contact.selection import among_loads, at_loads
 from roughline.errors import Interrupted
 from roughline.topography.body import Body, Surface
 from roughline.topography.missing import Missing
@@ -51,18 +52,10 @@ Purpose = Literal["as asked", "filling", "interface", "larger surface", "hardnes
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """Curves of the variants that were pressed, by their names.
+    """Curves of the variants that were pressed, by their names, over the loads of the case."""
 
-    Attributes
-    ----------
-    by_name : mapping of str to Curve
-        Without the variants that proved needless.
-    stopped : str
-        The variant whose curve is not whole, as Ctrl-C came; empty where all is done.
-    """
-
-    by_name: Mapping[str, Curve]
-    stopped: str = ""
+    by_name: Mapping[str, Curve]  # without the variants that proved needless
+    stopped: str = ""  # whose curve is not whole, as Ctrl-C came; empty where all is done
 
     @property
     def as_asked(self) -> Curve:
@@ -94,39 +87,16 @@ def tile(count: int, i: int) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class Pressing:
-    """What is pressed, and how."""
-
-    body: Body
-    loads: LoadCase
-    fields: Sequence[int] = ()
-    rtol: float = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
 class Variant:
-    """One way in which the body of a case is pressed.
-
-    Attributes
-    ----------
-    name : str
-        By which its curve is found.
-    purpose : {"as asked", "filling", "interface", "larger surface", "hardness", "slip"}
-        What it is pressed for.
-    pressing : callable
-        What is pressed, from the curves before it; None where they show that it is needless.
-    shape : tuple of int
-        Points along the sides of a surface, of whose time this takes a share.
-    is_periodic : bool
-        Whether it is pressed into a periodic half-space.
-    share : float, optional
-        That share.
-    """
+    """One way in which the body of a case is pressed."""
 
     name: str
     purpose: Purpose
-    pressing: Callable[[Curves], Pressing | None] = field(repr=False)
-    shape: tuple[int, int]
+    needed: Callable[[Curves], LoadCase | Curve | None]
+    """From the curves before it: what is pressed, the curve where it is known without that, or None
+    where it is needless."""
+
+    shape: tuple[int, int]  # points along the sides of a surface, of whose time it takes a share
     is_periodic: bool
     share: float = 1.0
 
@@ -161,13 +131,16 @@ def press_all(variants: Sequence[Variant], loads: int, progress: LoadProgress | 
     steps = [math.ceil(loads * each.share * math.prod(each.shape) / points) for each in variants]
     before, total = 0, sum(steps)
     for variant, here in zip(variants, steps, strict=True):
-        needed = variant.pressing(Curves(done))
-        if needed is not None:
+        curve = variant.needed(Curves(done))
+        if isinstance(curve, LoadCase):
+            case = curve
             tell = partial(_tell, progress, before, here, total) if progress else None
             try:
-                curve = needed.loads.press(needed.body, needed.fields, tell, needed.rtol)
+                curve = case.spread(case.press(tell))
             except Interrupted as stop:
-                raise Stopped(Curves({**done, variant.name: stop.curve}, variant.name)) from stop
+                curves = {**done, variant.name: case.spread(stop.curve)}
+                raise Stopped(Curves(curves, variant.name)) from stop
+        if curve is not None:
             # fields and dents are large, and only those of the first are looked at
             done[variant.name] = replace(curve, fields=(), dents=()) if done else curve
         before += here
@@ -183,57 +156,51 @@ def _tell(progress: LoadProgress, before: int, here: int, total: int, done: int,
 
 def variants_of(case: Case) -> list[Variant]:
     """All ways in which the body of a case may be pressed, in their order."""
-    kept = [load_with_fields(case.loads)] if case.question.fields else []
-    body = case.body
-    first = Pressing(body, case.loads, kept)
+    loads, body = case.loads, case.body
+    if case.question.fields:  # of the largest load asked for, or of one at three quarters of them
+        loads = replace(loads, fields=[loads.largest if loads.asked else 3 * loads.count // 4])
+    shape = body.shape if isinstance(body, Surface) else (1, body.heights.size)
+    listed = [Variant(AS_ASKED, AS_ASKED, lambda _: loads, shape, loads.periodic)]
     if not isinstance(body, Surface):
-        shape = 1, body.heights.size
-        return [Variant(AS_ASKED, AS_ASKED, lambda _: first, shape, case.loads.periodic)]
-    listed = [Variant(AS_ASKED, AS_ASKED, lambda _: first, body.shape, case.loads.periodic)]
+        return listed
     if case.filled:
         listed.append(_filled_otherwise(case, listed[0], body))
     listed += _of_the_larger_surface(case, listed[0], with_tiles=True)
     listed += _of_other_hardness(case)
     if case.question.friction is not None and case.hardness is not None:
-        share = _UNLOADING_LOADS / case.loads.count
-        pressing = partial(_unloaded, case)
-        listed.append(Variant(UNLOADED, "slip", pressing, body.shape, case.loads.periodic, share))
+        share = _UNLOADING_LOADS / loads.count
+        needed = partial(_unloaded, case)
+        listed.append(Variant(UNLOADED, "slip", needed, shape, loads.periodic, share))
     return listed
 
 
-def _unloaded(case: Case, curves: Curves) -> Pressing | None:
+def _unloaded(case: Case, curves: Curves) -> LoadCase | None:
     """Press the surface that the largest load left, up to that load."""
     curve, largest = curves.as_asked, case.loads.largest
     if not curve.converged[largest]:
         return None
     forces = float(curve.force[largest]) * np.geomspace(_LIGHTEST, 1.0, _UNLOADING_LOADS)
-    loads = LoadCase(curve.E_star, forces.tolist(), [], (), None, case.loads.periodic)
-    return Pressing(curve.surface_after(largest), loads)
+    left = curve.surface_after(largest)
+    return LoadCase(left, curve.E_star, forces.tolist(), [], None, case.loads.periodic)
 
 
 def _filled_otherwise(case: Case, variant: Variant, body: Surface) -> Variant:
     """The same with missing points filled by the other method, if that changes something."""
 
-    def pressing(curves: Curves) -> Pressing | None:
-        first = variant.pressing(curves)
-        curve = curves.get(variant.name)
-        if first is None or curve is None:
+    def needed(curves: Curves) -> LoadCase | None:
+        first, curve = variant.needed(curves), curves.get(variant.name)
+        if not isinstance(first, LoadCase) or curve is None:
             return None
-        other = _with_other_filling(case)
+        method = Missing(case.parts[0].reading.missing).other
+        other = pressed_body([each.filled_by(method) for each in case.filled])
         if np.array_equal(other.heights, body.heights):
             return None
-        again = replace(first.loads, grid_error=False)
-        if again.n_loads is not None and curve.converged.all():
-            again = again.under_forces_of(curve)  # the same forces, not new ones
-        return Pressing(other, again)
+        if first.n_loads is not None and curve.converged.all():
+            first = first.under_forces_of(curve)  # the same forces, not new ones
+        return replace(first, body=other, fields=(), grid_error=False)
 
     name = filled_otherwise(variant.name)
-    return replace(variant, name=name, purpose="filling", pressing=pressing)
-
-
-def _with_other_filling(case: Case) -> Body:
-    method = Missing(case.parts[0].reading.missing).other
-    return pressed_body([each.filled_by(method) for each in case.filled])
+    return replace(variant, name=name, purpose="filling", needed=needed)
 
 
 def _of_other_hardness(case: Case) -> list[Variant]:
@@ -241,44 +208,39 @@ def _of_other_hardness(case: Case) -> list[Variant]:
     hardness, body = case.hardness, case.body
     if hardness is None or case.pair is None or not isinstance(body, Surface):
         return []
+    ways: list[tuple[str, float | None, Body]] = [(ELASTIC, None, body)]
+    if hardness.factor != 1:
+        (softest, hardest), judged = hardness.ends, case.judged
+        if judged is not body:
+            ways.append((AS_HARD, hardness.value, judged))
+        ways += [(SOFTEST, softest, judged), (HARDEST, hardest, judged)]
     listed = []
-    for name, value, judged in ways(case, hardness):
-        pressing = partial(_as_hard, case, name, value, judged)
-        share = judged.heights.size / body.heights.size
-        variant = Variant(name, "hardness", pressing, body.shape, case.loads.periodic, share)
+    for name, value, pressed in ways:
+        needed = partial(_as_hard, case, value, pressed)
+        share = pressed.heights.size / body.heights.size
+        variant = Variant(name, "hardness", needed, body.shape, case.loads.periodic, share)
         listed += [variant, *_of_the_larger_surface(case, variant)]
     return listed
 
 
-def ways(case: Case, hardness: Hardness) -> list[tuple[str, float | None, Body]]:
-    """Names of the variants of the hardness, their hardness, None of elastic ones, and bodies."""
-    listed: list[tuple[str, float | None, Body]] = [(ELASTIC, None, case.body)]
-    if hardness.factor != 1:
-        softest, hardest = hardness.ends
-        if case.judged is not case.body:
-            listed.append((AS_HARD, hardness.value, case.judged))
-        listed += [(SOFTEST, softest, case.judged), (HARDEST, hardest, case.judged)]
-    return listed
-
-
 def _as_hard(
-    case: Case, name: str, hardness: float | None, judged: Body, curves: Curves
-) -> Pressing | None:
-    """Press the body with another hardness, under the loads that it bears then."""
+    case: Case, hardness: float | None, body: Body, curves: Curves
+) -> LoadCase | Curve | None:
+    """Press the body with another hardness, under the loads that it bears then.
+
+    As long as nothing yields, the curve as asked is that of a harder body as well.
+    """
     curve = curves.as_asked
-    if name == ELASTIC and not yields(curve):
-        return None
-    loads = borne_by(case, curve, hardness)
-    if is_same(case, curve, hardness, judged) or not loads.any():
-        return None
-    return Pressing(judged, case.loads.of_hardness(hardness, loads, curve))
-
-
-def is_same(case: Case, curve: Curve, hardness: float | None, judged: Body) -> bool:
-    """Whether the curve as asked is that of a harder body as well, as nothing yields."""
-    if hardness is None or judged is not case.body or yields(curve):
-        return False
-    return hardness >= (curve.hardness or 0)
+    if not yields(curve):
+        if hardness is None:
+            return None
+        if body is case.body and hardness >= (curve.hardness or 0):
+            settings = {**curve.settings, "hardness": hardness}
+            return replace(curve, law=law_of(hardness), settings=settings)
+    loads = _borne_by(case, curve, hardness)
+    if not loads.any():
+        return among_loads(at_loads(curve, np.flatnonzero(loads)), loads)
+    return replace(case.loads.of_hardness(hardness, loads, curve), body=body)
 
 
 def yields(curve: Curve) -> bool:
@@ -286,7 +248,7 @@ def yields(curve: Curve) -> bool:
     return curve.plastic_fraction is not None and bool(np.nan_to_num(curve.plastic_fraction).any())
 
 
-def borne_by(case: Case, curve: Curve, hardness: float | None) -> Mask:
+def _borne_by(case: Case, curve: Curve, hardness: float | None) -> Mask:
     """Which loads of the curve as asked were solved, and are borne by a body of a hardness.
 
     What a load leaves that is too large is not known, nor are those after it.
@@ -311,7 +273,7 @@ def _of_the_larger_surface(
             variant,
             name=periodic(variant.name),
             purpose="interface" if variant.name == AS_ASKED else variant.purpose,
-            pressing=partial(_repeated, variant),
+            needed=partial(_repeated, variant),
             is_periodic=True,
         )
         listed.append(repeated)
@@ -320,13 +282,14 @@ def _of_the_larger_surface(
     return listed + (_tiles(case, repeated.name, body) if with_tiles else [])
 
 
-def _repeated(variant: Variant, curves: Curves) -> Pressing | None:
+def _repeated(variant: Variant, curves: Curves) -> LoadCase | Curve | None:
     """Press the same body periodically, under the forces that it bears."""
-    first, curve = variant.pressing(curves), curves.get(variant.name)
-    if first is None or curve is None or not first.loads.borne(curve).any():
+    first, curve = variant.needed(curves), curves.get(variant.name)
+    if isinstance(first, Curve):  # as asked, or under no load
+        return curves.get(periodic(AS_ASKED)) if first.converged.any() else None
+    if first is None or curve is None or not first.borne(curve).any():
         return None
-    again = first.loads.under_forces_of(curve)
-    return Pressing(first.body, replace(again, periodic=True, levelled=True))
+    return replace(first.under_forces_of(curve), fields=(), periodic=True, levelled=True)
 
 
 def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
@@ -344,30 +307,26 @@ def _tiles(case: Case, whole: str, body: Surface) -> list[Variant]:
     def cut(count: int) -> list[Surface]:
         return tiles_of(coarse(), count)
 
-    def pressing(of: Callable[[], Surface], curves: Curves) -> Pressing | None:
+    def needed(of: Callable[[], Surface], curves: Curves) -> LoadCase | None:
         curve = curves.get(whole)
         if curve is None or curve.stiffness_error is None or broken("grid", body):
             return None
-        borne = case.loads.borne(curve)
-        if not borne.any():
+        loads = case.loads.under_forces_of(curve)
+        if not loads.forces:
             return None
         tile = of()
-        forces = curve.force[borne] / body.area * tile.area
-        settings = replace(
-            case.loads, forces=forces.tolist(), depths=[], n_loads=None, periodic=True
-        )
-        return Pressing(
-            tile, replace(settings, levelled=False, grid_error=False), rtol=_RTOL_OF_TILES
-        )
+        forces = (np.array(loads.forces) / body.area * tile.area).tolist()
+        loads = replace(loads, body=tile, forces=forces, periodic=True, rtol=_RTOL_OF_TILES)
+        return replace(loads, levelled=False, grid_error=False)
 
     listed = []
     if shape != body.shape:
-        listed.append(Variant(COARSE, of_larger, partial(pressing, coarse), shape, True))
+        listed.append(Variant(COARSE, of_larger, partial(needed, coarse), shape, True))
     for count in (2, 4):
         for i in range(count**2):
             of = partial(lambda count, i: cut(count)[i], count, i)
             part = 1 / count**2
             listed.append(
-                Variant(tile(count, i), of_larger, partial(pressing, of), shape, True, part)
+                Variant(tile(count, i), of_larger, partial(needed, of), shape, True, part)
             )
     return listed

@@ -2,41 +2,36 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
+from typing import Any, TypeVar
+
+import numpy as np
 
 from roughline.computing.arrays import Indices, Real
 
 Ends = tuple[Real, Real]
 """Both ends of an interval, each of shape (loads,)."""
 
+_Value = TypeVar("_Value")
+
 
 @dataclass(frozen=True, eq=False)
 class Intervals:
-    """Both ends of the intervals of a curve, over its loads.
+    """Both ends of the intervals of a curve, over its loads."""
 
-    Attributes
-    ----------
-    stiffness : tuple of ndarray
-        Of the stiffness on further loading. [N / m]
-    unloading : tuple of ndarray
-        Of the stiffness on unloading; without yield it is the same. [N / m]
-    area : tuple of ndarray, or None
-        Of the corrected area fraction; None where the model has no area. [1]
-    """
-
-    stiffness: Ends
-    unloading: Ends
-    area: Ends | None = None
-
-    def at(self, loads: Indices) -> Intervals:
-        """The same at some of the loads, by their numbers."""
-        return Intervals(
-            ends_at(self.stiffness, loads),
-            ends_at(self.unloading, loads),
-            None if self.area is None else ends_at(self.area, loads),
-        )
+    stiffness: Ends  # on further loading [N / m]
+    unloading: Ends  # without yield it is the same [N / m]
+    area: Ends | None = None  # of the corrected fraction; None where the model has no area [1]
 
 
-def ends_at(ends: Ends, loads: Indices) -> Ends:
-    """Both ends of an interval at some of the loads, by their numbers."""
-    return ends[0][loads], ends[1][loads]
+def taken(value: _Value, loads: Indices) -> _Value:
+    """The same at some of the loads, by their numbers: they are the last axis of all its arrays."""
+    found: Any = value
+    if isinstance(value, np.ndarray):
+        found = value[..., loads]
+    elif isinstance(value, tuple):
+        found = tuple(taken(each, loads) for each in value)
+    elif is_dataclass(value) and not isinstance(value, type):
+        names = [each.name for each in fields(value)]
+        found = replace(value, **{name: taken(getattr(value, name), loads) for name in names})
+    return found

@@ -6,31 +6,21 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from roughline.computing.arrays import Indices, Mask, Real
+from roughline.computing.arrays import Mask, Real
 from roughline.contact.curve import Curve
 from roughline.contact.fields import Fields
-from roughline.engineering.intervals import Ends, Intervals, ends_at
+from roughline.engineering.intervals import Ends, Intervals
 from roughline.engineering.pair import MaterialPair
 
 
 @dataclass(frozen=True, eq=False)
 class Interface:
-    """Stiffness of the interface alone, without that of the bodies around it.
+    """Stiffness of the interface alone, without that of the bodies around it."""
 
-    Attributes
-    ----------
-    values : ndarray, shape (loads,)
-        [N / m]
-    ends : tuple of ndarray, or None
-        Both ends of its interval; None where it is not known. [N / m]
-    validity, formula : str
-        Which interface it is, and how it was found.
-    """
-
-    values: Real
-    ends: Ends | None
-    validity: str
-    formula: str
+    values: Real  # (loads,) [N / m]
+    ends: Ends | None  # of its interval; None where it is not known [N / m]
+    validity: str  # which interface it is
+    formula: str  # how it was found
 
     @property
     def rows(self) -> Real:
@@ -41,11 +31,6 @@ class Interface:
     def bare(self) -> Interface:
         """The same without its interval."""
         return replace(self, ends=None)
-
-    def at(self, loads: Indices) -> Interface:
-        """The same at some of the loads, by their numbers."""
-        ends = None if self.ends is None else ends_at(self.ends, loads)
-        return replace(self, values=self.values[loads], ends=ends)
 
 
 @dataclass(frozen=True, eq=False)
