@@ -10,9 +10,10 @@ from roughline.assessment.answers import answers_of
 from roughline.assessment.assessment import Assessment
 from roughline.assessment.case import Case
 from roughline.assessment.cost import Announce, tell_cost
+from roughline.assessment.doubts import warnings_of
 from roughline.assessment.loads import LoadProgress
+from roughline.assessment.notes import notes_of
 from roughline.assessment.question import Question
-from roughline.assessment.remarks import notes_of, warnings_of
 from roughline.assessment.scatter import elastic_answers, scatter_of
 from roughline.assessment.slip import slip_at_largest_load
 from roughline.assessment.solution import solution_of, solution_of_scan

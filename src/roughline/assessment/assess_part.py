@@ -18,16 +18,9 @@ from roughline.assessment.behind_maps import BehindMaps, behind_maps, missed_of_
 from roughline.assessment.cost import Announce
 from roughline.assessment.given import has_forces
 from roughline.assessment.loads import LoadProgress
-from roughline.assessment.part import Missed, PartAnswer, PartAssessment
-from roughline.assessment.part_remarks import (
-    differ_in_size,
-    differences_in_kind,
-    what_is_averaged,
-    what_the_maps_say,
-    what_they_tell_of_the_part,
-)
+from roughline.assessment.part import PartAnswer, PartAssessment
+from roughline.assessment.part_remarks import differ_in_size, remarks_of_part
 from roughline.assessment.question import Question
-from roughline.engineering.intervals import Ends
 from roughline.errors import InputError
 from roughline.errors.checks import refuse
 from roughline.errors.public import public
@@ -199,8 +192,7 @@ def _part_of(done: _Pressed) -> PartAssessment:
     answers = _answers(results, behind)
     refused = [f"refused: {_reason(name, why)}" for name, why in done.refused.items()]
     left = [f"not pressed, because of Ctrl-C: {', '.join(done.left)}"] if done.left else []
-    of_part = what_they_tell_of_the_part(behind, answers, first.joint is not None)
-    warnings, notes = what_the_maps_say(done.assessments)
+    warnings, notes = remarks_of_part(done.assessments, behind, answers)
     return PartAssessment(
         question=first,
         names=list(done.assessments),
@@ -209,8 +201,8 @@ def _part_of(done: _Pressed) -> PartAssessment:
         left=done.left,
         answers=answers,
         elastic=_elastic(results, answers),
-        warnings=[*refused, *left, *of_part[0], *differences_in_kind(done.assessments), *warnings],
-        notes=[*what_is_averaged(results), *of_part[1], *notes],
+        warnings=[*refused, *left, *warnings],
+        notes=notes,
     )
 
 
@@ -222,26 +214,20 @@ def _answers(results: Sequence[Assessment], behind: BehindMaps | None) -> Mappin
         forced = has_forces(question.loads)
         keys = [key for key in keys if not forced and not results[0].answers[key].rule.is_extensive]
     missed = [missed_of_map(each, behind) for each in results] if behind is not None else []
+    sides = list(zip(*missed, strict=True))  # what all miss alike, and by sharing the load
     measured = not any(broken("grid", each.body) for each in results)
     answers = {}
     for key in keys:
         is_of_part = behind is not None and (
             question.joint is not None or results[0].answers[key].rule.is_of_interface
         )
+        is_known = is_of_part and all(key in each for each in sides[0])
         answers[key] = PartAnswer.of(
             [each.answers[key] for each in results],
-            _missed(key, missed) if is_of_part else None,
+            *([[each[key] for each in side] for side in sides] if is_known else ()),
             is_told=measured and not (is_of_part and behind is not None and behind.untold),
         )
     return {key: _bounded(each, answers) for key, each in answers.items()}
-
-
-def _missed(key: str, missed: Sequence[tuple[Mapping[str, Ends], ...]]) -> Missed | None:
-    """What maps do not show of one answer of their part; None if they show all of it."""
-    alike, sharing = zip(*missed, strict=True)
-    if not all(key in each for each in alike):
-        return None
-    return Missed([each[key] for each in alike], [each[key] for each in sharing])
 
 
 def _elastic(

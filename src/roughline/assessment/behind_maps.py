@@ -51,27 +51,18 @@ _FEWEST = 16  # points along a side, whose quarters have an rms height
 
 @dataclass(frozen=True, eq=False)
 class BehindMaps:
-    """The surface behind several maps, under the loads that were asked for.
+    """The surface behind several maps, under the loads that were asked for."""
 
-    Attributes
-    ----------
-    roll_offs : float or None
-        Roll-off wavelengths along a side of a map; None if their mean spectrum shows none.
-    agreement : Agreement or None
-        Of the logarithms of rms heights, between maps and between their quarters.
-    alike, sharing : tuple of (tuple of ndarray)
-        Both ends of the differences between it and the mean of its places, of its stiffness's
-        logarithm and its contact area's logit: as the tiles of maps show it, and as places share
-        the load.
-    untold : str
-        Why the maps do not tell of it; empty where they do.
-    """
-
-    roll_offs: float | None
-    agreement: Agreement | None
+    roll_offs: float | None  # wavelengths along a side of a map, by their mean spectrum
+    agreement: Agreement | None  # of logarithms of rms heights, between maps and their quarters
     alike: tuple[Ends, Ends]
+    """How it differs from the mean of its places, as the tiles of maps show it: both ends of the
+    stiffness's logarithm and of the contact area's logit."""
+
     sharing: tuple[Ends, Ends]
-    untold: str = ""
+    """The same as places share the load."""
+
+    untold: str = ""  # why the maps do not tell of it; empty where they do
 
 
 def behind_maps(results: Sequence[Assessment]) -> BehindMaps | None:

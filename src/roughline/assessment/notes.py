@@ -1,4 +1,4 @@
-"""Notes that go with the numbers: on the topographies, the loads, and what is not known."""
+"""Notes of an assessment: on the topographies, the loads, the hardness, and what is not known."""
 
 from __future__ import annotations
 
@@ -8,33 +8,158 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from roughline.assessment.assessment import Assessment
-from roughline.assessment.assumptions import Prediction, takes_down
 from roughline.assessment.given import has_forces, several
 from roughline.assessment.hardness import hardness_of
 from roughline.assessment.kinds import WITHOUT_YIELD, is_map, nominal_area
 from roughline.assessment.question import Question
-from roughline.contact.quantities import RESOLVED_FROM
-from roughline.engineering.formulas import ELASTIC_UP_TO, plasticity_index
+from roughline.engineering.formulas import ELASTIC_UP_TO
 from roughline.engineering.pair import MaterialPair
-from roughline.engineering.rules.mechanical import (
-    CONTACT_STIFFNESS,
-    INTERFACE_STIFFNESS,
-    UNLOADING_STIFFNESS,
-)
 from roughline.errors.words import called
-from roughline.spectra.alike import ALIKE
-from roughline.spectra.departures import departures
-from roughline.spectra.isotropic import isotropy
-from roughline.spectra.moments import Moments
 from roughline.topography.body import Body, Line, Surface
 from roughline.topography.effects import effects, grave_effects
 from roughline.topography.repetition import border_jump
 from roughline.units import LEAST_CHANGE, change_in_words, decimal, engineering
 
-_STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
-_STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
-_WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
-_COUNTS = 1.2  # upper over lower end of what counts as a cause
+
+def notes_of(result: Assessment, of_filling: str) -> list[str]:
+    """What is left out, what was filled, how the loads were meant, and what was cropped."""
+    question, body, pair = result.question, result.body, result.question.pair
+    of_line, is_grave = how_far_a_line_serves(question, body)
+    borders, are_grave = borders_of_repeated(question, body)
+    notes = _of_yield(result)
+    if pair is not None:
+        notes += [] if is_grave else [of_line]
+        notes += dict.fromkeys(each.note for each in result.answers.values() if each.note)
+        notes += of_unknown_hardness(pair)
+        notes += result.left_out
+        if result.curve.area_fraction is None:
+            notes.append("no contact area: the reduced model of a line does not predict it")
+    notes += of_each([each.body for each in result.topographies], _filled_spikes_and_effects)
+    notes += [of_filling, *meaning_of_loads(question, body), "" if are_grave else borders]
+    return [each for each in notes if each] + _cropping_and_resampling(body)
+
+
+def _of_yield(result: Assessment) -> list[str]:
+    """Say what yields at the largest load, with which hardness, and how far its scatter matters."""
+    curve, pair, hardness = result.curve, result.question.pair, hardness_of(result.question)
+    if curve.hardness is None or hardness is None or curve.plastic_fraction is None:
+        return []
+    whose = "given" if pair is None or hardness.factor == 1 else f"of {pair.bearer}"
+    known = f"{engineering(hardness.value, 'Pa')}, {whose}"
+    share = float(curve.plastic_fraction[result.asked[result.largest]])
+    notes = []
+    if share > 0:
+        notes.append(
+            f"{100 * share:.3g}% of the contact yields at the largest load: it bears the hardness, "
+            f"{known}"
+        )
+    elif not np.isnan(share):
+        notes.append(f"nothing yields at the largest load: no point reaches the hardness, {known}")
+    if hardness.factor > 1 and result.answers and not np.isnan(share):
+        notes.append(
+            f"the hardness of the table is known to a factor of {hardness.factor:g}; "
+            f"{_scatter_in_words(result, share)}"
+        )
+    return notes
+
+
+def _scatter_in_words(result: Assessment, yielded: float) -> str:
+    """Say how far the scatter of the hardness moves answers at the largest load.
+
+    `yielded` is the share of the contact that yields there.
+    """
+    load = result.largest
+    moved = {
+        each.name: [float(end[load]) for end in result.hardness_scatter[key]]
+        for key, each in result.answers.items()
+        if key in result.hardness_scatter and (each.leads or each.rule.is_of_interface)
+    }
+    if not moved:
+        return (
+            "interrupted before the effect of that on the answers was known, so values come "
+            "without intervals"
+        )
+    if np.isnan([*moved.values()]).any():
+        return (
+            "the softest such body does not bear the largest load, so how far the answers change "
+            "there is not known, and they come without intervals"
+        )
+    if np.allclose([*moved.values()], 1, rtol=0, atol=LEAST_CHANGE / 100):
+        except_for = "p_c/H and the estimates that are made with the hardness"
+        if yielded > 0:
+            return (
+                f"with the softest and the hardest such body, the answers at the largest load "
+                f"change by less than {LEAST_CHANGE:g}%, except for {except_for}"
+            )
+        return (
+            "as nothing yields at the largest load, this changes no answer there except "
+            f"{except_for}"
+        )
+    changes = [f"{name} {change_in_words(low, high)}" for name, (low, high) in moved.items()]
+    return (
+        "with the softest and the hardest such body, the answers at the largest load change by: "
+        f"{', '.join(changes)}; "
+        + (
+            "that is in no interval, as values come without"
+            if result.intervals is None
+            else "the intervals include that"
+        )
+    )
+
+
+def of_unknown_hardness(pair: MaterialPair) -> list[str]:
+    """Say of which body the hardness is not known, and what is taken for it."""
+    lacking = pair.lacking("hardness")
+    if not lacking:
+        return []
+    if pair.hardness is not None:
+        return [
+            f"the hardness of {lacking[0]} is not known; that of the other is taken as the softer's"
+        ]
+    softer = ""
+    if len(lacking) == 1 and not any(map(math.isinf, (pair.first.E, pair.second.E))):
+        softer = ", and it is the softer one, as its modulus is below the other's hardness"
+    return [
+        f"the hardness of {' and of '.join(lacking)} is not known{softer}, so both bodies are "
+        'taken as elastic, whatever the pressure; give it with the material, as "hardness=..."'
+    ]
+
+
+def _largest_elastic_slope(question: Question, body: Body) -> float | None:
+    """Rms slope up to which a line, whose model has no yield, stands for metals."""
+    pair = question.pair
+    if pair is None or pair.hardness is None or not isinstance(body, Line):
+        return None
+    return 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
+
+
+def is_scan_that_yields(question: Question, body: Body) -> bool:
+    """Whether a scan is so steep that metals yield, of which its model knows nothing."""
+    most = _largest_elastic_slope(question, body)
+    is_scan = isinstance(body, Line) and body.kind == "profile"
+    return is_scan and most is not None and body.rms_slope > most
+
+
+def how_far_a_line_serves(question: Question, body: Body) -> tuple[str, bool]:
+    """Say up to which slopes a line, whose model has no yield, stands for metals.
+
+    It is grave where the slopes of a scan are larger.
+    """
+    most = _largest_elastic_slope(question, body)
+    if most is None or not isinstance(body, Line):
+        return "", False
+    said = (
+        f"the reduced model {WITHOUT_YIELD}; rms slopes over {2 * ELASTIC_UP_TO:g} H / E* = "
+        f"{decimal(most, 2)} exceed that"
+    )
+    if body.kind == "profile":
+        said += f"; the rms slope of the scan is {decimal(body.rms_slope, 2)}"
+    if not is_scan_that_yields(question, body):
+        return said, False
+    return (
+        f"{said}, so these elastic answers do not hold, and come without intervals: press a map, "
+        "whose model has yield"
+    ), True
 
 
 def of_each(bodies: Sequence[Body], say: Callable[[Body], Sequence[str]]) -> list[str]:
@@ -50,10 +175,10 @@ def of_each(bodies: Sequence[Body], say: Callable[[Body], Sequence[str]]) -> lis
 
 def what_was_prepared(body: Body) -> list[str]:
     """Say what was filled, what spikes there are, and all that the preparation did."""
-    return [*grave_effects(body), *filled_spikes_and_effects(body)]
+    return [*grave_effects(body), *_filled_spikes_and_effects(body)]
 
 
-def filled_spikes_and_effects(body: Body) -> list[str]:
+def _filled_spikes_and_effects(body: Body) -> list[str]:
     """Say what was filled, what spikes there are, and what the preparation did, unless grave."""
     notes = []
     if body.settings.get("missing_points"):
@@ -109,49 +234,6 @@ def meaning_of_loads(question: Question, body: Body) -> list[str]:
     return notes
 
 
-def broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
-    """Say where an assumption breaks, and what is to be said with the answers."""
-    question, body = result.question, result.body
-    broken = []
-    if body.rms_slope > _STEEP:
-        broken.append(
-            f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
-            f"no interval includes the effect of slopes over {_STEEP:g}"
-        )
-    ratio, text = max(question.strains(body), default=(0.0, ""))
-    if ratio > _STRAINED:
-        broken.append(
-            f"{text}: bodies that are strained so far are not linear elastic, and no interval "
-            "includes that"
-        )
-    if (index := _plasticity(result, spectrum)) > 1:
-        broken.append(
-            f"the plasticity index is {decimal(index, 2)}, over 1: summits yield at first touch; "
-            "under repeated loads they deform elastically about their flattened shape"
-        )
-    if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
-        broken.append(
-            "theories assume an isotropic surface, and the rms slope depends on direction: the "
-            f"least is {alike:.2f} of the largest"
-        )
-    return broken + [each.warning for each in result.answers.values() if each.warning]
-
-
-def _plasticity(result: Assessment, spectrum: Moments | None) -> float:
-    """Greenwood and Williamson's index, where summits are not given a hardness; else zero."""
-    pair = result.question.pair
-    if pair is None or pair.hardness is None or spectrum is None or result.curve.hardness:
-        return 0.0
-    summits = spectrum.summit_deviation, spectrum.summit_radius
-    return plasticity_index(result.curve.E_star, pair.hardness, summits)
-
-
-def of_borders(result: Assessment, *, grave: bool) -> list[str]:
-    """Say how far a repeated map jumps across its borders, where that is grave or else."""
-    text, is_grave = borders_of_repeated(result.question, result.body)
-    return [text] if text and is_grave == grave else []
-
-
 def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
     """Say how far a map jumps across its borders where it is repeated.
 
@@ -164,7 +246,7 @@ def borders_of_repeated(question: Question, body: Body) -> tuple[str, bool]:
     return found.in_words("m"), found.outweighs
 
 
-def cropping_and_resampling(body: Body) -> list[str]:
+def _cropping_and_resampling(body: Body) -> list[str]:
     """Say what was cropped and resampled when two surfaces were laid together."""
     if not isinstance(body, Surface):
         return []
@@ -181,239 +263,7 @@ def cropping_and_resampling(body: Body) -> list[str]:
     return notes
 
 
-def _largest_elastic_slope(question: Question, body: Body) -> float | None:
-    """Rms slope up to which a line, whose model has no yield, stands for metals."""
-    pair = question.pair
-    if pair is None or pair.hardness is None or not isinstance(body, Line):
-        return None
-    return 2 * ELASTIC_UP_TO * pair.hardness / pair.E_star
-
-
-def is_scan_that_yields(question: Question, body: Body) -> bool:
-    """Whether a scan is so steep that metals yield, of which its model knows nothing."""
-    most = _largest_elastic_slope(question, body)
-    is_scan = isinstance(body, Line) and body.kind == "profile"
-    return is_scan and most is not None and body.rms_slope > most
-
-
-def how_far_a_line_serves(result: Assessment, *, grave: bool) -> list[str]:
-    """Say up to which slopes a line, whose model has no yield, stands for metals.
-
-    It is grave where the slopes of a scan are larger.
-    """
-    body = result.body
-    most = _largest_elastic_slope(result.question, body)
-    if most is None or not isinstance(body, Line):
-        return []
-    said = (
-        f"the reduced model {WITHOUT_YIELD}; rms slopes over {2 * ELASTIC_UP_TO:g} H / E* = "
-        f"{decimal(most, 2)} exceed that"
-    )
-    if body.kind == "profile":
-        said += f"; the rms slope of the scan is {decimal(body.rms_slope, 2)}"
-    is_grave = is_scan_that_yields(result.question, body)
-    if is_grave:
-        said += (
-            ", so these elastic answers do not hold, and come without intervals: press a map, "
-            "whose model has yield"
-        )
-    return [said] if is_grave == grave else []
-
-
-def of_yield(result: Assessment) -> list[str]:
-    """Say what yields at the largest load, with which hardness, and how far its scatter matters."""
-    curve, pair, hardness = result.curve, result.question.pair, hardness_of(result.question)
-    if curve.hardness is None or hardness is None or curve.plastic_fraction is None:
-        return []
-    whose = "given" if pair is None or hardness.factor == 1 else f"of {pair.bearer}"
-    known = f"{engineering(hardness.value, 'Pa')}, {whose}"
-    share = float(curve.plastic_fraction[result.asked[result.largest]])
-    notes = []
-    if share > 0:
-        notes.append(
-            f"{100 * share:.3g}% of the contact yields at the largest load: it bears the hardness, "
-            f"{known}"
-        )
-    elif not np.isnan(share):
-        notes.append(f"nothing yields at the largest load: no point reaches the hardness, {known}")
-    if hardness.factor > 1 and result.answers and not np.isnan(share):
-        notes.append(
-            f"the hardness of the table is known to a factor of {hardness.factor:g}; "
-            f"{_scatter_in_words(result, share)}"
-        )
-    return notes
-
-
-def of_unknown_hardness(pair: MaterialPair) -> list[str]:
-    """Say of which body the hardness is not known, and what is taken for it."""
-    lacking = pair.lacking("hardness")
-    if not lacking:
-        return []
-    if pair.hardness is not None:
-        return [
-            f"the hardness of {lacking[0]} is not known; that of the other is taken as the softer's"
-        ]
-    softer = ""
-    if len(lacking) == 1 and not any(map(math.isinf, (pair.first.E, pair.second.E))):
-        softer = ", and it is the softer one, as its modulus is below the other's hardness"
-    return [
-        f"the hardness of {' and of '.join(lacking)} is not known{softer}, so both bodies are "
-        'taken as elastic, whatever the pressure; give it with the material, as "hardness=..."'
-    ]
-
-
-def _scatter_in_words(result: Assessment, yielded: float) -> str:
-    """Say how far the scatter of the hardness moves answers at the largest load.
-
-    `yielded` is the share of the contact that yields there.
-    """
-    load = result.largest
-    moved = {
-        each.name: [float(end[load]) for end in result.hardness_scatter[key]]
-        for key, each in result.answers.items()
-        if key in result.hardness_scatter and (each.leads or each.rule.is_of_interface)
-    }
-    if not moved:
-        return (
-            "interrupted before the effect of that on the answers was known, so values come "
-            "without intervals"
-        )
-    if np.isnan([*moved.values()]).any():
-        return (
-            "the softest such body does not bear the largest load, so how far the answers change "
-            "there is not known, and they come without intervals"
-        )
-    if np.allclose([*moved.values()], 1, rtol=0, atol=LEAST_CHANGE / 100):
-        except_for = "p_c/H and the estimates that are made with the hardness"
-        if yielded > 0:
-            return (
-                f"with the softest and the hardest such body, the answers at the largest load "
-                f"change by less than {LEAST_CHANGE:g}%, except for {except_for}"
-            )
-        return (
-            "as nothing yields at the largest load, this changes no answer there except "
-            f"{except_for}"
-        )
-    changes = [f"{name} {change_in_words(low, high)}" for name, (low, high) in moved.items()]
-    return (
-        "with the softest and the hardest such body, the answers at the largest load change by: "
-        f"{', '.join(changes)}; "
-        + (
-            "that is in no interval, as values come without"
-            if result.intervals is None
-            else "the intervals include that"
-        )
-    )
-
-
-def departures_in_words(result: Assessment) -> list[str]:
-    """Say how what was pressed departs from assumptions, gravest first, and what that takes down.
-
-    Nothing is said of a departure on which no answer to the question rests. What a line scan
-    shows is said where it is pressed.
-    """
-    said = []
-    for departure in departures(result.body):
-        down = [
-            _without_interval(result, prediction)
-            for prediction in _predictions(result)
-            if takes_down(departure, prediction, result.body)
-        ]
-        if down:
-            said.append("; ".join([departure.text, *filter(None, dict.fromkeys(down))]))
-    return said
-
-
-def _predictions(result: Assessment) -> Sequence[Prediction]:
-    """What is predicted beyond the body itself."""
-    found: list[Prediction] = []
-    if result.curve.stiffness_error is not None:
-        found.append("grid")
-    if is_map(result.body) and result.answers:
-        found.append("larger surface")
-    if result.theories:
-        found.append("theories")
-    return found
-
-
-def _without_interval(result: Assessment, prediction: Prediction) -> str:
-    """Say which answers come without an interval, as far as there are any."""
-    if prediction == "theories":
-        return "theories assume otherwise"
-    if prediction == "grid":
-        return "all values come without an interval"
-    names = [
-        each.symbol
-        for each in result.answers.values()
-        if (result.question.joint or each.rule.is_of_interface)
-        and each.low is None
-        and not each.rule.is_given
-    ]
-    if not names:
-        return ""
-    verb = "comes" if len(names) == 1 else "come"
-    return f"{listed(names)} {verb} without an interval"
-
-
 def listed(names: Sequence[str]) -> str:
     """Write names one after the other."""
     *first, last = names
     return f"{', '.join(first)} and {last}" if first else last
-
-
-def of_full_contact(result: Assessment) -> list[str]:
-    """Say under which loads all points touch, or all but a few."""
-    curve, body = result.curve_as_asked, result.body
-    if curve.area_fraction is None or not isinstance(body, Surface):
-        return []
-    repeated = curve.settings.get("boundary") == "periodic"
-    rest = "stiffness is infinite" if repeated else "k is that of a flat punch"
-    notes = []
-    apart = np.rint((1 - curve.area_fraction) * body.heights.size)
-    full = [name for name, n in zip(result.headings, apart, strict=True) if n == 0]
-    nearly = [name for name, n in zip(result.headings, apart, strict=True) if 0 < n < RESOLVED_FROM]
-    if full:
-        notes.append(f"all points touch under {', '.join(full)}: no gap is left, and {rest}")
-    if nearly:
-        notes.append(
-            f"fewer than {RESOLVED_FROM} points do not touch under {', '.join(nearly)}: the "
-            "stiffness of the interface is that of these last gaps, which the grid decides, and "
-            "without them it is infinite"
-        )
-    return notes
-
-
-def of_wide_interval(result: Assessment) -> list[str]:
-    """Say why the interval of a stiffness is wide: its causes, the largest first, and a remedy."""
-    curve, points = result.curve_as_asked, result.body.heights.size
-    error, k = curve.unloading_stiffness_error, curve.unloading_stiffness
-    rules = (INTERFACE_STIFFNESS, UNLOADING_STIFFNESS, CONTACT_STIFFNESS)
-    shown = next((result.answers[each.key] for each in rules if each.key in result.answers), None)
-    ends = None if shown is None else shown.ends
-    if shown is None or ends is None or error is None or k is None or curve.area_fraction is None:
-        return []
-    with np.errstate(divide="ignore", invalid="ignore"):
-        widths, of_grid = np.log(ends[1] / ends[0]), 2 * np.log1p(error / k)
-        scatter = result.hardness_scatter.get(shown.key)
-        of_hardness = 0 * widths if scatter is None else np.log(scatter[1] / scatter[0])
-        of_piece = np.sqrt(np.maximum((widths - of_hardness) ** 2 - of_grid**2, 0))
-    widths = np.where(np.isfinite(widths), widths, 0)
-    i = int(np.argmax(widths))
-    if widths[i] < np.log(_WIDE):
-        return []
-    cells = round(float(curve.area_fraction[i]) * points)
-    causes = [
-        (of_grid[i], f"the grid, with {cells} of {points} points in contact", "finer pixels"),
-        (of_hardness[i], "the scatter of the hardness", "a measured hardness"),
-    ]
-    if shown.rule is INTERFACE_STIFFNESS:
-        causes.append((of_piece[i], "what one map does not show", "a larger map, or several maps"))
-    causes = sorted((each for each in causes if each[0] > np.log(_COUNTS)), reverse=True)
-    if not causes:
-        return []
-    told = [f"{what} (a factor of {decimal(float(np.exp(w)), 2)})" for w, what, _ in causes]
-    return [
-        f"the {shown.name} under {result.headings[i]} is known to a factor of "
-        f"{decimal(float(np.exp(widths[i])), 2)} between both ends; it is left open by "
-        f"{', then by '.join(told)}: {causes[0][2]} would narrow it most"
-    ]

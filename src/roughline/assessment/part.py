@@ -18,34 +18,6 @@ from roughline.statistics.places import average_of_places
 
 
 @dataclass(frozen=True, eq=False)
-class Missed:
-    """What maps do not show of one quantity of their part.
-
-    Attributes
-    ----------
-    alike : sequence of (tuple of ndarray)
-        Ends of the interval of each map which others would miss in the same way. [unit]
-    sharing : sequence of (tuple of ndarray), optional
-        Bounds of what the value of each map becomes as the places of the part share its load.
-        [unit]
-    """
-
-    alike: Sequence[Ends]
-    sharing: Sequence[Ends] = ()
-
-    @property
-    def by_sharing(self) -> Ends | None:
-        """Both bounds, (maps, loads)."""
-        return stacked(self.sharing) if self.sharing else None
-
-
-def stacked(ends: Sequence[Ends]) -> Ends:
-    """Both ends of all maps, each (maps, loads)."""
-    low, high = zip(*ends, strict=True)
-    return np.stack(low), np.stack(high)
-
-
-@dataclass(frozen=True, eq=False)
 class PartAnswer:
     """One quantity of a part, over the loads.
 
@@ -75,25 +47,28 @@ class PartAnswer:
     def of(
         cls,
         of_maps: Sequence[Answer],
-        missed: Missed | None = None,
+        missed: Sequence[Ends] = (),
+        sharing: Sequence[Ends] = (),
         *,
         is_told: bool = True,
     ) -> PartAnswer:
         """Average the answers of one or more maps, within the limits of each of them.
 
-        Without what all maps miss alike, their own intervals are that. There is no interval where
-        the maps do not tell of the part.
+        Ends for each map are of what all miss alike, by default its own interval, and of what its
+        value becomes as the places of the part share its load. There is no interval where the maps
+        do not tell of the part.
         """
         values = np.stack([each.values for each in of_maps])
         unknown = np.full(values.shape[1], np.nan)
-        missed = missed or Missed([each.ends or (unknown, unknown) for each in of_maps])
-        found = average_of_places(values, *stacked(missed.alike), missed.by_sharing)
+        missed = missed or [each.ends or (unknown, unknown) for each in of_maps]
+        by_sharing = _stacked(sharing) if sharing else None
+        found = average_of_places(values, *_stacked(missed), by_sharing)
         if len(of_maps) == 1 or not is_told:
             # what one map leaves open of itself is no interval of the part
             return cls(of_maps, found.mean, found.scatter, unknown, unknown, found.count)
-        low, high = found.low, found.high
         least, most = zip(*(each.limits for each in of_maps), strict=True)
-        low, high = within((low, high), (reduce(np.minimum, least), reduce(np.maximum, most)))
+        limits = reduce(np.minimum, least), reduce(np.maximum, most)
+        low, high = within((found.low, found.high), limits)
         return cls(of_maps, found.mean, found.scatter, low, high, found.count)
 
     def ends_of_maps(self, load: int) -> tuple[Real, Real]:
@@ -189,3 +164,9 @@ class PartAssessment:
     def largest(self) -> int:
         """Number of the largest load among those that were asked for."""
         return self.assessments[0].largest
+
+
+def _stacked(ends: Sequence[Ends]) -> Ends:
+    """Both ends of all maps, each (maps, loads)."""
+    low, high = zip(*ends, strict=True)
+    return np.stack(low), np.stack(high)

@@ -19,8 +19,6 @@ from roughline.units import engineering
 
 _NUMBER = re.compile(r"\d[\d.]*(e[-+]?\d+)?( ?[afpnµmkMGT]?(m²|m|N/m|N|Pa|Ω|%)(?!\w))?")
 _SAME_SIZE = 1.05  # largest area over smallest, up to which forces on maps are compared
-# Departures of single maps that the maps judge together; what is said of them alone is left out.
-_JUDGED_TOGETHER = ("stationary", "steady", "longer waves", "roll-off")
 _FEW = 5  # maps up to which it is said how much more would help
 
 # Largest over smallest from which on maps are not of one kind. Places of one surface differ in
@@ -32,13 +30,39 @@ _KINDS: tuple[tuple[str, Callable[[Body], float], float], ...] = (
 )
 
 
+def remarks_of_part(
+    results: Mapping[str, Assessment], behind: BehindMaps | None, answers: Mapping[str, PartAnswer]
+) -> tuple[list[str], list[str]]:
+    """Warnings and notes on a part and on its maps, by their names."""
+    maps = list(results.values())
+    is_joint = maps[0].question.joint is not None
+    of_part, agreement = _what_they_tell_of_the_part(behind, answers, is_joint)
+    judged = {name: _judged_together(each.body) for name, each in results.items()}
+    own = {
+        name: [text for text in each.warnings if not text.startswith(judged[name])]
+        for name, each in results.items()
+    }
+    warnings = own if len(maps) > 1 else {name: each.warnings for name, each in results.items()}
+    notes = {name: each.notes for name, each in results.items()}
+    return (
+        [*of_part, *_differences_in_kind(results), *_once(warnings)],
+        [*_what_is_averaged(maps, is_joint), *agreement, *_once(notes)],
+    )
+
+
+def _judged_together(body: Body) -> tuple[str, ...]:
+    """How what is said of a map alone begins where the maps judge it together."""
+    alike = ("stationary", "steady", "longer waves", "roll-off")
+    return tuple(each.text for each in departures(body) if each.assumption in alike)
+
+
 def differ_in_size(results: Sequence[Assessment]) -> bool:
     """Whether maps differ so much in size that quantities of a whole map cannot be compared."""
     areas = [each.area for each in results]
     return max(areas) > _SAME_SIZE * min(areas)
 
 
-def differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
+def _differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
     """Point out maps that plainly are not of one kind."""
     found = []
     kinds = {isinstance(each.body, Surface) for each in results.values()}
@@ -64,11 +88,11 @@ def differences_in_kind(results: Mapping[str, Assessment]) -> list[str]:
     return found
 
 
-def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
+def _what_is_averaged(results: Sequence[Assessment], is_joint: bool) -> list[str]:
     """Say what mean, scatter and interval of a part are."""
     from scipy.special import stdtrit  # here because it loads slowly
 
-    count, is_joint = len(results), results[0].question.joint is not None
+    count = len(results)
     if count == 1:
         return [
             "a single map shows no scatter between places: no interval for the part; map at least "
@@ -102,7 +126,7 @@ def what_is_averaged(results: Sequence[Assessment]) -> list[str]:
     return notes
 
 
-def what_they_tell_of_the_part(
+def _what_they_tell_of_the_part(
     behind: BehindMaps | None, answers: Mapping[str, PartAnswer], is_joint: bool
 ) -> tuple[list[str], list[str]]:
     """Say whether maps tell of the part, and whether they agree; warnings and notes."""
@@ -132,26 +156,6 @@ def what_they_tell_of_the_part(
             "the part has regions, ask for each of them"
         )
     return warnings, notes
-
-
-def what_the_maps_say(results: Mapping[str, Assessment]) -> tuple[list[str], list[str]]:
-    """Warnings and notes of all maps: those of all once, the others with the maps' names."""
-    judged = {
-        name: [
-            departure.text
-            for departure in departures(each.body)
-            if departure.assumption in _JUDGED_TOGETHER
-        ]
-        for name, each in results.items()
-    }
-    own = {
-        name: [text for text in each.warnings if not text.startswith(tuple(judged[name]))]
-        for name, each in results.items()
-    }
-    return (
-        _once(own if len(results) > 1 else {name: results[name].warnings for name in own}),
-        _once({name: each.notes for name, each in results.items()}),
-    )
 
 
 def _once(said: Mapping[str, Sequence[str]]) -> list[str]:

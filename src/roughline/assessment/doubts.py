@@ -1,0 +1,212 @@
+"""Warnings of an assessment: where assumptions break, and what is suspicious; gravest first."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from roughline.assessment.assessment import Assessment
+from roughline.assessment.assumptions import Prediction, takes_down
+from roughline.assessment.case import COARSENED_FROM
+from roughline.assessment.kinds import is_map
+from roughline.assessment.notes import borders_of_repeated, how_far_a_line_serves, listed, of_each
+from roughline.assessment.question import Question
+from roughline.contact.quantities import RESOLVED_FROM
+from roughline.engineering.formulas import plasticity_index
+from roughline.engineering.rules.mechanical import (
+    CONTACT_STIFFNESS,
+    INTERFACE_STIFFNESS,
+    UNLOADING_STIFFNESS,
+)
+from roughline.errors.words import called
+from roughline.spectra.alike import ALIKE
+from roughline.spectra.departures import departures
+from roughline.spectra.isotropic import isotropy
+from roughline.spectra.moments import Moments
+from roughline.topography.body import Line, Surface
+from roughline.topography.effects import grave_effects
+from roughline.topography.files.read import suspicions
+from roughline.units import decimal
+
+_STRAINED = 0.1  # mean pressure over E*, or depth over side, above which a warning says so
+_STEEP = 0.5  # rms slope above which a warning says that half-spaces assume small slopes
+_WIDE = 4.0  # upper over lower end from which on the causes of an interval are said
+_COUNTS = 1.2  # upper over lower end of what counts as a cause
+
+
+def warnings_of(
+    result: Assessment, spectrum: Moments | None, grid_error_was_tried: bool
+) -> list[str]:
+    """What is suspicious, where assumptions break, and why there is no interval."""
+    bodies, body, curve = [each.body for each in result.topographies], result.body, result.curve
+    borders, are_grave = borders_of_repeated(result.question, body)
+    of_line, is_grave = how_far_a_line_serves(result.question, body)
+    # what a curve says of the borders is said below, as a warning or as a note
+    of_curve = [text for text in curve.warnings if text not in {borders, *grave_effects(body)}]
+    is_scan = isinstance(body, Line) and body.kind == "profile"
+    warnings = [
+        *(of_curve if is_scan else _departures_in_words(result)),
+        *of_each(bodies, suspicions),
+        *of_each(bodies, grave_effects),
+        *_broken_assumptions(result, spectrum),
+        *_of_full_contact(result),
+        *_of_wide_interval(result),
+        *([of_line] if is_grave else []),
+        *([] if is_scan else of_curve),
+        *([borders] if are_grave else []),
+    ]
+    if isinstance(body, Surface) and curve.stiffness_error is None:
+        warnings.append(_why_without_grid_error(result.question, body, grid_error_was_tried))
+    return warnings
+
+
+def _departures_in_words(result: Assessment) -> list[str]:
+    """Say how what was pressed departs from assumptions, gravest first, and what that takes down.
+
+    Nothing is said of a departure on which no answer to the question rests. What a line scan
+    shows is said where it is pressed.
+    """
+    made: dict[Prediction, bool] = {
+        "grid": result.curve.stiffness_error is not None,
+        "larger surface": is_map(result.body) and bool(result.answers),
+        "theories": bool(result.theories),
+    }
+    said = []
+    for departure in departures(result.body):
+        down = [
+            _without_interval(result, prediction)
+            for prediction, is_made in made.items()
+            if is_made and takes_down(departure, prediction, result.body)
+        ]
+        if down:
+            said.append("; ".join([departure.text, *filter(None, dict.fromkeys(down))]))
+    return said
+
+
+def _without_interval(result: Assessment, prediction: Prediction) -> str:
+    """Say which answers come without an interval, as far as there are any."""
+    if prediction == "theories":
+        return "theories assume otherwise"
+    if prediction == "grid":
+        return "all values come without an interval"
+    names = [
+        each.symbol
+        for each in result.answers.values()
+        if (result.question.joint or each.rule.is_of_interface)
+        and each.low is None
+        and not each.rule.is_given
+    ]
+    if not names:
+        return ""
+    verb = "comes" if len(names) == 1 else "come"
+    return f"{listed(names)} {verb} without an interval"
+
+
+def _broken_assumptions(result: Assessment, spectrum: Moments | None) -> list[str]:
+    """Say where an assumption breaks, and what is to be said with the answers."""
+    question, body = result.question, result.body
+    broken = []
+    if body.rms_slope > _STEEP:
+        broken.append(
+            f"the rms slope is {decimal(body.rms_slope, 2)}, and half-spaces assume small slopes: "
+            f"no interval includes the effect of slopes over {_STEEP:g}"
+        )
+    ratio, text = max(question.strains(body), default=(0.0, ""))
+    if ratio > _STRAINED:
+        broken.append(
+            f"{text}: bodies that are strained so far are not linear elastic, and no interval "
+            "includes that"
+        )
+    if (index := _plasticity(result, spectrum)) > 1:
+        broken.append(
+            f"the plasticity index is {decimal(index, 2)}, over 1: summits yield at first touch; "
+            "under repeated loads they deform elastically about their flattened shape"
+        )
+    if question.theories and isinstance(body, Surface) and (alike := isotropy(body)) < ALIKE:
+        broken.append(
+            "theories assume an isotropic surface, and the rms slope depends on direction: the "
+            f"least is {alike:.2f} of the largest"
+        )
+    return broken + [each.warning for each in result.answers.values() if each.warning]
+
+
+def _plasticity(result: Assessment, spectrum: Moments | None) -> float:
+    """Greenwood and Williamson's index, where summits are not given a hardness; else zero."""
+    pair = result.question.pair
+    if pair is None or pair.hardness is None or spectrum is None or result.curve.hardness:
+        return 0.0
+    summits = spectrum.summit_deviation, spectrum.summit_radius
+    return plasticity_index(result.curve.E_star, pair.hardness, summits)
+
+
+def _of_full_contact(result: Assessment) -> list[str]:
+    """Say under which loads all points touch, or all but a few."""
+    curve, body = result.curve_as_asked, result.body
+    if curve.area_fraction is None or not isinstance(body, Surface):
+        return []
+    repeated = curve.settings.get("boundary") == "periodic"
+    rest = "stiffness is infinite" if repeated else "k is that of a flat punch"
+    notes = []
+    apart = np.rint((1 - curve.area_fraction) * body.heights.size)
+    full = [name for name, n in zip(result.headings, apart, strict=True) if n == 0]
+    nearly = [name for name, n in zip(result.headings, apart, strict=True) if 0 < n < RESOLVED_FROM]
+    if full:
+        notes.append(f"all points touch under {', '.join(full)}: no gap is left, and {rest}")
+    if nearly:
+        notes.append(
+            f"fewer than {RESOLVED_FROM} points do not touch under {', '.join(nearly)}: the "
+            "stiffness of the interface is that of these last gaps, which the grid decides, and "
+            "without them it is infinite"
+        )
+    return notes
+
+
+def _of_wide_interval(result: Assessment) -> list[str]:
+    """Say why the interval of a stiffness is wide: its causes, the largest first, and a remedy."""
+    curve, points = result.curve_as_asked, result.body.heights.size
+    error, k = curve.unloading_stiffness_error, curve.unloading_stiffness
+    rules = (INTERFACE_STIFFNESS, UNLOADING_STIFFNESS, CONTACT_STIFFNESS)
+    shown = next((result.answers[each.key] for each in rules if each.key in result.answers), None)
+    ends = None if shown is None else shown.ends
+    if shown is None or ends is None or error is None or k is None or curve.area_fraction is None:
+        return []
+    with np.errstate(divide="ignore", invalid="ignore"):
+        widths, of_grid = np.log(ends[1] / ends[0]), 2 * np.log1p(error / k)
+        scatter = result.hardness_scatter.get(shown.key)
+        of_hardness = 0 * widths if scatter is None else np.log(scatter[1] / scatter[0])
+        of_piece = np.sqrt(np.maximum((widths - of_hardness) ** 2 - of_grid**2, 0))
+    widths = np.where(np.isfinite(widths), widths, 0)
+    i = int(np.argmax(widths))
+    if widths[i] < np.log(_WIDE):
+        return []
+    cells = round(float(curve.area_fraction[i]) * points)
+    causes = [
+        (of_grid[i], f"the grid, with {cells} of {points} points in contact", "finer pixels"),
+        (of_hardness[i], "the scatter of the hardness", "a measured hardness"),
+    ]
+    if shown.rule is INTERFACE_STIFFNESS:
+        causes.append((of_piece[i], "what one map does not show", "a larger map, or several maps"))
+    causes = sorted((each for each in causes if each[0] > np.log(_COUNTS)), reverse=True)
+    if not causes:
+        return []
+    told = [f"{what} (a factor of {decimal(float(np.exp(w)), 2)})" for w, what, _ in causes]
+    return [
+        f"the {shown.name} under {result.headings[i]} is known to a factor of "
+        f"{decimal(float(np.exp(widths[i])), 2)} between both ends; it is left open by "
+        f"{', then by '.join(told)}: {causes[0][2]} would narrow it most"
+    ]
+
+
+def _why_without_grid_error(question: Question, body: Surface, tried: bool) -> str:
+    """Say that values come without an interval, and why; `tried` if Ctrl-C stopped the estimate."""
+    asked = called("grid_error", True)
+    if tried:
+        why = "interrupted before"
+    elif question.grid_error is not None:
+        why = "switched off"
+    elif min(body.shape) < COARSENED_FROM:
+        why = (
+            f"fewer than {COARSENED_FROM} points a side; with {asked} it is estimated nevertheless"
+        )
+    else:
+        why = f"that takes about twice as long; with {asked} it is estimated"
+    return f"grid error not estimated, so values come without intervals ({why})"
