@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, get_args
+from typing import Any, TypeVar, get_args
 
 from roughline.assessment.fields import FIELDS, asked_fields
-from roughline.assessment.given import Parsed, checked_friction, quantity, several
-from roughline.errors.checks import refuse
+from roughline.assessment.given import Parsed, quantity, several
+from roughline.errors.checks import number, refuse
 from roughline.errors.public import public
+
+_MOST_FRICTION = 5.0  # that of rubber on dry glass is about 4
+_Class = TypeVar("_Class", bound=type)
+
+
+def _coefficient_of_friction(given: Any) -> float:
+    """Return a coefficient of friction that two bodies may have."""
+    needed = f"a number above 0 and up to {_MOST_FRICTION:g} is needed, such as 0.3"
+    if not 0 < number("friction", given, needed) <= _MOST_FRICTION:
+        refuse("friction", given, needed)
+    return float(given)
 
 
 @public
@@ -24,7 +36,7 @@ class Friction:
         Coefficient of friction, above 0 and up to 5. [1]
     """
 
-    coefficient: Parsed[float] = Parsed(checked_friction)
+    coefficient: Parsed[float] = Parsed(_coefficient_of_friction)
 
 
 @public
@@ -118,20 +130,24 @@ def asked_for(told: Mapping[str, Any]) -> tuple[Asked, ...]:
     return tuple(asked)
 
 
-def without_earlier_keywords(named: Mapping[str, Any]) -> dict[str, Any]:
-    """Return arguments of a question, what keywords of version 0.2 asked for among `ask`."""
-    earlier = [each for each in FIELDS if each.is_asked and each.name in named]
-    if not earlier:
-        return dict(named)
-    asked = asked_for({each.name: named[each.name] for each in earlier})
-    instead = ", ".join(each.in_python(named[each.name]) for each in earlier if named[each.name])
-    warnings.warn(
-        f"{', '.join(f'{each.name}=' for each in earlier)} will be gone in the next release: write "
-        f"ask=[{instead}]",
-        DeprecationWarning,
-        stacklevel=3,
-    )
-    others = {
-        name: value for name, value in named.items() if name not in {each.name for each in earlier}
-    }
-    return {**others, "ask": (*several(named.get("ask")), *asked)}
+def with_earlier_keywords(question: _Class) -> _Class:
+    """A class that takes the keywords of version 0.2 beside `ask` too, for one release."""
+    made: Callable[..., None] = question.__init__  # type: ignore[misc]
+
+    @functools.wraps(made)
+    def make(self: Any, *given: Any, **named: Any) -> None:
+        earlier = [each for each in FIELDS if each.is_asked and each.name in named]
+        if earlier:
+            told = {each.name: named.pop(each.name) for each in earlier}
+            named["ask"] = (*several(named.get("ask")), *asked_for(told))
+            words = [each.in_python(told[each.name]) for each in earlier if told[each.name]]
+            warnings.warn(
+                f"{', '.join(f'{name}=' for name in told)} will be gone in the next release: write "
+                f"ask=[{', '.join(words)}]",
+                DeprecationWarning,
+                stacklevel=2,
+            )
+        made(self, *given, **named)
+
+    question.__init__ = make  # type: ignore[misc]
+    return question

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from roughline.errors.checks import refuse
@@ -33,7 +34,8 @@ class Field:
     group : str
         What it is about.
     flag : str
-        On the command line; several names have commas between. Empty if it has none.
+        On the command line; several names have commas between, and none is empty. Default: its name
+        with dashes.
     control : str
         Key in the lab's form and addresses; empty if it has none there.
     label, word : str
@@ -56,7 +58,7 @@ class Field:
     name: str
     of: str = "Question"
     group: str
-    flag: str = ""
+    flag: str = "--{}"
     control: str = ""
     label: str = ""
     word: str = ""
@@ -66,6 +68,9 @@ class Field:
     separator: str = ""
     choices: Mapping[str, tuple[Any, str]] = field(default_factory=dict)
     read: Callable[[str], Any] = str
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "flag", self.flag.format(self.name.replace("_", "-")))
 
     @property
     def is_asked(self) -> bool:
@@ -119,40 +124,37 @@ def _crop(text: str) -> tuple[float, ...]:
     return tuple(lengths(text, "crop"))
 
 
+_of_bodies = partial(Field, group=BODIES)
+_of_loads = partial(Field, group=LOADS)
+_of_answers = partial(Field, group=ANSWERS)
+_of_file = partial(Field, of="Reading", group=FILE)
+_of_preparation = partial(Field, of="Preparation", group=PREPARATION)
+
 FIELDS: tuple[Field, ...] = (
-    Field(
+    _of_bodies(
         name="materials",
-        group=BODIES,
-        flag="--materials",
         word="two materials",
         help='Both materials, such as "steel,copper" or "E=70 GPa nu=0.33, rigid".',
     ),
-    Field(
+    _of_bodies(
         name="E_star",
-        group=BODIES,
         flag="--modulus",
         word="the contact modulus",
         help='Contact modulus E* instead of the materials, such as "110 GPa".',
     ),
-    Field(
+    _of_bodies(
         name="against",
-        group=BODIES,
-        flag="--against",
         help="Topography of the second body, read and prepared like the first.",
         otherwise="a smooth body",
     ),
-    Field(
+    _of_bodies(
         name="hardness",
-        group=BODIES,
-        flag="--hardness",
         control="hardness",
         help='Hardness of the softer body, such as "2 GPa", taken as exact.',
         otherwise="of the materials, with its scatter",
     ),
-    Field(
+    _of_bodies(
         name="elastic",
-        group=BODIES,
-        flag="--elastic",
         control="elastic",
         label="yield",
         word='"elastic"',
@@ -161,102 +163,84 @@ FIELDS: tuple[Field, ...] = (
         "indented.",
         choices={"no": (False, "where a hardness is known"), "yes": (True, "elastic")},
     ),
-    Field(
+    _of_loads(
         name="loads",
-        group=LOADS,
         flag="--load,--force",
         control="loads",
         help='A total force, such as "10 N", or a mean pressure, such as "2 MPa".',
         otherwise="20 loads up to saturation",
         separator=";",
     ),
-    Field(
+    _of_loads(
         name="depths",
-        group=LOADS,
         flag="--depth",
         help='A depth, such as "200 nm".',
         separator=";",
     ),
-    Field(
+    _of_loads(
         name="joint_area",
         of="Joint",
-        group=LOADS,
-        flag="--joint-area",
         control="joint_area",
         help='Area of the joint that the map is a part of, such as "2 cm^2": forces then act on '
         "the joint, and the answers are those of the joint.",
         otherwise="the map alone",
     ),
-    Field(
+    _of_loads(
         name="n_loads",
-        group=LOADS,
         flag="--loads",
         help="Number of loads from first touch to saturation.",
         otherwise="20",
         kind=int,
     ),
-    Field(
+    _of_loads(
         name="history",
         of="History",
-        group=LOADS,
-        flag="--history",
         help="Apply several --load in the order given, rising and falling, each to the surface as "
         "the load before it left it.",
         choices={"no": (False, "rising"), "yes": (True, "in the order given")},
     ),
-    Field(
+    _of_loads(
         name="unload",
         of="Unloading",
-        group=LOADS,
-        flag="--unload",
         help="Remove the largest --load again, in steps down to zero.",
         choices={"no": (False, "no"), "yes": (True, "down to zero")},
     ),
-    Field(
+    _of_bodies(
         name="periodic",
-        group=BODIES,
-        flag="--periodic",
         control="boundary",
         label="half-space",
         help="Repeat the surface periodically: it has no borders, and the stiffness is that of "
         "the interface. Otherwise the half-space continues, unloaded, around the surface.",
         choices={"free": (False, "free"), "periodic": (True, "periodic")},
     ),
-    Field(
+    _of_answers(
         name="friction",
         of="Friction",
-        group=ANSWERS,
-        flag="--friction",
         control="friction",
         help="Coefficient of friction, above 0 and up to 5, such as 0.3: adds partial slip at the "
         "largest load to the report and to JSON.",
         otherwise="none",
         kind=float,
     ),
-    Field(
+    _of_answers(
         name="frequency",
         of="Ultrasound",
-        group=ANSWERS,
-        flag="--frequency",
         control="frequency",
         label="ultrasound",
         word="frequency",
         help='Frequency of ultrasound, such as "5 MHz": adds its reflection by the interface.',
         otherwise="none",
     ),
-    Field(
+    _of_answers(
         name="theories",
         of="Theories",
-        group=ANSWERS,
         flag="--theory",
         control="theories",
         help="Theory to compare with, of the same waves and of periodic surfaces: {theories}.",
         separator=",",
     ),
-    Field(
+    _of_answers(
         name="grid_error",
-        group=ANSWERS,
-        flag="--grid-error",
         control="grid_error",
         label="grid error",
         word='grid error "estimate"',
@@ -269,43 +253,33 @@ FIELDS: tuple[Field, ...] = (
             "no": (False, "leave out"),
         },
     ),
-    Field(
+    _of_answers(
         name="whole_curve",
+        flag="",
         of="WholeCurve",
-        group=ANSWERS,
         choices={"no": (False, "no"), "yes": (True, "yes")},
     ),
-    Field(
+    _of_file(
         name="unit",
-        of="Reading",
-        group=FILE,
-        flag="--unit",
         control="unit",
         label="unit of lengths",
         word="unit",
         help="Unit of the lengths and heights in a file that states none, such as um.",
     ),
-    Field(
+    _of_file(
         name="channel",
-        of="Reading",
-        group=FILE,
-        flag="--channel",
         control="channel",
         help="Channel of the file: its name, or its number from 0; only heights can be pressed.",
     ),
-    Field(
+    _of_file(
         name="sizes",
-        of="Reading",
-        group=FILE,
         flag="--size",
         control="size",
         label="size",
         help='Sides of a file that states none, such as "1 mm, 0.5 mm"; one for a square.',
     ),
-    Field(
+    _of_file(
         name="missing",
-        of="Reading",
-        group=FILE,
         flag="--fill",
         control="fill",
         label="filling",
@@ -316,10 +290,8 @@ FIELDS: tuple[Field, ...] = (
             "nearest": ("nearest", "nearest height"),
         },
     ),
-    Field(
+    _of_file(
         name="most_missing",
-        of="Reading",
-        group=FILE,
         flag="--max-missing",
         control="most_missing",
         label="most missing",
@@ -328,11 +300,8 @@ FIELDS: tuple[Field, ...] = (
         otherwise="10 %",
         kind=float,
     ),
-    Field(
+    _of_file(
         name="tilt",
-        of="Reading",
-        group=FILE,
-        flag="--tilt",
         control="tilt",
         label="tilt is of",
         help="Whose the tilt of measured heights is: the mounting's alone, such as the stage's, or "
@@ -340,11 +309,8 @@ FIELDS: tuple[Field, ...] = (
         "surface.",
         choices={"unknown": ("unknown", "not known"), "mounting": ("mounting", "the mounting")},
     ),
-    Field(
+    _of_file(
         name="pixels",
-        of="Reading",
-        group=FILE,
-        flag="--pixels",
         control="pixels",
         label="heights are",
         help="Whether heights are means over pixels or those of points, which tells the instrument "
@@ -356,22 +322,16 @@ FIELDS: tuple[Field, ...] = (
             "points": ("points", "of points"),
         },
     ),
-    Field(
+    _of_file(
         name="blur",
-        of="Reading",
-        group=FILE,
-        flag="--blur",
         control="blur",
         help="Standard deviation of the instrument's Gaussian blur beside the pixels', such as "
         '"0.3 um"; 0 for none.',
         otherwise="not known",
         read=_blur,
     ),
-    Field(
+    _of_file(
         name="tip_radius",
-        of="Reading",
-        group=FILE,
-        flag="--tip-radius",
         control="tip_radius",
         label="tip radius",
         help='Radius of the tip that traced the surface, such as "2 um": shorter waves than it '
@@ -379,11 +339,8 @@ FIELDS: tuple[Field, ...] = (
         otherwise="none",
         read=_length("tip_radius"),
     ),
-    Field(
+    _of_preparation(
         name="trend",
-        of="Preparation",
-        group=PREPARATION,
-        flag="--trend",
         control="trend",
         help="Trend that is removed from the heights by least squares.",
         otherwise="the tilt of measured ones; our own files stay as they are",
@@ -395,21 +352,15 @@ FIELDS: tuple[Field, ...] = (
             "curvature": ("curvature", "curvature"),
         },
     ),
-    Field(
+    _of_preparation(
         name="crop",
-        of="Preparation",
-        group=PREPARATION,
-        flag="--crop",
         control="crop",
         help='Piece to keep, from and to along x and y, such as "0 um, 50 um, 0 um, 40 um".',
         otherwise="all",
         read=_crop,
     ),
-    Field(
+    _of_preparation(
         name="low_pass",
-        of="Preparation",
-        group=PREPARATION,
-        flag="--low-pass",
         control="low_pass",
         label="low pass",
         help='Cutoff wavelength of a Gaussian filter after ISO 16610-61, such as "2 um": shorter '
@@ -417,10 +368,8 @@ FIELDS: tuple[Field, ...] = (
         otherwise="none",
         read=_length("low_pass"),
     ),
-    Field(
+    _of_preparation(
         name="points",
-        of="Preparation",
-        group=PREPARATION,
         flag="--resample",
         control="resample",
         label="resample to",
@@ -430,11 +379,8 @@ FIELDS: tuple[Field, ...] = (
         otherwise="as it is",
         kind=int,
     ),
-    Field(
+    _of_preparation(
         name="remove_outliers",
-        of="Preparation",
-        group=PREPARATION,
-        flag="--remove-outliers",
         control="outliers",
         label="spikes",
         help="Remove spikes and fill their points: dust, or errors of the instrument, that differ "

@@ -17,22 +17,13 @@ from roughline.errors.words import speaking
 from roughline.topography.body import Body, Line, Surface
 from roughline.units import example_of, in_si, load_in_newtons, refuse_decimal_comma
 
-MOST_FRICTION = 5.0
-"""Largest coefficient of friction; that of rubber on dry glass is about 4."""
-
-
 _Value = TypeVar("_Value")
 
 
 class Parsed(Generic[_Value]):
     """An attribute of a frozen dataclass that is read, and checked, when it is given.
 
-    Parameters
-    ----------
-    read : callable
-        Reads what was given.
-    default : optional
-        What holds where nothing is given; without it something has to be.
+    The default is what holds where nothing is given; without one, something has to be.
     """
 
     def __init__(self, read: Callable[[Any], _Value], **default: Any) -> None:
@@ -40,11 +31,10 @@ class Parsed(Generic[_Value]):
         self._default = default
 
     def __set_name__(self, owner: type, name: str) -> None:
-        """Learn under which name the attribute is kept."""
         self._name = name
 
     def __get__(self, instance: object | None, owner: type) -> _Value:
-        """Return the value; of the class, what the dataclass takes as the default."""
+        # of the class, it is what the dataclass takes as the default
         if instance is not None:
             return instance.__dict__[self._name]
         if not self._default:
@@ -52,7 +42,6 @@ class Parsed(Generic[_Value]):
         return self._default["default"]
 
     def __set__(self, instance: object, given: Any) -> None:
-        """Read what was given."""
         instance.__dict__[self._name] = self.read(given)
 
 
@@ -87,20 +76,6 @@ def quantity(unit: str, name: str, needed: str) -> Callable[[Any], float]:
         return value
 
     return read
-
-
-def checked_friction(given: Any) -> float:
-    """Return a coefficient of friction.
-
-    Raises
-    ------
-    InputError
-        If it is no number, or none that two bodies have.
-    """
-    needed = f"a number above 0 and up to {MOST_FRICTION:g} is needed, such as 0.3"
-    if not 0 < number("friction", given, needed) <= MOST_FRICTION:
-        refuse("friction", given, needed)
-    return float(given)
 
 
 def has_forces(loads: Any) -> bool:

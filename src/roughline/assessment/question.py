@@ -18,7 +18,7 @@ from roughline.assessment.asked import (
     Ultrasound,
     Unloading,
     WholeCurve,
-    without_earlier_keywords,
+    with_earlier_keywords,
 )
 from roughline.assessment.given import (
     Parsed,
@@ -47,20 +47,8 @@ DEFAULT_LOADS = 20
 UNLOADING = (0.75, 0.5, 0.25, 0.1, 0.0)
 """Loads over the largest one, on the way back to none."""
 
-_A = TypeVar("_A")
-_Class = TypeVar("_Class", bound=type)
-
-
-def _with_earlier_keywords(question: _Class) -> _Class:
-    """A class that takes the keywords of version 0.2 too, for one release."""
-    made: Callable[..., None] = question.__init__  # type: ignore[misc]
-
-    @functools.wraps(made)
-    def make(self: Any, *given: Any, **named: Any) -> None:
-        made(self, *given, **without_earlier_keywords(named))
-
-    question.__init__ = make  # type: ignore[misc]
-    return question
+_Kind = TypeVar("_Kind")
+_Value = TypeVar("_Value")
 
 
 def _checked(asked: Any) -> tuple[Asked, ...]:
@@ -87,7 +75,7 @@ def _hardness(given: Any) -> float:
     return hardness
 
 
-@_with_earlier_keywords
+@with_earlier_keywords
 @public
 @dataclass(frozen=True)
 class Question:
@@ -206,52 +194,48 @@ class Question:
             if isinstance(body, Surface | Line):
                 self.refuse_misfit(body)
 
-    def _asked(self, kind: type[_A]) -> _A | None:
-        """What is asked of a kind, if it is."""
-        return next((each for each in self.ask if isinstance(each, kind)), None)
+    def _asked(self, kind: type[_Kind], of: Callable[[_Kind], _Value]) -> _Value | None:
+        """A value of what is asked of a kind, if it is."""
+        return next((of(each) for each in self.ask if isinstance(each, kind)), None)
 
     @property
     def friction(self) -> float | None:
         """Coefficient of friction that partial slip is asked for. [1]"""
-        asked = self._asked(Friction)
-        return None if asked is None else asked.coefficient
+        return self._asked(Friction, lambda asked: asked.coefficient)
 
     @property
     def frequency_in_hertz(self) -> float | None:
         """Frequency that a reflection is asked for. [Hz]"""
-        asked = self._asked(Ultrasound)
-        return None if asked is None else asked.frequency
+        return self._asked(Ultrasound, lambda asked: asked.frequency)
 
     @property
     def joint(self) -> float | None:
         """Nominal area of the joint; None if loads act on the body. [m²]"""
-        asked = self._asked(Joint)
-        return None if asked is None else asked.area
+        return self._asked(Joint, lambda asked: asked.area)
 
     @property
     def theories(self) -> tuple[str, ...]:
         """Names of the theories that are asked."""
-        asked = self._asked(Theories)
-        return () if asked is None else asked.names
+        return self._asked(Theories, lambda asked: asked.names) or ()
 
     @property
     def history(self) -> bool:
         """Whether loads or depths follow each other as they are given."""
-        return self._asked(History) is not None
+        return self._asked(History, bool) is not None
 
     @property
     def unload(self) -> bool:
         """Whether the largest load is taken off again."""
-        return self._asked(Unloading) is not None
+        return self._asked(Unloading, bool) is not None
 
     @property
     def whole_curve(self) -> bool:
         """Whether further loads are solved too."""
-        return self._asked(WholeCurve) is not None
+        return self._asked(WholeCurve, bool) is not None
 
     @property
     def is_of_several(self) -> bool:
-        """Whether it was asked of a number of maps of one part, be it a single one."""
+        """Whether it is asked of a list of maps of one part, be it a single one."""
         return isinstance(self.body, tuple)
 
     @property
@@ -297,14 +281,8 @@ class Question:
         headings = [
             each if isinstance(each, str) else engineering(each, unit) for each, unit in named
         ]
-        return headings + [
-            f"unloaded to {share:.0%}" if share else "unloaded" for share in self._unloading
-        ]
-
-    @property
-    def _unloading(self) -> tuple[float, ...]:
-        """Loads that follow the largest one, over it."""
-        return UNLOADING if self.unload else ()
+        falling = UNLOADING if self.unload else ()
+        return headings + [f"unloaded to {each:.0%}" if each else "unloaded" for each in falling]
 
     @property
     def is_repeated(self) -> bool:
@@ -331,7 +309,8 @@ class Question:
             if not (0 < force < math.inf or (force == 0 and self.history and i)):
                 to_unload = ", and zero only to unload after others" if self.history else ""
                 refuse("loads", load, f"give positive ones{to_unload}")
-        forces += [share * max(forces) for share in self._unloading]
+        if self.unload:
+            forces += [share * max(forces) for share in UNLOADING]
         return [force / scale for force in forces]
 
     def heights(self) -> list[float]:
