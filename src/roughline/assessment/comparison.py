@@ -23,24 +23,12 @@ from roughline.topography.preparation import as_prepared
 
 @dataclass(frozen=True)
 class ModelComparison:
-    """What a comparison gave.
+    """What a comparison gave."""
 
-    Attributes
-    ----------
-    what : str
-        What was compared.
-    comparison : Comparison
-        Curves and differences.
-    tolerance : float
-        Relative difference up to which the two models count as agreeing.
-    from_map : list of Difference or None
-        Entry of the trust map for each load; None for loads outside it, and for surfaces.
-    """
-
-    what: str
+    what: str  # was compared
     comparison: Comparison
-    tolerance: float
-    from_map: list[Difference | None]
+    tolerance: float  # relative difference up to which the two models count as agreeing
+    from_map: list[Difference | None]  # of the trust map, by load; None outside, and for surfaces
 
     @property
     def verdicts(self) -> list[Verdict]:
@@ -61,20 +49,8 @@ def compare_models(
 ) -> ModelComparison:
     """Compare the two models for a spectrum or for the surface in a file.
 
-    Parameters
-    ----------
-    roughness : SelfAffine or Path
-        The spectrum, or a file with a surface.
-    reading : Reading, optional
-        How the file is read.
-    n, surfaces, force_bars
-        As for :func:`roughline.compare`.
-    tolerance : float
-        Relative difference up to which the two models count as agreeing.
-    seed : int
-        Root of all seeds.
-    progress : callable or None
-        Called with (surfaces done, surfaces in all).
+    Models count as agreeing up to a relative difference, the tolerance; progress is told of
+    (surfaces done, surfaces in all). The rest is as for :func:`roughline.compare`.
 
     Raises
     ------

@@ -20,39 +20,17 @@ from roughline.topography.preparation import Preparation, as_prepared
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """What is known of a file.
-
-    Attributes
-    ----------
-    file : Path
-        The file.
-    unit : str or None
-        Unit of its lengths, if the caller gave one.
-    measurement : Measurement
-        What the file holds.
-    piece : Measurement
-        What is left of it after a crop.
-    missing : MissingPattern
-        Where points are missing in the piece.
-    obstacles : sequence of str
-        Why it cannot be pressed as it is; empty if it can.
-    body : Surface or Line or None
-        Prepared, in metres; None if something is still needed (see `obstacles`).
-    roughness : Roughness or None
-        Its parameters; None without a body, and for a reduced line, which is no topography.
-    notes : sequence of str
-        What was filled, what is suspicious.
-    """
+    """What is known of a file."""
 
     file: Path
-    unit: str | None
+    unit: str | None  # of its lengths, if the caller gave one
     measurement: Measurement
-    piece: Measurement
-    missing: MissingPattern
-    obstacles: Sequence[str]
-    body: Body | None = None
-    roughness: Roughness | None = None
-    notes: Sequence[str] = ()
+    piece: Measurement  # what is left of it after a crop
+    missing: MissingPattern  # where points are missing in the piece
+    obstacles: Sequence[str]  # why it cannot be pressed as it is; empty if it can
+    body: Body | None = None  # prepared; None if something is still needed [m]
+    roughness: Roughness | None = None  # None for a reduced line, which is no topography
+    notes: Sequence[str] = ()  # what was filled, what is suspicious
 
 
 def describe(
@@ -62,15 +40,6 @@ def describe(
 
     A file without a unit or sizes, or with too many missing points, is described as far as
     possible.
-
-    Parameters
-    ----------
-    file : Path
-        The topography.
-    reading : Reading, optional
-        How it is read.
-    preparation : Preparation, optional
-        Default: only the tilt of measured topographies is removed.
 
     Raises
     ------
@@ -90,18 +59,9 @@ def describe_measurement(
     *,
     body_of: Callable[[Measurement, Reading, Preparation | None], Body] = measured_body,
 ) -> Description:
-    """Prepare what a file holds, once it is read, and describe it.
+    """Prepare what a file holds, once it is read, and describe it; the content stays as it is.
 
-    Parameters
-    ----------
-    file : Path
-        The topography.
-    content : Measurement
-        What it holds; it stays as it is.
-    reading, preparation
-        As for :func:`describe`.
-    body_of : callable, optional
-        As :func:`roughline.assessment.source.measured_body`, for a caller that keeps bodies.
+    Bodies are made by another function for a caller that keeps them.
 
     Raises
     ------

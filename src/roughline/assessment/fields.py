@@ -23,51 +23,26 @@ PREPARATION = "Preparation"
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Field:
-    """One thing that a question is told.
+    """One thing that a question is told."""
 
-    Attributes
-    ----------
-    name : str
-        In messages, and as the argument of what it is of.
-    of : str
-        The class whose argument it is: "Question", "Reading", "Preparation", or what is asked.
-    group : str
-        What it is about.
-    flag : str
-        On the command line; several names have commas between, and none is empty. Default: its name
-        with dashes.
-    control : str
-        Key in the lab's form and addresses; empty if it has none there.
-    label, word : str
-        What the form calls it, and what the lab's messages call it if that differs.
-    help : str
-        One sentence with an example.
-    otherwise : str
-        What holds if it is not given, in words.
-    kind : type
-        Of one value on the command line.
-    separator : str
-        What stands between several values in the lab; empty if there is only one.
-    choices : mapping of str to (object, str)
-        Values that may be chosen and what the form calls them, by the words of addresses, the
-        default first.
-    read : callable
-        Reads one text; the value is what Python is given.
-    """
-
-    name: str
-    of: str = "Question"
+    name: str  # in messages, and as the argument of what it is of
+    of: str = "Question"  # or "Reading", "Preparation", or the class of what is asked
     group: str
     flag: str = "--{}"
-    control: str = ""
-    label: str = ""
-    word: str = ""
-    help: str = ""
-    otherwise: str = ""
-    kind: type = str
-    separator: str = ""
+    """On the command line: its name with dashes, or others with commas between; empty for none."""
+
+    control: str = ""  # key in the lab's form and addresses; empty if it has none there
+    label: str = ""  # what the form calls it
+    word: str = ""  # what the lab's messages call it if that differs
+    help: str = ""  # one sentence with an example
+    otherwise: str = ""  # what holds if it is not given, in words
+    kind: type = str  # of one value on the command line
+    separator: str = ""  # between several values in the lab; empty if there is only one
     choices: Mapping[str, tuple[Any, str]] = field(default_factory=dict)
-    read: Callable[[str], Any] = str
+    """Values that may be chosen and what the form calls them, by the words of addresses, the
+    default first."""
+
+    read: Callable[[str], Any] = str  # reads one text; the value is what Python is given
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "flag", self.flag.format(self.name.replace("_", "-")))

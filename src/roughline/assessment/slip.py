@@ -15,19 +15,11 @@ from roughline.engineering.formulas import partial_slip
 
 @dataclass(frozen=True, eq=False)
 class PartialSlip:
-    """Tangential loading at the largest normal load, from no load to full sliding.
+    """Tangential loading at the largest normal load, from no load to full sliding."""
 
-    Attributes
-    ----------
-    friction : float
-        Coefficient of friction. [1]
-    displacement, force : ndarray
-        Slip displacement [m] and tangential force [N].
-    """
-
-    friction: float
-    displacement: Real
-    force: Real
+    friction: float  # coefficient [1]
+    displacement: Real  # [m]
+    force: Real  # [N]
 
 
 def slip_at_largest_load(case: Case, curves: Curves) -> PartialSlip | None:

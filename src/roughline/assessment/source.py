@@ -26,26 +26,14 @@ from roughline.units import engineering
 
 @dataclass(frozen=True, eq=False)
 class Topography:
-    """A body as it was read and prepared, with what is needed to fill its missing points again.
+    """A body as it was read and prepared, with what is needed to fill its missing points again."""
 
-    Attributes
-    ----------
-    body : Surface or Line
-        Prepared. [m]
-    file : Path or None
-        Where it is from; None for a body that was given.
-    measurement : Measurement or None
-        What the file holds, or the piece of it that is read, its missing points marked; None where
-        none were missing.
-    reading : Reading
-        How it was read.
-    preparation : Preparation or None
-        What was done to the body after it was read.
-    """
-
-    body: Body
-    file: Path | None
+    body: Body  # prepared [m]
+    file: Path | None  # None for a body that was given
     measurement: Measurement | None
+    """What the file holds, or the piece of it that is read, its missing points marked; None where
+    none were missing."""
+
     reading: Reading
     preparation: Preparation | None
 

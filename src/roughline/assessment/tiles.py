@@ -29,21 +29,11 @@ _DECAY = 0.5  # of a step, from one doubling of the side to the next: that of a 
 
 @dataclass(frozen=True)
 class Beyond:
-    """The larger surface that a map was cut out of.
+    """The larger surface that a map was cut out of."""
 
-    Attributes
-    ----------
-    roll_offs : float or None
-        Roll-off wavelengths along a side of the map; None if it shows none.
-    doublings : float
-        How often the map's side is doubled until it is as long as the larger surface.
-    is_joint : bool
-        Whether the larger surface is a joint of known area.
-    """
-
-    roll_offs: float | None
-    doublings: float = _USUAL
-    is_joint: bool = False
+    roll_offs: float | None  # wavelengths along a side of the map; None if it shows none
+    doublings: float = _USUAL  # of the map's side until it is as long as the larger surface
+    is_joint: bool = False  # of known area
 
     @classmethod
     def of(cls, roll_offs: float | None, area: float, joint: float | None) -> Beyond:
@@ -62,20 +52,13 @@ class Beyond:
 class Tiles:
     """A quantity of a map and of its tiles under one mean pressure, all of them periodic.
 
-    Attributes
-    ----------
-    whole : ndarray, shape (loads,)
-        Of the map, on a scale on which it scatters evenly, such as a logarithm. Infinite in full
-        contact, NaN where it is not known.
-    halves : ndarray, shape (2, 2, loads)
-        Of tiles half as long as the map.
-    quarters : ndarray, shape (4, 4, loads)
-        Of tiles a quarter as long.
+    It is on a scale on which it scatters evenly, such as a logarithm: infinite in full contact, NaN
+    where it is not known.
     """
 
-    whole: Real
-    halves: Real
-    quarters: Real
+    whole: Real  # (loads,)
+    halves: Real  # of tiles half as long as the map, (2, 2, loads)
+    quarters: Real  # (4, 4, loads)
 
     def steps(self, beyond: Beyond) -> Ends:
         """Both ends of the mean difference between the larger surface and maps of this size.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from operator import itemgetter
 
@@ -13,13 +14,7 @@ from roughline.errors.public import public
 
 @dataclass(frozen=True, eq=False)
 class MaterialPair:
-    """Two bodies of given materials in contact.
-
-    Parameters
-    ----------
-    first, second : Material
-        The rough body and the one that it is pressed into, in any order.
-    """
+    """Two bodies of given materials in contact, in any order."""
 
     first: Material
     second: Material
@@ -31,8 +26,18 @@ class MaterialPair:
 
     @property
     def G_star(self) -> float:
-        """Tangential contact modulus. [Pa]"""
-        return tangential_modulus(self.first, self.second)
+        """Tangential contact modulus, 1 / G* = (2 - nu1) / (4 G1) + (2 - nu2) / (4 G2). [Pa]
+
+        The tangential stiffness of any contact without slip is G* / E* times the normal one where
+        the two problems are uncoupled; for equal materials that is (2 - 2 nu) / (2 - nu).
+
+        References
+        ----------
+        V. L. Popov, "Contact Mechanics and Friction", 2nd ed. (2017), eq. 8.8.
+        """
+        return _inverse_sum(
+            (2 - each.nu) / (4 * each.shear_modulus) for each in (self.first, self.second)
+        )
 
     @property
     def hardness(self) -> float | None:
@@ -63,10 +68,8 @@ class MaterialPair:
     @property
     def bearer(self) -> str:
         """Which body has that hardness, in words."""
-        for which, each in (("first", self.first), ("second", self.second)):
-            if each is self._softer and self.lacking("hardness"):
-                return f"the {which} body ({each.name})"
-        return "the softer body"
+        named = [name for name, each in self._by_name if each is self._softer]
+        return named[0] if named and self.lacking("hardness") else "the softer body"
 
     def with_hardness(self, hardness: float) -> MaterialPair:
         """Return the pair with another hardness of the softer body, known exactly. [Pa]
@@ -85,11 +88,17 @@ class MaterialPair:
     def lacking(self, quantity: str) -> list[str]:
         """Name the bodies for which a property is not known; a rigid one needs no hardness."""
         return [
-            f"the {which} body ({each.name})"
-            for which, each in (("first", self.first), ("second", self.second))
+            name
+            for name, each in self._by_name
             if getattr(each, quantity) is None
             and not (quantity == "hardness" and math.isinf(each.E))
         ]
+
+    @property
+    def _by_name(self) -> list[tuple[str, Material]]:
+        """Both bodies, and what they are called."""
+        bodies = (("first", self.first), ("second", self.second))
+        return [(f"the {which} body ({each.name})", each) for which, each in bodies]
 
     def lacks(self, quantity: str, what: str) -> str:
         """Say that there is no answer, as a property is not known; nothing where it is."""
@@ -123,28 +132,12 @@ def contact_modulus(first: Material, second: Material) -> float:
     >>> print(f"{modulus / 1e9:.1f} GPa")
     89.9 GPa
     """
-    compliance = sum((1 - each.nu**2) / each.E for each in (first, second))
-    if compliance == 0:
-        raise InputError("both materials are rigid: one of them must give way")
-    return 1 / compliance
+    return _inverse_sum((1 - each.nu**2) / each.E for each in (first, second))
 
 
-def tangential_modulus(first: Material, second: Material) -> float:
-    """Tangential contact modulus G*, 1 / G* = (2 - nu1) / (4 G1) + (2 - nu2) / (4 G2). [Pa]
-
-    The tangential stiffness of any contact without slip is G* / E* times the normal one where the
-    two problems are uncoupled; for equal materials that is (2 - 2 nu) / (2 - nu).
-
-    Raises
-    ------
-    InputError
-        If both materials are rigid.
-
-    References
-    ----------
-    V. L. Popov, "Contact Mechanics and Friction", 2nd ed. (2017), eq. 8.8.
-    """
-    compliance = sum((2 - each.nu) / (4 * each.shear_modulus) for each in (first, second))
+def _inverse_sum(compliances: Iterable[float]) -> float:
+    """Modulus of bodies whose compliances add up."""
+    compliance = sum(compliances)
     if compliance == 0:
         raise InputError("both materials are rigid: one of them must give way")
     return 1 / compliance

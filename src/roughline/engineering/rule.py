@@ -36,27 +36,6 @@ def always(_pressed: Pressed) -> bool:
     return True
 
 
-def never(_pressed: Pressed) -> bool:
-    """Whatever was pressed, not."""
-    return False
-
-
-def _not_negative(_pressed: Pressed) -> Limits:
-    return 0.0, np.inf
-
-
-def _nothing_lacks(_pair: MaterialPair, _frequency: float | None) -> str:
-    return ""
-
-
-def _nothing(_pressed: Pressed) -> str:
-    return ""
-
-
-def _as_declared(_pressed: Pressed) -> Mapping[str, str]:
-    return {}
-
-
 @public
 @dataclass(frozen=True, eq=False)
 class Rule:
@@ -142,13 +121,13 @@ class Rule:
     value: Callable[[Pressed], Real | None]
     validity: str = ""
     source: str = ""
-    differing: Callable[[Pressed], Mapping[str, str]] = _as_declared
-    lacking: Callable[[MaterialPair, float | None], str] = _nothing_lacks
-    warning: Callable[[Pressed], str] = _nothing
-    note: Callable[[Pressed], str] = _nothing
-    limits: Callable[[Pressed], Limits] = _not_negative
+    differing: Callable[[Pressed], Mapping[str, str]] = lambda _pressed: {}
+    lacking: Callable[[MaterialPair, float | None], str] = lambda _pair, _frequency: ""
+    warning: Callable[[Pressed], str] = lambda _pressed: ""
+    note: Callable[[Pressed], str] = lambda _pressed: ""
+    limits: Callable[[Pressed], Limits] = lambda _pressed: (0.0, np.inf)
     under: Callable[[Pressed], tuple[str, float]] | None = None
-    leads: Callable[[Pressed], bool] = never
+    leads: Callable[[Pressed], bool] = lambda _pressed: False
     is_shown_at_many_loads: bool = False
     is_extensive: bool = False
     is_of_interface: bool = False

@@ -12,22 +12,12 @@ from roughline.engineering.pair import MaterialPair
 
 @dataclass(frozen=True)
 class _Symbol:
-    """A symbol of a formula that is no answer.
+    """A symbol of a formula that is no answer."""
 
-    Attributes
-    ----------
-    symbol, meaning : str
-        As formulas write it, and what it stands for.
-    unit : str
-        SI unit.
-    value : float or None
-        None where it is not one number. [unit]
-    """
-
-    symbol: str
+    symbol: str  # as formulas write it
     meaning: str
-    unit: str = "1"
-    value: float | None = None
+    unit: str = "1"  # SI
+    value: float | None = None  # None where it is not one number [unit]
 
 
 def symbols_of(
@@ -44,18 +34,20 @@ def symbols_of(
     The area is that of the joint if there is one [m²], the rms height that of the sum of both
     surfaces [m].
     """
+    conductivities = pair.both("conductivity")
+    harmonic = conductivities and harmonic_conductivity(conductivities)
     known = [
         _Symbol("E*", "contact modulus", "Pa", E_star),
         _Symbol("A_0", "nominal area", "m²", area),
         _Symbol("H", "hardness of the softer body", "Pa", hardness),
         *_of_bodies("rho", "electrical resistivity", "Ω m", pair.both("resistivity")),
-        *_of_bodies("kappa", "thermal conductivity", "W/(m K)", pair.both("conductivity")),
-        _Symbol("kappa_s", "their harmonic mean", "W/(m K)", _harmonic(pair)),
+        *_of_bodies("kappa", "thermal conductivity", "W/(m K)", conductivities),
+        _Symbol("kappa_s", "their harmonic mean", "W/(m K)", harmonic),
         _Symbol("sigma", "rms height", "m", rms_height),
         _Symbol("m", "mean slope of a profile, the rms slope over sqrt(pi)"),
         _Symbol("G*", "tangential contact modulus", "Pa", pair.G_star),
-        *_of_bodies("G", "shear modulus", "Pa", _moduli(pair)),
-        *_of_bodies("nu", "Poisson's ratio", "1", (pair.first.nu, pair.second.nu)),
+        *_of_bodies("G", "shear modulus", "Pa", pair.both("shear_modulus")),
+        *_of_bodies("nu", "Poisson's ratio", "1", pair.both("nu")),
         _Symbol("k_s", "stiffness of a flat punch of the same outline", "N/m"),
         _Symbol("a_H", "radius of Holm's single spot", "m"),
         *_of_bodies("z", "acoustic impedance", "Pa s/m", pair.both("impedance")),
@@ -86,12 +78,3 @@ def _of_bodies(
         _Symbol(f"{letter}{i + 1}", f"{meaning} of the {which[i]} body", unit, values and values[i])
         for i in range(2)
     ]
-
-
-def _harmonic(pair: MaterialPair) -> float | None:
-    conductivities = pair.both("conductivity")
-    return None if conductivities is None else harmonic_conductivity(conductivities)
-
-
-def _moduli(pair: MaterialPair) -> tuple[float, float]:
-    return pair.first.shear_modulus, pair.second.shear_modulus
