@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import partial
 
 import numpy as np
 
@@ -15,25 +16,14 @@ from roughline.units import decimal, engineering
 _CONSTRICTION_MATTERS = 0.1  # of the interface's stiffness over that of the bodies around a joint
 
 
-def _has_contact_stiffness(pressed: Pressed) -> bool:
-    """A joint has no outline of its own; what metals that yield give on loading is told as well."""
-    return pressed.joint is None or pressed.tells_unloading
+def _of_joint(**texts: str) -> Callable[[Pressed], Mapping[str, str]]:
+    """Texts that differ where answers are those of a joint."""
+    return lambda pressed: {} if pressed.joint is None else texts
 
 
 def _contact_stiffness(pressed: Pressed) -> Real | None:
-    return pressed.loading if _has_contact_stiffness(pressed) else None
-
-
-def _of_loading(pressed: Pressed) -> Mapping[str, str]:
-    """Of a joint it is the interface's, whose symbol is not k, as that is a free body's."""
-    if pressed.joint is None:
-        return {}
-    return {
-        "name": "interface stiffness on further loading",
-        "symbol": "k_load",
-        "formula": _of_map("dF/dd on further loading"),
-        "validity": f"of the interface alone; {CONTACT_STIFFNESS.validity}",
-    }
+    """A joint has no outline of its own; what metals that yield give on loading is told as well."""
+    return pressed.loading if pressed.joint is None or pressed.tells_unloading else None
 
 
 def _of_map(slope: str) -> str:
@@ -85,22 +75,14 @@ def _which_surface(pressed: Pressed) -> str:
     return f"the interface stiffness k_i is {pressed.interface.validity}"
 
 
-def _if_bodies_matter(pressed: Pressed) -> str:
-    text, matters = _meaning_of_joint(pressed)
-    return text if matters else ""
-
-
-def _if_bodies_hardly_matter(pressed: Pressed) -> str:
-    text, matters = _meaning_of_joint(pressed)
-    return "" if matters else text
-
-
-def _meaning_of_joint(pressed: Pressed) -> tuple[str, bool]:
-    """Say what a joint is taken to be, and what is left out of it; the latter may matter."""
+def _meaning_of_joint(pressed: Pressed, *, bodies_matter: bool) -> str:
+    """Say what a joint is taken to be, and what is left out of it, where that matters or else."""
     if pressed.joint is None:
-        return "", False
+        return ""
     disc = constriction_of_disc(pressed.joint, pressed.curve.E_star)
     share = float(np.nanmax(pressed.interface_stiffness[0], initial=0.0)) / disc
+    if (share > _CONSTRICTION_MATTERS) != bodies_matter:
+        return ""
     resistivities = pressed.pair.both("resistivity")
     added = engineering(disc, "N/m")
     if resistivities is not None:
@@ -111,12 +93,17 @@ def _meaning_of_joint(pressed: Pressed) -> tuple[str, bool]:
         "everywhere and evenly loaded: bodies wider than the joint add its own constriction in "
         f"series, {added} for a disc of the same area"
     )
-    if share <= _CONSTRICTION_MATTERS:
-        return text, False
+    if not bodies_matter:
+        return text
     return (
         f"{text}; the interface is up to {decimal(share, 2)} times as stiff as that, so such "
         "bodies matter as well, and load the joint's edge more than its middle"
-    ), True
+    )
+
+
+_WITHOUT_FRICTION = (
+    "without friction or adhesion; where metals yield, points at the hardness bear no more"
+)
 
 
 CONTACT_STIFFNESS = Rule(
@@ -126,10 +113,14 @@ CONTACT_STIFFNESS = Rule(
     unit="N/m",
     group="mechanics",
     formula="dF/dd at frozen contact on further loading, exact",
-    validity="without friction or adhesion; where metals yield, points at the hardness bear no "
-    "more",
+    validity=_WITHOUT_FRICTION,
     value=_contact_stiffness,
-    differing=_of_loading,
+    differing=_of_joint(
+        name="interface stiffness on further loading",
+        symbol="k_load",  # k is a free body's
+        formula=_of_map("dF/dd on further loading"),
+        validity=f"of the interface alone; {_WITHOUT_FRICTION}",
+    ),
     under=_under_unloading,
     leads=lambda pressed: pressed.joint is None,
     is_extensive=True,
@@ -188,11 +179,7 @@ MECHANICAL = (
         group="mechanics",
         formula="F / A_0, A_0 the nominal area",
         value=lambda pressed: pressed.pressure,
-        differing=lambda pressed: (
-            {}
-            if pressed.joint is None
-            else {"formula": "F / A_0, A_0 the nominal area of the joint"}
-        ),
+        differing=_of_joint(formula="F / A_0, A_0 the nominal area of the joint"),
         is_given=True,
     ),
     Rule(
@@ -203,13 +190,8 @@ MECHANICAL = (
         group="mechanics",
         formula="of remote points",
         value=lambda pressed: pressed.curve.depth,
-        differing=lambda pressed: (
-            {}
-            if pressed.joint is None
-            else {
-                "validity": "of the map, from the touch of its highest point; the joint has higher "
-                "points"
-            }
+        differing=_of_joint(
+            validity="of the map, from the touch of its highest point; the joint has higher points"
         ),
         is_given=True,
     ),
@@ -224,12 +206,10 @@ MECHANICAL = (
         group="mechanics",
         formula="k / A_0",
         value=_per_area,
-        differing=lambda pressed: (
-            {} if pressed.joint is None else {"symbol": "k_i/A_0", "formula": "k_i / A_0"}
-        ),
+        differing=_of_joint(symbol="k_i/A_0", formula="k_i / A_0"),
         under=_per_area_under_unloading,
-        warning=_if_bodies_matter,
-        note=_if_bodies_hardly_matter,
+        warning=partial(_meaning_of_joint, bodies_matter=True),
+        note=partial(_meaning_of_joint, bodies_matter=False),
         may_be_infinite=True,
     ),
     Rule(
